@@ -1,0 +1,42 @@
+# What every target of the project shares: language, warnings, sanitizers and the two target helpers.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(barehand_settings INTERFACE)
+target_include_directories(barehand_settings INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+# Never -ffast-math: small SVDs returned NaN under it. These two alone let the compiler vectorise.
+target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math)
+# One instruction set for every translation unit: Eigen's alignment depends on it.
+if(BAREHAND_ARCH)
+  target_compile_options(barehand_settings INTERFACE -march=${BAREHAND_ARCH})
+endif()
+if(BAREHAND_SANITIZE)
+  target_compile_options(barehand_settings INTERFACE -fsanitize=${BAREHAND_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(barehand_settings INTERFACE -fsanitize=${BAREHAND_SANITIZE})
+endif()
+
+# barehand_library(core SOURCES a.cpp ... DEPS lib ...): static library barehand_core, alias barehand::core.
+function(barehand_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(barehand_${name} STATIC ${ARG_SOURCES})
+  add_library(barehand::${name} ALIAS barehand_${name})
+  target_link_libraries(barehand_${name} PUBLIC barehand_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# barehand_test(core SOURCES a_test.cpp ... DEPS lib ...): one test binary per area, each case known to ctest.
+function(barehand_test area)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${area}_test ${ARG_SOURCES})
+  target_link_libraries(${area}_test PRIVATE ${ARG_DEPS} GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(${area}_test TEST_PREFIX "${area}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

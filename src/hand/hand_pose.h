@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "hand/profile.h"
+
+namespace barehand {
+
+/// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). Segments need not touch exactly.
+using HandPose = std::array<SE3, kSegmentCount>;
+
+enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
+
+/// What is known of one segment in one frame. Camera frame, metres, radians.
+struct SegmentState {
+  SE3 T_camera_segment;
+  Vector6d velocity = Vector6d::Zero();        ///< per second: of the origin, then angular, camera frame
+  Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
+  double confidence = 0;                       ///< [0, 1]
+  double visible = 0;                          ///< fraction of its own projected pixels that are front-most
+  bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
+};
+
+/// Result of one frame: what the publish stage, result tables and overlays consume. Immutable once shared.
+struct HandEstimate {
+  std::int64_t utime = 0;
+  std::int64_t number = 0;   ///< RgbdFrame::number
+  std::string sensor;
+  TrackStatus status = TrackStatus::searching;
+  std::int32_t hand_id = 0;
+  Handedness handedness = Handedness::right;
+  std::array<SegmentState, kSegmentCount> segments;  ///< meaningless while searching
+  double score = 0;       ///< global mismatch of model and data [m], lower is better
+  double joint_gap = 0;   ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
+  std::shared_ptr<const HandProfile> profile;
+
+  /// A pose that may be shown and published as tracked.
+  bool has_pose() const { return status == TrackStatus::tracking || status == TrackStatus::holding; }
+};
+using HandEstimatePtr = std::shared_ptr<const HandEstimate>;
+
+}  // namespace barehand

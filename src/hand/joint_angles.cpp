@@ -1,0 +1,69 @@
+#include "hand/joint_angles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+
+JointAngles joint_angles(const Eigen::Matrix3d& R) {
+  // R = Ry(a) Rz(t) Rx(-f): its first column is (cos a cos t, sin t, -sin a cos t), its second row
+  // (sin t, cos t cos f, cos t sin f).
+  JointAngles angles;
+  angles.twist = std::asin(std::clamp(R(1, 0), -1.0, 1.0));
+  angles.abduction = std::atan2(-R(2, 0), R(0, 0));
+  angles.flexion = std::atan2(R(1, 2), R(1, 1));
+  return angles;
+}
+
+Eigen::Matrix3d joint_rotation(const JointAngles& angles) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return (AngleAxisd(angles.abduction, Vector3d::UnitY()) * AngleAxisd(angles.twist, Vector3d::UnitZ()) *
+          AngleAxisd(-angles.flexion, Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+JointAngles joint_angles(const HandProfile& profile, const HandPose& pose, int segment) {
+  if (segment == kPalm) return {};
+  const Eigen::Matrix3d R_parent_rest = profile.rest_relative(segment).R;
+  return joint_angles(R_parent_rest.transpose() * pose[parent_of(segment)].R.transpose() * pose[segment].R);
+}
+
+std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile, double widening) {
+  std::array<JointLimits, kSegmentCount> limits{};
+  for (int s = 0; s < kSegmentCount; ++s) {
+    for (const JointDof& dof : profile.segments[s].dofs) {
+      // A dof about -x counts flexion, about +y abduction; an opposite axis swaps and negates the range.
+      const bool flexion = std::abs(dof.axis.x()) > std::abs(dof.axis.y());
+      const bool flipped = flexion ? dof.axis.x() > 0 : dof.axis.y() < 0;
+      const double lo = (flipped ? -dof.upper : dof.lower) - widening;
+      const double hi = (flipped ? -dof.lower : dof.upper) + widening;
+      (flexion ? limits[s].flexion_lo : limits[s].abduction_lo) = lo;
+      (flexion ? limits[s].flexion_hi : limits[s].abduction_hi) = hi;
+    }
+  }
+  return limits;
+}
+
+HandPose forward_kinematics(const HandProfile& profile, const SE3& T_camera_palm,
+                            const std::array<JointAngles, kSegmentCount>& angles) {
+  HandPose pose;
+  pose[kPalm] = T_camera_palm;
+  for (int s = 1; s < kSegmentCount; ++s) {
+    pose[s] = pose[parent_of(s)] * profile.rest_relative(s);
+    pose[s].R *= joint_rotation(angles[s]);
+  }
+  return pose;
+}
+
+Eigen::Vector3d proximal_end(const HandPose& pose, int segment) { return pose[segment].t; }
+
+Eigen::Vector3d distal_end(const HandProfile& profile, const HandPose& pose, int segment) {
+  return pose[segment] * profile.segments[segment].distal;
+}
+
+Eigen::Vector3d joint_in_parent(const HandProfile& profile, const HandPose& pose, int segment) {
+  return pose[parent_of(segment)] * profile.rest_relative(segment).t;
+}
+
+}  // namespace barehand

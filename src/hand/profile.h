@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hand/segments.h"
+#include "math/se3.h"
+
+namespace barehand {
+
+/// One degree of freedom of a joint, as a hand profile states it.
+struct JointDof {
+  std::string name;                                  ///< for example "index_mcp_flex"
+  Eigen::Vector3d axis = -Eigen::Vector3d::UnitX();  ///< unit vector in the segment frame
+  double lower = 0, upper = 0;                       ///< [rad]
+};
+
+/// Size, shape and rest pose of one segment. End 0 is proximal, end 1 distal.
+struct SegmentProfile {
+  SE3 T_hand_segment;                                       ///< at rest (open flat hand)
+  double length = 0;                                        ///< [m]
+  Eigen::Vector3d distal = Eigen::Vector3d::Zero();         ///< distal end in the segment frame [m]
+  std::array<double, 2> radius{};                           ///< tapered round skin around the bone [m]
+  std::array<double, 2> half_width{}, half_thickness{};     ///< elliptic skin along x and y [m]; = radius if absent
+  std::array<double, 2> flesh_offset_x{}, flesh_offset_y{}; ///< skin centre relative to the bone [m]
+  std::vector<JointDof> dofs;                               ///< in the order applied; empty for the palm
+};
+
+/// A person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of the hand.
+/// Posed frame = parent frame * rest_relative * R(dof 1) * R(dof 2). File form: hand.json.
+struct HandProfile {
+  Handedness handedness = Handedness::right;
+  std::array<SegmentProfile, kSegmentCount> segments;
+
+  /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.
+  SE3 rest_relative(int segment) const;
+  /// Wrist to middle fingertip at rest [m].
+  double hand_length() const;
+};
+
+}  // namespace barehand

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace barehand {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Rigid motion x -> R x + t with R in SO(3). `T_a_b` maps coordinates of frame b to frame a.
+/// Increments are twists (v, w): translation first [m], then rotation vector [rad].
+struct SE3 {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return R * p + t; }
+  SE3 operator*(const SE3& b) const { return {R * b.R, R * b.t + t}; }
+  SE3 inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
+  Eigen::Matrix4d matrix() const;
+  static SE3 from_matrix(const Eigen::Matrix4d& m);
+  bool all_finite() const { return R.allFinite() && t.allFinite(); }
+};
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& w);
+/// Rodrigues' formula; exact limit at w = 0.
+Eigen::Matrix3d exp_so3(const Eigen::Vector3d& w);
+/// Rotation vector with angle in [0, pi].
+Eigen::Vector3d log_so3(const Eigen::Matrix3d& R);
+/// Moves a frame about its own origin: R <- exp(w) R, t <- t + v with (v, w) in the outer (camera) frame.
+/// This decoupled chart is the one every Jacobian of the project uses.
+SE3 boxplus(const SE3& T, const Vector6d& twist);
+/// The twist with boxplus(a, twist) = b.
+Vector6d boxminus(const SE3& b, const SE3& a);
+/// Nearest rotation (removes drift of repeated products).
+Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R);
+
+}  // namespace barehand

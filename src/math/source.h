@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <variant>
+
+#include "core/error.h"
+#include "math/frame.h"
+
+namespace barehand {
+
+struct EndOfStream {};
+struct Timeout {};                      ///< nothing arrived in time; ask again
+struct SkippedFrame { Error error; };   ///< one frame was unreadable: count it, report it, ask for the next
+struct SourceFailed { Error error; };   ///< the source cannot go on
+
+using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed>;
+
+/// Where frames come from: a folder, a log, a live bus, a sensor, the simulator. Used by one thread at a time.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The next frame in order, or why there is none. Live sources wait at most `patience`.
+  virtual SourceEvent next(std::chrono::milliseconds patience) = 0;
+  /// Live frames may be dropped at the door when the tracker is slow; replayed ones never are.
+  virtual bool live() const = 0;
+  /// "folder:/data/fist", for messages.
+  virtual std::string name() const = 0;
+};
+
+}  // namespace barehand
