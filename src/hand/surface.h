@@ -19,7 +19,8 @@ struct SegmentSurface {
 using HandSurface = std::array<SegmentSurface, kSegmentCount>;
 
 /// The paper's skin (Sec. 3.1): tapered cylinders around the bones, a spherical cap on the tips. The palm, which the
-/// paper does not observe, gets a slab of the profile's width and thickness.
+/// paper does not observe, gets an elliptic slab of the profile's width, thickness and flesh offset. Open where
+/// segments meet. Exactly `points_per_segment` (> 0) evenly spread points each; every segment needs a length.
 HandSurface make_cylinder_surface(const HandProfile& profile, int points_per_segment);
 
 }  // namespace barehand
