@@ -12,4 +12,20 @@ double HandProfile::hand_length() const {
   return (tip.T_hand_segment * tip.distal - segments[kPalm].T_hand_segment.t).norm() + tip.radius[1];
 }
 
+HandProfile mirrored(const HandProfile& profile) {
+  const Eigen::Vector3d flip(-1, 1, 1);
+  HandProfile other = profile;
+  other.handedness = profile.handedness == Handedness::right ? Handedness::left : Handedness::right;
+  for (SegmentProfile& segment : other.segments) {
+    // M R M with M = diag(flip) keeps the frame right-handed, -z along the bone and +y dorsal.
+    segment.T_hand_segment.R = flip.asDiagonal() * segment.T_hand_segment.R * flip.asDiagonal();
+    segment.T_hand_segment.t = segment.T_hand_segment.t.cwiseProduct(flip);
+    segment.distal = segment.distal.cwiseProduct(flip);
+    for (double& x : segment.flesh_offset_x) x = -x;
+    // M R(a, angle) M = R(-M a, angle): a rotation axis is a pseudovector.
+    for (JointDof& dof : segment.dofs) dof.axis = -dof.axis.cwiseProduct(flip);
+  }
+  return other;
+}
+
 }  // namespace barehand

@@ -18,13 +18,13 @@ struct JointDof {
 
 /// Size, shape and rest pose of one segment. End 0 is proximal, end 1 distal.
 struct SegmentProfile {
-  SE3 T_hand_segment;                                       ///< at rest (open flat hand)
-  double length = 0;                                        ///< [m]
-  Eigen::Vector3d distal = Eigen::Vector3d::Zero();         ///< distal end in the segment frame [m]
-  std::array<double, 2> radius{};                           ///< tapered round skin around the bone [m]
-  std::array<double, 2> half_width{}, half_thickness{};     ///< elliptic skin along x and y [m]; = radius if absent
-  std::array<double, 2> flesh_offset_x{}, flesh_offset_y{}; ///< skin centre relative to the bone [m]
-  std::vector<JointDof> dofs;                               ///< in the order applied; empty for the palm
+  SE3 T_hand_segment;                                        ///< at rest (open flat hand)
+  double length = 0;                                         ///< [m]
+  Eigen::Vector3d distal = Eigen::Vector3d::Zero();          ///< distal end in the segment frame [m]
+  std::array<double, 2> radius{};                            ///< tapered round skin around the bone [m]
+  std::array<double, 2> half_width{}, half_thickness{};      ///< elliptic skin along x and y [m]; = radius if absent
+  std::array<double, 2> flesh_offset_x{}, flesh_offset_y{};  ///< skin centre relative to the bone [m]
+  std::vector<JointDof> dofs;                                ///< in the order applied; empty for the palm
 };
 
 /// A person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of the hand.
@@ -38,5 +38,9 @@ struct HandProfile {
   /// Wrist to middle fingertip at rest [m].
   double hand_length() const;
 };
+
+/// The same person's other hand: everything reflected in the plane x = 0 of the hand frame. Joint limits keep their
+/// meaning (flexion towards the palm, abduction away from the middle finger).
+HandProfile mirrored(const HandProfile& profile);
 
 }  // namespace barehand

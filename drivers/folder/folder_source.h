@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/recording.h"
+#include "math/source.h"
+
+namespace barehand {
+
+/// Which frames of a recording are played, and in which order.
+struct FolderRange {
+  std::optional<std::int64_t> start;  ///< first frame; not given: the first frame, backwards the last
+  std::int64_t step = 1;              ///< every step-th frame; negative plays backwards, down to frame 0
+};
+
+/// Plays a recording folder (docs/formats.md). Frames keep the recording's own numbers and time stamps, also
+/// backwards, where time runs back. Unreadable images and repeated stamps come as SkippedFrame; play goes on.
+class FolderSource : public FrameSource {
+ public:
+  /// Errors: those of open_recording, a start outside the recording, a step of 0.
+  static Result<std::unique_ptr<FolderSource>> open(const std::string& directory, const FolderRange& range = {});
+
+  SourceEvent next(std::chrono::milliseconds patience) override;
+  bool live() const override { return false; }
+  std::string name() const override { return "folder:" + recording_.directory; }
+
+  const Recording& recording() const { return recording_; }
+  /// Number of events `next` will deliver before the end: for progress.
+  std::int64_t remaining() const;
+
+ private:
+  FolderSource(Recording recording, std::int64_t start, std::int64_t step)
+      : recording_(std::move(recording)), next_(start), step_(step) {}
+
+  Recording recording_;
+  std::int64_t next_;
+  std::int64_t step_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+#include "hand/profile.h"
+
+namespace barehand {
+
+/// Reads a hand profile (docs/formats.md). Unknown keys are allowed; elliptic skin that is absent is round. Errors
+/// name file, segment and key: missing, doubled or unknown segments, a wrong parent, a cycle, numbers that no hand has.
+Result<HandProfile> load_profile(const std::string& path);
+/// Writes what load_profile reads, to 1e-9 m.
+Result<void> save_profile(const HandProfile& profile, const std::string& path);
+
+}  // namespace barehand

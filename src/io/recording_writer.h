@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+#include "math/frame.h"
+
+namespace barehand {
+
+/// Writes a recording folder (docs/formats.md) that open_recording reads. What is written stays complete at every
+/// moment: images first, then the line that names them.
+class RecordingWriter {
+ public:
+  struct Options {
+    double fps = 0;                     ///< nominal rate noted in camera.json; 0 = not noted
+    std::string colour_ending = "jpg";  ///< "jpg" or "png" (lossless)
+  };
+  /// Makes the folder. A folder that already holds a recording is an error: nothing is overwritten.
+  static Result<RecordingWriter> create(const std::string& directory, Options options);
+  static Result<RecordingWriter> create(const std::string& directory) { return create(directory, Options{}); }
+
+  /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame
+  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error.
+  Result<std::int64_t> write(const RgbdFrame& frame);
+
+ private:
+  Result<void> start(const RgbdFrame& first);
+  Result<void> append(std::ofstream& list, const std::string& list_name, std::int64_t utime, const std::string& file);
+
+  std::string directory_;
+  Options options_;
+  Intrinsics camera_;
+  double depth_unit_ = 0;
+  std::int64_t count_ = 0;
+  std::ofstream depth_list_, colour_list_;
+};
+
+}  // namespace barehand

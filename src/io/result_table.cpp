@@ -1,0 +1,155 @@
+#include "io/result_table.h"
+
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "hand/joint_angles.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,visible";
+constexpr std::size_t kColumns = 10;
+
+struct ParsedLine {
+  std::int64_t number = 0;
+  double timestamp = 0;
+  int segment = 0;
+  TableRow row;
+};
+
+template <typename T>
+bool parse(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> fields;
+  for (std::size_t from = 0;;) {
+    const std::size_t comma = text.find(',', from);
+    fields.push_back(text.substr(from, comma - from));
+    if (comma == std::string_view::npos) return fields;
+    from = comma + 1;
+  }
+}
+
+std::optional<ParsedLine> parse_line(std::string_view text) {
+  const auto fields = split(text);
+  ParsedLine line;
+  if (fields.size() != kColumns || !parse(fields[0], line.number) || !parse(fields[1], line.timestamp)) return {};
+  const auto segment = segment_from_name(fields[2]);
+  if (!segment) return {};
+  line.segment = *segment;
+  std::array<double, 7> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!parse(fields[3 + i], numbers[i]) || !std::isfinite(numbers[i])) return {};
+  line.row = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6]};
+  return line;
+}
+
+/// Collects rows into frames.
+class TableBuilder {
+ public:
+  /// What is wrong with the line, or "".
+  std::string add(const ParsedLine& line) {
+    if (!open() || line.number != table_.frames.back().number) {
+      if (open()) return "frame " + std::to_string(table_.frames.back().number) + " ended before all its segments";
+      if (!numbers_.insert(line.number).second) return "frame " + std::to_string(line.number) + " occurs twice";
+      table_.frames.push_back({line.number, line.timestamp, {}});
+      seen_ = {};
+      missing_ = kSegmentCount;
+    }
+    if (seen_[line.segment]) return "segment " + std::string(kSegmentNames[line.segment]) + " occurs twice in a frame";
+    seen_[line.segment] = true;
+    --missing_;
+    table_.frames.back().rows[line.segment] = line.row;
+    return {};
+  }
+  ResultTable finish(bool cut_line) {
+    table_.truncated = cut_line || open();
+    if (open()) table_.frames.pop_back();
+    return std::move(table_);
+  }
+
+ private:
+  bool open() const { return missing_ > 0; }
+
+  ResultTable table_;
+  std::set<std::int64_t> numbers_;
+  std::array<bool, kSegmentCount> seen_{};
+  int missing_ = 0;
+};
+
+std::string format_row(const TableFrame& frame, int segment) {
+  const TableRow& row = frame.rows[segment];
+  char text[512];
+  std::snprintf(text, sizeof text, "%lld,%.6f,%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n",
+                static_cast<long long>(frame.number), frame.timestamp, kSegmentNames[segment].data(), row.proximal.x(),
+                row.proximal.y(), row.proximal.z(), row.distal.x(), row.distal.y(), row.distal.z(), row.visible);
+  return text;
+}
+
+}  // namespace
+
+TableFrame table_frame(const HandEstimate& estimate) {
+  assert(estimate.has_pose() && estimate.profile);
+  TableFrame frame{estimate.number, static_cast<double>(estimate.utime) * 1e-6, {}};
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentState& state = estimate.segments[s];
+    frame.rows[s] = {state.T_camera_segment.t, state.T_camera_segment * estimate.profile->segments[s].distal,
+                     state.visible};
+  }
+  return frame;
+}
+
+Result<ResultTable> read_table(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
+  std::string text;
+  std::getline(file, text);
+  if (!text.empty() && text.back() == '\r') text.pop_back();
+  if (text != kHeader)
+    return fail("line 1 is no truth or result table's", path, "it must be \"" + std::string(kHeader) + "\"");
+  TableBuilder builder;
+  for (int number = 2; std::getline(file, text); ++number) {
+    const bool ended = !file.eof();  // false: the last line has no line feed
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    if (text.empty()) continue;
+    const auto line = parse_line(text);
+    if (!line && !ended) return builder.finish(true);
+    const std::string complaint = line ? builder.add(*line) : "is \"" + text + "\"";
+    if (!complaint.empty())
+      return fail("line " + std::to_string(number) + ": " + complaint, path, "see docs/formats.md for the columns");
+  }
+  return builder.finish(false);
+}
+
+Result<TableWriter> TableWriter::create(const std::string& path) {
+  TableWriter writer;
+  writer.path_ = path;
+  writer.file_.open(path);
+  writer.file_ << kHeader << '\n' << std::flush;
+  if (!writer.file_) return fail("cannot be written", path, "check the folder, its permissions and the free space");
+  return writer;
+}
+
+Result<void> TableWriter::write(const TableFrame& frame) {
+  std::string text;
+  for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
+  file_ << text << std::flush;
+  if (!file_) return fail("cannot be written", path_, "check the free space; the frames before this one are kept");
+  return {};
+}
+
+Result<void> TableWriter::write(const HandEstimate& estimate) {
+  if (!estimate.has_pose()) return {};
+  return write(table_frame(estimate));
+}
+
+}  // namespace barehand

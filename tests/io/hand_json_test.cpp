@@ -1,0 +1,193 @@
+#include "io/hand_json.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "small_hand.h"
+#include "temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using nlohmann::json;
+using test::small_hand;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class HandJson : public testing::Test {
+ protected:
+  HandJson() { EXPECT_TRUE(save_profile(small_hand(), path_)); }
+
+  json saved() const { return json::parse(test::read_text(path_)); }
+  /// The error after a change to a good file.
+  std::string error_after(const std::function<void(json&)>& change) const {
+    json changed = saved();
+    change(changed);
+    test::write_text(path_, changed.dump());
+    const auto profile = load_profile(path_);
+    return profile ? "accepted" : profile.error().message();
+  }
+
+  test::TempFolder folder_;
+  std::string path_ = folder_ / "hand.json";
+};
+
+void expect_same(const HandProfile& a, const HandProfile& b) {
+  EXPECT_EQ(a.handedness, b.handedness);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentProfile &x = a.segments[s], &y = b.segments[s];
+    EXPECT_TRUE(x.T_hand_segment.matrix().isApprox(y.T_hand_segment.matrix(), 1e-8)) << kSegmentNames[s];
+    EXPECT_NEAR(x.length, y.length, 1e-9);
+    EXPECT_NEAR((x.distal - y.distal).norm(), 0, 1e-9);
+    for (int end = 0; end < 2; ++end) {
+      EXPECT_NEAR(x.radius[end], y.radius[end], 1e-9);
+      EXPECT_NEAR(x.half_width[end], y.half_width[end], 1e-9);
+      EXPECT_NEAR(x.half_thickness[end], y.half_thickness[end], 1e-9);
+      EXPECT_NEAR(x.flesh_offset_x[end], y.flesh_offset_x[end], 1e-9);
+      EXPECT_NEAR(x.flesh_offset_y[end], y.flesh_offset_y[end], 1e-9);
+    }
+    ASSERT_EQ(x.dofs.size(), y.dofs.size());
+    for (std::size_t d = 0; d < x.dofs.size(); ++d) {
+      EXPECT_EQ(x.dofs[d].name, y.dofs[d].name);
+      EXPECT_NEAR((x.dofs[d].axis - y.dofs[d].axis).norm(), 0, 1e-9);
+      EXPECT_NEAR(x.dofs[d].lower, y.dofs[d].lower, 1e-9);
+      EXPECT_NEAR(x.dofs[d].upper, y.dofs[d].upper, 1e-9);
+    }
+  }
+}
+
+TEST_F(HandJson, SavedProfileComesBack) {
+  const auto profile = load_profile(path_);
+  ASSERT_TRUE(profile) << profile.error().message();
+  expect_same(*profile, small_hand());
+}
+
+TEST_F(HandJson, UnknownKeysAreAllowedAndOrderDoesNotMatter) {
+  json changed = saved();
+  changed["measured_by"] = "someone";
+  changed["segments"][3]["openxr_tip_length"] = 0.02;
+  std::reverse(changed["segments"].begin(), changed["segments"].end());
+  test::write_text(path_, changed.dump());
+  const auto profile = load_profile(path_);
+  ASSERT_TRUE(profile) << profile.error().message();
+  expect_same(*profile, small_hand());
+}
+
+TEST_F(HandJson, SkinWithoutEllipsesIsRound) {
+  json changed = saved();
+  for (const char* key : {"half_width", "half_thickness", "flesh_offset_x", "flesh_offset_y"})
+    changed["segments"][5].erase(key);
+  test::write_text(path_, changed.dump());
+  const auto profile = load_profile(path_);
+  ASSERT_TRUE(profile);
+  EXPECT_DOUBLE_EQ(profile->segments[5].half_width[0], 0.01);
+  EXPECT_DOUBLE_EQ(profile->segments[5].half_thickness[1], 0.008);
+  EXPECT_DOUBLE_EQ(profile->segments[5].flesh_offset_y[0], 0);
+  EXPECT_NEAR(profile->segments[6].half_width[0], 0.011, 1e-12);
+}
+
+TEST_F(HandJson, MissingFileAndBadSyntaxAreNamed) {
+  EXPECT_THAT(load_profile(folder_ / "none.json").error().message(), HasSubstr("none.json: cannot be read"));
+  test::write_text(path_, "{\n\"handedness\": right}");
+  EXPECT_THAT(load_profile(path_).error().message(), HasSubstr("line 2"));
+}
+
+TEST_F(HandJson, MissingSegmentIsNamed) {
+  EXPECT_THAT(error_after([](json& j) { j["segments"].erase(9); }),
+              AllOf(HasSubstr("hand.json"), HasSubstr("middle_distal is missing")));
+}
+
+TEST_F(HandJson, DoubledAndUnknownSegmentsAreNamed) {
+  EXPECT_THAT(error_after([](json& j) { j["segments"].push_back(j["segments"][4]); }),
+              HasSubstr("index_proximal occurs twice"));
+  EXPECT_THAT(error_after([](json& j) { j["segments"][4]["name"] = "sixth_proximal"; }),
+              HasSubstr("\"sixth_proximal\" is no segment"));
+}
+
+TEST_F(HandJson, WrongParentIsNamed) {
+  EXPECT_THAT(error_after([](json& j) { j["segments"][6]["parent"] = "middle_intermediate"; }),
+              AllOf(HasSubstr("segment index_distal"), HasSubstr("\"parent\" is \"middle_intermediate\"")));
+}
+
+TEST_F(HandJson, CycleIsSpelledOut) {
+  EXPECT_THAT(error_after([](json& j) { j["segments"][4]["parent"] = "index_distal"; }),
+              AllOf(HasSubstr("cycle"), HasSubstr("index_distal -> index_intermediate -> index_proximal")));
+}
+
+struct BadValue {
+  const char* label;
+  const char* key;
+  json value;
+  const char* complaint;
+};
+
+class HandJsonBadValue : public HandJson, public testing::WithParamInterface<BadValue> {};
+
+TEST_P(HandJsonBadValue, NamesSegmentAndKey) {
+  const BadValue& bad = GetParam();
+  const std::string error = error_after([&](json& j) {
+    if (bad.value.is_discarded())
+      j["segments"][5].erase(bad.key);
+    else
+      j["segments"][5][bad.key] = bad.value;
+  });
+  EXPECT_THAT(error, AllOf(HasSubstr("segment index_intermediate"), HasSubstr("\"" + std::string(bad.key) + "\""),
+                           HasSubstr(bad.complaint)));
+}
+
+const json kAbsent(json::value_t::discarded);
+
+INSTANTIATE_TEST_SUITE_P(Values, HandJsonBadValue,
+                         testing::Values(BadValue{"NegativeRadius", "proximal_radius", -0.01, "-0.01"},
+                                         BadValue{"MillimetreRadius", "distal_radius", 8, "from 0.0005 to 0.1"},
+                                         BadValue{"TextRadius", "distal_radius", "8 mm", "not a number"},
+                                         BadValue{"NoRadius", "proximal_radius", kAbsent, "missing"},
+                                         BadValue{"ZeroLength", "length", 0, "from 0.001"},
+                                         BadValue{"MillimetreLength", "length", 30, "to 0.3"},
+                                         BadValue{"LengthNotOfTheBone", "length", 0.05, "contradicts"},
+                                         BadValue{"BoneBackwards", "distal_local", {0, 0, 0.03}, "along -z"},
+                                         BadValue{"NegativeWidth", "half_width", {0.01, -0.01}, "-0.01"},
+                                         BadValue{"OneThickness", "half_thickness", {0.01}, "2 numbers"},
+                                         BadValue{"NoDofs", "dofs", kAbsent, "missing"},
+                                         BadValue{"NoParent", "parent", kAbsent, "missing"},
+                                         BadValue{"NoTransform", "rest_transform", kAbsent, "missing"},
+                                         BadValue{"Scaled",
+                                                  "rest_transform",
+                                                  {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {0, 0, 0, 1}},
+                                                  "no right-handed rotation"},
+                                         BadValue{"Mirrored",
+                                                  "rest_transform",
+                                                  {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
+                                                  "no right-handed rotation"},
+                                         BadValue{"ColumnMajor",
+                                                  "rest_transform",
+                                                  {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0.1, 0, -0.1, 1}},
+                                                  "0 0 0 1"}),
+                         [](const auto& info) { return info.param.label; });
+
+TEST_F(HandJson, BadDofIsNamed) {
+  const auto with = [this](const char* key, json value) {
+    EXPECT_TRUE(save_profile(small_hand(), path_));
+    return error_after([&](json& j) { j["segments"][4]["dofs"][1][key] = value; });
+  };
+  EXPECT_THAT(with("axis", {0, 0.5, 0}), AllOf(HasSubstr("index_proximal: dof flex"), HasSubstr("unit length")));
+  EXPECT_THAT(with("axis", {0, 0, 1}), HasSubstr("along the bone"));
+  EXPECT_THAT(with("limits_deg", {90, -20}), HasSubstr("lower limit above"));
+  EXPECT_THAT(with("limits_deg", {-20, 900}), HasSubstr("900"));
+}
+
+TEST_F(HandJson, HandednessMustBeKnown) {
+  EXPECT_THAT(error_after([](json& j) { j["handedness"] = "both"; }), HasSubstr("\"both\""));
+  EXPECT_THAT(error_after([](json& j) { j.erase("handedness"); }), HasSubstr("\"handedness\" is missing"));
+}
+
+TEST_F(HandJson, FullDiskIsReported) {
+  const auto saved = save_profile(small_hand(), "/dev/full");
+  ASSERT_FALSE(saved);
+  EXPECT_THAT(saved.error().message(), HasSubstr("/dev/full: cannot be written"));
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,186 @@
+#include "io/recording.h"
+
+#include <gmock/gmock.h>
+
+#include "io/image_file.h"
+#include "io/recording_writer.h"
+#include "temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+RgbdFrame frame_at(std::int64_t utime, std::uint16_t depth, bool with_colour = true) {
+  RgbdFrame frame;
+  frame.utime = utime;
+  frame.camera = {8, 6, 10.5, 11, 3.5, 2.5};
+  frame.depth_unit = 0.0001;
+  frame.depth.reset(8, 6, depth);
+  frame.depth.at(3, 2) = 0;
+  if (with_colour) frame.colour.reset(8, 6, Rgb{200, 100, 50});
+  return frame;
+}
+
+class RecordingFolder : public testing::Test {
+ protected:
+  /// Three frames a tenth of a second apart.
+  void record(bool with_colour = true) {
+    auto writer = RecordingWriter::create(path_, {.fps = 10, .colour_ending = "png"});
+    ASSERT_TRUE(writer) << writer.error().message();
+    for (int i = 0; i < 3; ++i)
+      ASSERT_EQ(writer->write(frame_at(1'700'000'000'000'000 + i * 100'000, 5000 + i, with_colour)), i);
+  }
+  std::string open_error() {
+    const auto recording = open_recording(path_);
+    return recording ? "accepted" : recording.error().message();
+  }
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = test::read_text(path_ + "/" + file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    test::write_text(path_ + "/" + file, text.replace(at, from.size(), to));
+  }
+
+  test::TempFolder folder_;
+  std::string path_ = folder_ / "recording";
+};
+
+TEST_F(RecordingFolder, WhatIsWrittenComesBack) {
+  record();
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->entries.size(), 3u);
+  EXPECT_DOUBLE_EQ(recording->fps, 10);
+  const auto frame = read_frame(*recording, 2);
+  ASSERT_TRUE(frame) << frame.error().message();
+  const RgbdFrame written = frame_at(1'700'000'000'200'000, 5002);
+  EXPECT_EQ((*frame)->utime, written.utime);
+  EXPECT_EQ((*frame)->number, 2);
+  EXPECT_EQ((*frame)->camera, written.camera);
+  EXPECT_DOUBLE_EQ((*frame)->depth_unit, written.depth_unit);
+  EXPECT_EQ((*frame)->depth.at(0, 0), 5002);
+  EXPECT_EQ((*frame)->depth.at(3, 2), 0);
+  EXPECT_EQ((*frame)->colour.at(7, 5), (Rgb{200, 100, 50}));
+}
+
+TEST_F(RecordingFolder, DepthAloneIsEnough) {
+  record(false);
+  EXPECT_FALSE(fs::exists(path_ + "/rgb.txt"));
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_TRUE((*read_frame(*recording, 0))->colour.empty());
+}
+
+TEST_F(RecordingFolder, ColourIsTheNearestInTimeWithinOneFrame) {
+  record();
+  test::write_text(path_ + "/rgb.txt",
+                   "1700000000.140000 rgb/late.png\n# a comment\n1700000000.010000 rgb/first.png\n"
+                   "1700000000.090000 rgb/second.png\n");
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->entries[0].colour_file, path_ + "/rgb/first.png");
+  EXPECT_EQ(recording->entries[1].colour_file, path_ + "/rgb/second.png");
+  EXPECT_EQ(recording->entries[2].colour_file, path_ + "/rgb/late.png");
+  test::write_text(path_ + "/rgb.txt", "1700000000.000000 rgb/first.png\n");
+  EXPECT_EQ(open_recording(path_)->entries[2].colour_file, "") << "colour two frames old shows another pose";
+}
+
+TEST_F(RecordingFolder, NothingIsOverwritten) {
+  record();
+  const auto again = RecordingWriter::create(path_);
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message(), HasSubstr("already holds a recording"));
+}
+
+TEST_F(RecordingFolder, CameraMayNotChange) {
+  auto writer = RecordingWriter::create(path_);
+  ASSERT_TRUE(writer->write(frame_at(0, 1)));
+  RgbdFrame other = frame_at(1, 1);
+  other.camera.fx = 12;
+  EXPECT_THAT(writer->write(other).error().message(), HasSubstr("camera changed at frame 1"));
+}
+
+TEST_F(RecordingFolder, FullDiskIsReported) {
+  auto writer = RecordingWriter::create(path_);
+  fs::create_symlink("/dev/full", path_ + "/depth/000000.png");
+  const auto written = writer->write(frame_at(0, 1, false));
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message(), AllOf(HasSubstr("depth/000000.png"), HasSubstr("free space")));
+}
+
+TEST_F(RecordingFolder, MissingIntrinsicsAreNamed) {
+  record();
+  replace("camera.json", "\"fx\"", "\"focal\"");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("camera.json"), HasSubstr("\"fx\" is missing")));
+  fs::remove(path_ + "/camera.json");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("camera.json"), HasSubstr("intrinsics")));
+}
+
+TEST_F(RecordingFolder, ExtraCameraKeysAreAllowed) {
+  record();
+  replace("camera.json", "\"fx\"", "\"maker\": \"someone\", \"fx\"");
+  EXPECT_EQ(open_error(), "accepted");
+}
+
+TEST_F(RecordingFolder, EmptyFolderIsAnError) {
+  fs::create_directories(path_);
+  EXPECT_THAT(open_error(), HasSubstr("camera.json: is missing"));
+  record();
+  test::write_text(path_ + "/depth.txt", "# timestamp filename\n\n");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("depth.txt"), HasSubstr("no frames")));
+  fs::remove(path_ + "/depth.txt");
+  EXPECT_THAT(open_error(), HasSubstr("depth.txt: cannot be read"));
+  path_ += "/nothing";
+  EXPECT_THAT(open_error(), HasSubstr("is no folder"));
+}
+
+TEST_F(RecordingFolder, StampsThatGoBackNameTheLine) {
+  record();
+  replace("depth.txt", "1700000000.100000", "1699999999.000000");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("depth.txt"), HasSubstr("line 3"), HasSubstr("goes back")));
+}
+
+TEST_F(RecordingFolder, SenselessLineIsNamed) {
+  record();
+  replace("depth.txt", "1700000000.100000", "noon");
+  EXPECT_THAT(open_error(), HasSubstr("line 3 is \"noon depth/000001.png\""));
+}
+
+TEST_F(RecordingFolder, DepthOfAnotherSizeThanTheCameraStopsTheStart) {
+  record();
+  replace("camera.json", "\"width\": 8", "\"width\": 640");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("depth/000000.png"), HasSubstr("is 8x6, camera.json says 640x6")));
+}
+
+TEST_F(RecordingFolder, BadImagesAreNamed) {
+  record();
+  const auto recording = open_recording(path_);
+  const auto error = [&](std::int64_t number) {
+    const auto frame = read_frame(*recording, number);
+    return frame ? "accepted" : frame.error().message();
+  };
+  fs::resize_file(path_ + "/depth/000000.png", 60);
+  EXPECT_THAT(error(0), AllOf(HasSubstr("depth/000000.png"), HasSubstr("damaged")));
+  ASSERT_TRUE(write_depth_png(path_ + "/depth/000001.png", Image<std::uint16_t>(4, 6)));
+  EXPECT_THAT(error(1), AllOf(HasSubstr("depth/000001.png"), HasSubstr("is 4x6")));
+  ASSERT_TRUE(write_colour(path_ + "/depth/000001.png", Image<Rgb>(8, 6)));
+  EXPECT_THAT(error(1), HasSubstr("no 16-bit image"));
+  fs::remove(path_ + "/rgb/000002.png");
+  EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("cannot be read")));
+}
+
+TEST_F(RecordingFolder, TruncatedJpegIsDamagedNotGrey) {
+  const std::string path = folder_ / "colour.jpg";
+  Image<Rgb> colour(64, 64);
+  for (std::size_t i = 0; i < colour.size(); ++i) colour[i].r = static_cast<std::uint8_t>(i * 37);
+  ASSERT_TRUE(write_colour(path, colour));
+  ASSERT_TRUE(read_colour(path));
+  fs::resize_file(path, fs::file_size(path) * 3 / 4);
+  EXPECT_FALSE(read_colour(path));
+}
+
+}  // namespace
+}  // namespace barehand
