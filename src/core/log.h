@@ -1,0 +1,31 @@
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <memory>
+#include <string>
+
+#include "core/repeat_filter.h"
+
+namespace barehand {
+
+/// The run's log, on standard error: standard output belongs to results.
+std::shared_ptr<spdlog::logger> make_logger();
+/// Throws everything away.
+std::shared_ptr<spdlog::logger> make_silent_logger();
+
+/// A logger whose repeated messages are held back (see RepeatFilter).
+class RepeatLog {
+ public:
+  RepeatLog(std::shared_ptr<spdlog::logger> logger, const Clock& clock, std::int64_t interval_us = 1'000'000)
+      : logger_(std::move(logger)), filter_(clock, interval_us) {}
+  void log(spdlog::level::level_enum level, const std::string& kind, const std::string& message);
+  void warn(const std::string& kind, const std::string& message) { log(spdlog::level::warn, kind, message); }
+  spdlog::logger& logger() { return *logger_; }
+
+ private:
+  std::shared_ptr<spdlog::logger> logger_;
+  RepeatFilter filter_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/error.h"
+
+namespace barehand {
+
+/// The one owner of the cores: stages spread their work through it and start no threads of their own.
+class Workers {
+ public:
+  static constexpr int kMaxThreads = 256;
+
+  /// `threads` in [1, kMaxThreads], the calling one included; 1 runs everything inline. See make_workers for input
+  /// that comes from people.
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  /// Calls fn(0) ... fn(n-1), each once, in any order and on any thread, and returns when all are done. The result is
+  /// the same for every number of threads if fn(i) writes only what belongs to i; sums are taken afterwards, in order.
+  /// What fn throws is thrown here. May be called from several threads, and from within fn.
+  void for_each_index(int n, const std::function<void(int)>& fn);
+  int threads() const { return threads_; }
+
+ private:
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;  ///< none for one thread
+};
+
+/// Number of threads from people: 0, negative or absurd counts are an error.
+Result<std::unique_ptr<Workers>> make_workers(int threads);
+/// Cores this process may run on, at least 1.
+int available_cores();
+
+}  // namespace barehand

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cassert>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/statistics.h"
+
+namespace barehand {
+
+/// What a full queue does with one more item.
+enum class Overflow {
+  block,        ///< the producer waits: nothing is ever dropped (replay)
+  drop_oldest,  ///< the oldest waiting item makes room and is counted (live: the newest wins)
+};
+
+/// A bounded queue between two stages. Any number of threads; pushed = popped + dropped + depth at every moment.
+template <typename T>
+class BoundedQueue {
+ public:
+  BoundedQueue(std::string name, std::size_t capacity, Overflow overflow)
+      : name_(std::move(name)), capacity_(capacity), overflow_(overflow) {
+    assert(capacity > 0);
+  }
+
+  /// False, and the item is neither kept nor counted, once the queue is closed or stopped.
+  bool push(T item) {
+    std::unique_lock lock(mutex_);
+    if (overflow_ == Overflow::block) space_.wait(lock, [&] { return items_.size() < capacity_ || closed_; });
+    if (closed_) return false;
+    if (items_.size() == capacity_) {
+      items_.pop_front();
+      ++dropped_;
+    }
+    items_.push_back(std::move(item));
+    ++pushed_;
+    item_.notify_one();
+    return true;
+  }
+
+  /// Waits for an item; none once the queue is closed and drained, or stopped.
+  std::optional<T> pop() {
+    std::unique_lock lock(mutex_);
+    item_.wait(lock, [&] { return !items_.empty() || closed_; });
+    return take();
+  }
+
+  /// An item if one is waiting.
+  std::optional<T> try_pop() {
+    std::unique_lock lock(mutex_);
+    return take();
+  }
+
+  /// No more items will come: consumers drain what is waiting, blocked producers give up.
+  void close() {
+    std::unique_lock lock(mutex_);
+    closed_ = true;
+    item_.notify_all();
+    space_.notify_all();
+  }
+
+  /// Closes the queue and abandons what is waiting; it counts as dropped.
+  void stop() {
+    std::unique_lock lock(mutex_);
+    closed_ = true;
+    dropped_ += static_cast<std::int64_t>(items_.size());
+    items_.clear();
+    item_.notify_all();
+    space_.notify_all();
+  }
+
+  QueueHealth health() const {
+    std::unique_lock lock(mutex_);
+    return {name_, capacity_, items_.size(), pushed_, popped_, dropped_};
+  }
+
+ private:
+  std::optional<T> take() {
+    if (items_.empty()) return std::nullopt;
+    std::optional<T> item(std::move(items_.front()));
+    items_.pop_front();
+    ++popped_;
+    space_.notify_one();
+    return item;
+  }
+
+  const std::string name_;
+  const std::size_t capacity_;
+  const Overflow overflow_;
+  mutable std::mutex mutex_;
+  std::condition_variable item_, space_;
+  std::deque<T> items_;
+  bool closed_ = false;
+  std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
+};
+
+}  // namespace barehand
