@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "drivers/lcm/wire.h"
+#include "io/lcm_bus.h"
+
+namespace lcm {
+struct ReceiveBuffer;
+class Subscription;
+}  // namespace lcm
+
+namespace barehand {
+
+/// One thread that receives the messages of a bus and hands them on, undecoded, until it is destroyed. At most one
+/// per bus. The handler must be quick: LCM drops the newest message when its queue is full.
+class LcmListener {
+ public:
+  /// Called on the listener's thread; the bytes are valid during the call.
+  using Handler = std::function<void(const std::string& channel, WireBytes message)>;
+
+  /// `channels` is a glob: "*RGBD_FRAME".
+  LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler);
+  ~LcmListener();
+  LcmListener(const LcmListener&) = delete;
+  LcmListener& operator=(const LcmListener&) = delete;
+
+  /// The connection broke; nothing more will come.
+  bool broken() const { return broken_; }
+
+ private:
+  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void run();
+
+  std::shared_ptr<LcmBus> bus_;
+  Handler handler_;
+  lcm::Subscription* subscription_ = nullptr;
+  std::atomic<bool> stop_{false}, broken_{false};
+  std::thread thread_;
+};
+
+/// The glob ('*', '?') as the regular expression that LCM wants.
+std::string glob_to_regex(const std::string& glob);
+
+}  // namespace barehand

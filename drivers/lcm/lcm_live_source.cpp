@@ -1,0 +1,86 @@
+#include "drivers/lcm/lcm_live_source.h"
+
+#include "barehand/rgbd_frame_t.hpp"
+#include "drivers/lcm/frame_message.h"
+
+namespace barehand {
+namespace {
+
+/// A frame at most this much older than the last one was overtaken on the way; an older one means that the sender
+/// started again with another clock [us].
+constexpr std::int64_t kOvertaken = 1'000'000;
+
+}  // namespace
+
+Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& url, const LcmLiveOptions& options) {
+  auto bus = LcmBus::open(url);
+  if (!bus) return tl::unexpected(bus.error());
+  return std::make_unique<LcmLiveSource>(std::move(*bus), options);
+}
+
+LcmLiveSource::LcmLiveSource(std::shared_ptr<LcmBus> bus, const LcmLiveOptions& options)
+    : bus_(bus),
+      options_(options),
+      listener_(std::move(bus), options.channel,
+                [this](const std::string& channel, WireBytes message) { receive(channel, message); }) {}
+
+void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
+  const std::lock_guard lock(mutex_);
+  ++counts_.received;
+  if (waiting_) ++counts_.replaced;
+  if (message_hash(message) == rgbd_frame_t::getHash()) count_lost(channel, message_word(message, 2));
+  letter_.channel = channel;
+  letter_.message.assign(message.begin(), message.end());
+  waiting_ = true;
+  arrived_.notify_one();
+}
+
+void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
+  constexpr std::int64_t kReordered = 32;  // messages; a larger step back is a sender that started again
+  const auto [last, first] = last_seq_.try_emplace(channel, seq);
+  const std::int64_t step = seq - last->second;
+  if (!first && step > 1) counts_.lost += step - 1;
+  if (!first && step < 0 && step > -kReordered) {
+    --counts_.lost;  // late, not lost
+  } else {
+    last->second = seq;
+  }
+}
+
+SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
+  Letter letter;
+  {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait_for(lock, patience, [this] { return waiting_; })) {
+      if (listener_.broken()) return SourceFailed{{"the LCM connection broke", bus_->url(), "check the network"}};
+      return Timeout{};
+    }
+    std::swap(letter, letter_);
+    waiting_ = false;
+  }
+  return open_letter(letter);
+}
+
+SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
+  auto frame = decode_frame_message(letter.message, options_.foreign, foreign_number_);
+  if (!frame) {
+    Error error = frame.error();
+    error.where = name() + " " + letter.channel;
+    return SkippedFrame{std::move(error)};
+  }
+  ++foreign_number_;
+  const std::int64_t utime = (*frame)->utime;
+  const auto [last, first] = last_utime_.try_emplace(letter.channel, utime);
+  if (!first && utime <= last->second && last->second - utime < kOvertaken) {
+    return SkippedFrame{{"its time is not later than that of the frame before", name() + " " + letter.channel, ""}};
+  }
+  last->second = utime;
+  return *frame;
+}
+
+LcmLiveCounts LcmLiveSource::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+}  // namespace barehand

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/lcm/foreign_frames.h"
+#include "io/lcm_log_reader.h"
+#include "math/source.h"
+
+namespace barehand {
+
+struct LcmLogOptions {
+  std::string channel = {};  ///< glob like "CAM_*"; "": the one channel that carries frames
+  std::optional<std::int64_t> start =
+      {};                 ///< position of the first frame, from 0; not given: the first, backwards the last
+  std::int64_t step = 1;  ///< every step-th frame; negative plays backwards
+  ForeignCamera foreign = {};
+};
+
+/// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), never dropping one. A cut
+/// or damaged log replays every whole event. Messages of another type, damaged messages and frames that are not later
+/// than all frames before them come as SkippedFrame. Own frames keep their numbers, foreign ones get their position.
+class LcmLogSource : public FrameSource {
+ public:
+  /// Errors: no LCM log, no matching channel (names those there are), several channels with frames and none chosen, a
+  /// start outside the log, a step of 0.
+  static Result<std::unique_ptr<LcmLogSource>> open(const std::string& path, const LcmLogOptions& options = {});
+
+  SourceEvent next(std::chrono::milliseconds patience) override;
+  bool live() const override { return false; }
+  std::string name() const override { return "log:" + path_; }
+
+  /// Number of events `next` will deliver before the end: for progress.
+  std::int64_t remaining() const;
+  /// Bytes of the file that belong to no whole event; 0 for a healthy log.
+  std::int64_t damaged_bytes() const { return reader_.damaged_bytes(); }
+
+ private:
+  LcmLogSource(std::string path, const LcmLogOptions& options, LcmLogReader reader)
+      : path_(std::move(path)), options_(options), reader_(std::move(reader)) {}
+  SourceEvent read(std::int64_t position);
+
+  std::string path_;
+  LcmLogOptions options_;
+  LcmLogReader reader_;
+  std::vector<LogEntry> frames_;  ///< of the chosen channels, in file order
+  std::vector<bool> stale_;       ///< not later than all before
+  std::int64_t next_ = 0;
+};
+
+}  // namespace barehand

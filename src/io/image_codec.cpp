@@ -1,0 +1,103 @@
+#include "io/image_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace barehand {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
+
+int big_endian_16(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
+
+bool is_png(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 24 && std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin());
+}
+
+/// The frame header of a JPEG: markers C0..CF without C4 (tables), C8 (reserved) and CC (arithmetic coding).
+bool starts_jpeg_frame(int marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+Result<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes) {
+  std::size_t at = 2;
+  while (at + 9 <= bytes.size() && bytes[at] == 0xFF) {
+    const int marker = bytes[at + 1];
+    if (marker == 0xFF) {  // fill byte
+      ++at;
+    } else if (starts_jpeg_frame(marker)) {
+      return ImageSize{big_endian_16(bytes, at + 7), big_endian_16(bytes, at + 5)};
+    } else {
+      at += 2 + static_cast<std::size_t>(big_endian_16(bytes, at + 2));
+    }
+  }
+  return fail("JPEG without a frame header");
+}
+
+/// libjpeg fills what a cut image lacks with grey and only warns; the end marker tells. Cameras may pad after it.
+bool has_jpeg_end(std::span<const std::uint8_t> bytes) {
+  for (std::size_t i = bytes.size() - 1; i > 0 && bytes.size() - i < 1024; --i) {
+    if (bytes[i - 1] == 0xFF && bytes[i] == 0xD9) return true;
+  }
+  return false;
+}
+
+Result<std::vector<std::uint8_t>> encode(const Image<Rgb>& image, const char* ending, const std::vector<int>& options) {
+  if (image.empty()) return fail("an empty image cannot be encoded");
+  try {
+    const cv::Mat rgb(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
+    cv::Mat bgr;
+    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    std::vector<std::uint8_t> bytes;
+    if (!cv::imencode(ending, bgr, bytes, options)) return fail(std::string("cannot encode a ") + ending + " image");
+    return bytes;
+  } catch (const cv::Exception& e) {
+    return fail(e.what());
+  }
+}
+
+}  // namespace
+
+Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes) {
+  if (is_png(bytes)) {
+    // The high halves of both 32-bit sizes must be zero: nothing larger than 65535 pixels is an image of ours.
+    if (big_endian_16(bytes, 16) != 0 || big_endian_16(bytes, 20) != 0) return fail("PNG of an absurd size");
+    return ImageSize{big_endian_16(bytes, 18), big_endian_16(bytes, 22)};
+  }
+  if (bytes.size() >= 4 && bytes[0] == 0xFF && bytes[1] == 0xD8) return jpeg_size(bytes);
+  return fail("neither a PNG nor a JPEG image");
+}
+
+Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected) {
+  const Result<ImageSize> size = compressed_image_size(bytes);
+  if (!size) return tl::unexpected(size.error());
+  if (*size != expected) {
+    return fail("colour image is " + std::to_string(size->width) + "x" + std::to_string(size->height) + ", expected " +
+                std::to_string(expected.width) + "x" + std::to_string(expected.height));
+  }
+  if (!is_png(bytes) && !has_jpeg_end(bytes)) return fail("JPEG ends too early");
+  try {
+    const cv::Mat bgr = cv::imdecode(cv::_InputArray(bytes.data(), static_cast<int>(bytes.size())),
+                                     cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    if (bgr.empty()) return fail("damaged colour image");
+    if (bgr.cols != expected.width || bgr.rows != expected.height) return fail("damaged colour image");
+    Image<Rgb> image(bgr.cols, bgr.rows);
+    cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.data());
+    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+    return image;
+  } catch (const cv::Exception& e) {
+    return fail(std::string("damaged colour image: ") + e.what());
+  }
+}
+
+Result<std::vector<std::uint8_t>> encode_png(const Image<Rgb>& image) {
+  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 1});
+}
+
+Result<std::vector<std::uint8_t>> encode_jpeg(const Image<Rgb>& image, int quality) {
+  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
+}
+
+}  // namespace barehand

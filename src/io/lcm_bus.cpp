@@ -1,0 +1,61 @@
+#include "io/lcm_bus.h"
+
+#include <cstdlib>
+#include <lcm/lcm-cpp.hpp>
+
+namespace barehand {
+namespace {
+
+constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+bool is_udp(const std::string& url) { return url.starts_with("udpm://"); }
+
+/// A stock receive buffer loses almost every depth image; 2 MiB loses none (the kernel grants less if it must).
+std::string with_receive_buffer(const std::string& url) {
+  if (!is_udp(url) || url.find("recv_buf_size=") != std::string::npos) return url;
+  return url + (url.find('?') == std::string::npos ? "?" : "&") + "recv_buf_size=2097152";
+}
+
+std::string effective_url(const std::string& url) {
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  const bool in_environment = from_environment != nullptr && *from_environment != '\0';
+  return with_receive_buffer(!url.empty() ? url : in_environment ? from_environment : kDefaultUrl);
+}
+
+}  // namespace
+
+LcmBus::LcmBus(std::string url, std::unique_ptr<lcm::LCM> lcm) : url_(std::move(url)), lcm_(std::move(lcm)) {}
+
+LcmBus::~LcmBus() = default;
+
+Result<std::unique_ptr<LcmBus>> LcmBus::open(const std::string& url) {
+  const std::string effective = effective_url(url);
+  auto lcm = std::make_unique<lcm::LCM>(effective);
+  // UDP sockets open lazily: asking for the descriptor runs LCM's self test, which fails without a multicast route.
+  if (lcm->good() && (!is_udp(effective) || lcm->getFileno() >= 0)) {
+    return std::unique_ptr<LcmBus>(new LcmBus(effective, std::move(lcm)));
+  }
+  if (is_udp(effective)) {
+    return fail("cannot connect to LCM", effective,
+                "if there is no multicast route, add one: sudo ip link set lo up; "
+                "sudo ip route add 224.0.0.0/4 dev lo; otherwise check the address in the URL");
+  }
+  return fail("cannot connect to LCM", effective,
+              "URLs look like udpm://239.255.76.67:7667?ttl=0, memq:// or file://PATH");
+}
+
+Result<void> LcmBus::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t) {
+  if (channel.empty() || channel.size() > kLongestChannel) {
+    return fail("channel names have 1 to 63 bytes", channel, "shorten the channel prefix");
+  }
+  if (message.size() > kLargestMessage) {
+    return fail("a message of " + std::to_string(message.size()) + " bytes is too large for LCM", channel,
+                "compress it more");
+  }
+  if (lcm_->publish(channel, message.data(), static_cast<unsigned int>(message.size())) != 0) {
+    return fail("LCM cannot publish", url_ + " " + channel, "check the network and the multicast route");
+  }
+  return {};
+}
+
+}  // namespace barehand

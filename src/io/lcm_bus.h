@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/message_sink.h"
+
+namespace lcm {
+class LCM;
+}
+
+namespace barehand {
+
+/// A connection to an LCM network. Publishing is allowed from any thread; only one thread may receive.
+class LcmBus : public MessageSink {
+ public:
+  /// `url` as LCM takes it: "udpm://239.255.76.67:7667?ttl=0", "memq://", "file://..."; "": LCM_DEFAULT_URL, then the
+  /// first of these. A UDP URL without recv_buf_size gets one that holds depth images. Errors name the remedy, such as
+  /// the command that adds a missing multicast route.
+  static Result<std::unique_ptr<LcmBus>> open(const std::string& url);
+  ~LcmBus() override;
+
+  /// Over UDP success only means that the message left: whether anybody receives it is not known.
+  Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
+
+  lcm::LCM& lcm() { return *lcm_; }
+  const std::string& url() const { return url_; }
+
+ private:
+  LcmBus(std::string url, std::unique_ptr<lcm::LCM> lcm);
+
+  std::string url_;
+  std::unique_ptr<lcm::LCM> lcm_;
+};
+
+/// Longest channel name that LCM takes [bytes].
+inline constexpr std::size_t kLongestChannel = 63;
+/// Larger messages are unreliable over UDP (about 4 MiB); sending one is an error.
+inline constexpr std::size_t kLargestMessage = 4u << 20;
+
+}  // namespace barehand

@@ -1,0 +1,58 @@
+#include "io/lcm_log_writer.h"
+
+#include <stdio_ext.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+
+namespace barehand {
+
+LcmLogWriter::LcmLogWriter(std::string path, std::unique_ptr<lcm::LogFile> log)
+    : path_(std::move(path)), log_(std::move(log)) {}
+
+LcmLogWriter::~LcmLogWriter() = default;
+
+Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& path, bool overwrite) {
+  std::error_code error;
+  if (!overwrite && std::filesystem::exists(path, error)) {
+    return fail("the file exists", path, "choose another name or allow overwriting");
+  }
+  errno = 0;
+  auto log = std::make_unique<lcm::LogFile>(path, "w");
+  if (!log->good()) {
+    return fail(std::string("cannot create the log: ") + std::strerror(errno), path,
+                "check the folder and its permissions");
+  }
+  return std::unique_ptr<LcmLogWriter>(new LcmLogWriter(path, std::move(log)));
+}
+
+Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
+  if (failed_) return fail("an earlier write failed, nothing more is written", path_);
+  lcm::LogEvent event;
+  event.eventnum = 0;  // set by LogFile
+  event.timestamp = utime;
+  event.channel = channel;
+  event.datalen = static_cast<std::int32_t>(message.size());
+  event.data = const_cast<std::uint8_t*>(message.data());
+  errno = 0;
+  if (log_->writeEvent(&event) != 0 || std::fflush(log_->getFilePtr()) != 0) return cut_back(errno);
+  constexpr std::int64_t kHeader = 28;
+  good_ += kHeader + static_cast<std::int64_t>(channel.size() + message.size());
+  ++events_;
+  return {};
+}
+
+tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
+  failed_ = true;
+  std::FILE* file = log_->getFilePtr();
+  __fpurge(file);  // or closing the file would append the rest of the event that failed
+  const bool cut = ftruncate(fileno(file), good_) == 0;
+  return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
+              cut ? "the " + std::to_string(events_) + " events before are kept; make room and start again"
+                  : "the log ends in a broken event; readers skip it");
+}
+
+}  // namespace barehand

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/error.h"
+
+namespace barehand {
+
+/// Where encoded LCM messages go: a bus, a log file.
+class MessageSink {
+ public:
+  virtual ~MessageSink() = default;
+  /// `utime`: time of the measurement [us]; sinks that stamp events use it, never the wall clock.
+  virtual Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) = 0;
+};
+
+}  // namespace barehand

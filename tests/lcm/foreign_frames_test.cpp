@@ -1,0 +1,123 @@
+#include "drivers/lcm/foreign_frames.h"
+
+#include <gtest/gtest.h>
+
+#include "drivers/lcm/depth_codec.h"
+#include "drivers/lcm/frame_message.h"
+#include "drivers/lcm/layouts.h"
+#include "foreign_messages.h"
+#include "io/image_codec.h"
+#include "test_frames.h"
+
+namespace barehand {
+namespace {
+
+constexpr ForeignCamera kCamera{50.5, 51.25, 19.5, 14.5};
+
+/// The test frame as a foreign message carries it: in millimetres, without a sensor name.
+RgbdFrame expected_frame() {
+  RgbdFrame frame = test_frame(3);
+  frame.depth_unit = 0.001;
+  frame.sensor = "";
+  return frame;
+}
+
+TEST(Kinect, DepthAndColourSurvive) {
+  for (const bool zipped : {false, true}) {
+    const auto bytes = encode_message(kinect_message(test_frame(3), zipped));
+    const auto frame = decode_frame_message(bytes, kCamera, 3);
+    ASSERT_TRUE(frame) << frame.error().message();
+    expect_same_frame(**frame, expected_frame());
+  }
+}
+
+TEST(Kinect, ColourOfAnotherSizeIsLeftOut) {
+  kinect::frame_msg_t message = kinect_message(test_frame(3), true);
+  message.image.width = 80;
+  EXPECT_TRUE((*decode_kinect(message, kCamera, 0))->colour.empty());
+}
+
+TEST(Kinect, WithoutIntrinsicsTheErrorSaysWhatToSet) {
+  const auto frame = decode_kinect(kinect_message(test_frame(3), true), {}, 0);
+  ASSERT_FALSE(frame);
+  EXPECT_NE(frame.error().message().find("fx"), std::string::npos);
+}
+
+TEST(Kinect, LyingFieldsAreErrors) {
+  const auto refused = [](auto change) {
+    kinect::frame_msg_t message = kinect_message(test_frame(3), true);
+    change(message);
+    return !decode_kinect(message, kCamera, 0);
+  };
+  EXPECT_FALSE(refused([](kinect::frame_msg_t&) {}));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.width = 32767; }));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.height = -30; }));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.depth_data_format = 0; }));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.compression = 9; }));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.image.image_data.resize(100); }));
+  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.image.image_data_format = 1; }));
+}
+
+TEST(BotImages, DepthAndColourSurvive) {
+  for (const bool zipped : {false, true}) {
+    const auto bytes = encode_message(images_message(test_frame(3), zipped));
+    const auto frame = decode_frame_message(bytes, kCamera, 3);
+    ASSERT_TRUE(frame) << frame.error().message();
+    expect_same_frame(**frame, expected_frame());
+  }
+}
+
+TEST(BotImages, BgrGreyAndPaddedRowsAreRead) {
+  bot_core::images_t message = images_message(test_frame(3), true);
+  bot_core::image_t& colour = message.images[0];
+  colour.pixelformat = bot_core::image_t::PIXEL_FORMAT_BGR;
+  const Rgb rgb = test_frame(3).colour.at(1, 0);
+  EXPECT_EQ((*decode_images(message, kCamera, 0))->colour.at(1, 0), (Rgb{rgb.b, rgb.g, rgb.r}));
+
+  colour.pixelformat = bot_core::image_t::PIXEL_FORMAT_GRAY;
+  colour.row_stride = 64;
+  colour.data.assign(64 * 30, 0);
+  colour.data[64 + 5] = 200;
+  EXPECT_EQ((*decode_images(message, kCamera, 0))->colour.at(5, 1), (Rgb{200, 200, 200}));
+}
+
+TEST(BotImages, LyingFieldsAreErrors) {
+  const auto refused = [](auto change) {
+    bot_core::images_t message = images_message(test_frame(3), true);
+    change(message);
+    return !decode_images(message, kCamera, 0);
+  };
+  EXPECT_FALSE(refused([](bot_core::images_t&) {}));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.image_types[1] = 2; })) << "no depth";
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[1].width = 1 << 30; }));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].row_stride = -1; }));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].row_stride = 1 << 30; }));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].data.resize(5); }));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].pixelformat = 1; }));
+  EXPECT_TRUE(refused([](bot_core::images_t& m) {
+    for (auto& image : m.images) image.width = image.height = 2'000'000'000;
+  }));
+}
+
+TEST(BotImages, TruncatedAndDamagedBytesAreErrorsOrFrames) {
+  const auto whole = encode_message(images_message(test_frame(3), true));
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    EXPECT_FALSE(decode_frame_message(WireBytes(whole.data(), size), kCamera, 0)) << size;
+  }
+  auto bytes = whole;
+  for (std::size_t i = 0; i < 120; ++i) {
+    bytes[i] ^= 0xFF;
+    const auto frame = decode_frame_message(bytes, kCamera, 0);
+    EXPECT_TRUE(!frame || (*frame)->depth.size() == 1200u);
+    bytes[i] ^= 0xFF;
+  }
+}
+
+TEST(FrameMessage, AnotherTypeIsAnErrorThatNamesTheKnownOnes) {
+  const auto frame = decode_frame_message(encode_message(command_t{}), kCamera, 0);
+  ASSERT_FALSE(frame);
+  EXPECT_NE(frame.error().message().find("rgbd_frame_t"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "barehand/command_t.hpp"
+#include "barehand/glove_state_t.hpp"
+#include "barehand/hand_joints_t.hpp"
+#include "barehand/hand_state_t.hpp"
+#include "barehand/health_t.hpp"
+#include "barehand/rgbd_frame_t.hpp"
+
+namespace barehand::golden {
+
+/// A message of each type with a different value in every field; tests/golden/lcm/TYPE.bin holds its bytes.
+rgbd_frame_t rgbd_frame();
+hand_state_t hand_state();
+glove_state_t glove_state();
+hand_joints_t hand_joints();
+health_t health();
+command_t command();
+
+}  // namespace barehand::golden

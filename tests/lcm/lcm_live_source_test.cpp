@@ -1,0 +1,106 @@
+#include "drivers/lcm/lcm_live_source.h"
+
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "barehand/command_t.hpp"
+#include "drivers/lcm/frame_codec.h"
+#include "drivers/lcm/layouts.h"
+#include "test_frames.h"
+
+namespace barehand {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+constexpr std::chrono::milliseconds kLong(10'000);  // never waited for when all is well
+
+Bytes frame_bytes(std::int64_t number) { return encode_message(encode_frame(test_frame(number), {}).value()); }
+
+class LcmLive : public testing::Test {
+ protected:
+  void send(const std::string& channel, const Bytes& message) { ASSERT_TRUE(bus_->send(channel, message, 0)); }
+  /// Blocks until the receiving thread has seen so many messages.
+  void wait_received(std::int64_t count) {
+    while (source_.counts().received < count) std::this_thread::yield();
+  }
+  std::shared_ptr<LcmBus> bus_ = LcmBus::open("memq://").value();
+  LcmLiveSource source_{bus_, {}};
+};
+
+TEST_F(LcmLive, DeliversAFrame) {
+  send("LEFT_RGBD_FRAME", frame_bytes(7));
+  const SourceEvent event = source_.next(kLong);
+  expect_same_frame(*std::get<FramePtr>(event), test_frame(7));
+  EXPECT_TRUE(source_.live());
+}
+
+TEST_F(LcmLive, SaysWhenNothingCame) {
+  EXPECT_TRUE(std::holds_alternative<Timeout>(source_.next(std::chrono::milliseconds(1))));
+}
+
+TEST_F(LcmLive, TheNewestFrameWinsAndTheOthersAreCounted) {
+  for (int number = 1; number <= 4; ++number) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(4);
+  EXPECT_EQ(std::get<FramePtr>(source_.next(kLong))->number, 4);
+  EXPECT_EQ(source_.counts().replaced, 3);
+  EXPECT_EQ(source_.counts().lost, 0);
+}
+
+TEST_F(LcmLive, GapsInTheNumbersAreCountedAsLost) {
+  for (const int number : {1, 2, 5, 4, 6}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(5);
+  EXPECT_EQ(source_.counts().lost, 1) << "3 is lost, 4 was only late";
+}
+
+TEST_F(LcmLive, ASenderThatStartsAgainLosesNothing) {
+  for (const int number : {500, 501, 0, 1}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(4);
+  EXPECT_EQ(source_.counts().lost, 0);
+}
+
+TEST_F(LcmLive, WrongTypesAndDamagedMessagesAreSkipped) {
+  send("RGBD_FRAME", encode_message(command_t{}));
+  EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
+  Bytes cut = frame_bytes(1);
+  cut.resize(40);
+  send("RGBD_FRAME", cut);
+  EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
+  send("RGBD_FRAME", frame_bytes(2));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
+}
+
+TEST_F(LcmLive, ARepeatedFrameIsSkipped) {
+  send("RGBD_FRAME", frame_bytes(2));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
+  send("RGBD_FRAME", frame_bytes(2));
+  EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
+}
+
+TEST_F(LcmLive, OtherChannelsAreNotHeard) {
+  send("HAND_STATE", encode_message(command_t{}));
+  send("RGBD_FRAME", frame_bytes(1));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
+  EXPECT_EQ(source_.counts().received, 1);
+}
+
+TEST(Glob, BecomesARegularExpression) {
+  EXPECT_EQ(glob_to_regex("*RGBD_FRAME"), ".*RGBD_FRAME");
+  EXPECT_EQ(glob_to_regex("A.B?(C)"), "A\\.B.\\(C\\)");
+}
+
+TEST(LcmBus, AnUnknownUrlIsAnErrorThatShowsGoodOnes) {
+  const auto bus = LcmBus::open("nonsense://x");
+  ASSERT_FALSE(bus);
+  EXPECT_NE(bus.error().message().find("udpm://"), std::string::npos);
+}
+
+TEST(LcmBus, MessagesThatLcmCannotCarryAreErrors) {
+  auto bus = LcmBus::open("memq://").value();
+  EXPECT_FALSE(bus->send(std::string(64, 'A'), Bytes(3), 0));
+  EXPECT_FALSE(bus->send("A", Bytes(5u << 20), 0));
+  EXPECT_TRUE(bus->send(std::string(63, 'A'), Bytes(3), 0));
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,194 @@
+#include "drivers/lcm/lcm_log_source.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "barehand/command_t.hpp"
+#include "drivers/lcm/frame_codec.h"
+#include "drivers/lcm/layouts.h"
+#include "foreign_messages.h"
+#include "io/lcm_log_writer.h"
+#include "test_frames.h"
+
+namespace barehand {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes frame_bytes(std::int64_t number) { return encode_message(encode_frame(test_frame(number), {}).value()); }
+
+class LcmLog : public testing::Test {
+ protected:
+  void append(const std::string& channel, const Bytes& message) {
+    if (!writer_) writer_ = LcmLogWriter::create(path_, false).value();
+    ASSERT_TRUE(writer_->send(channel, message, 42));
+  }
+  void append_frames(int count, const std::string& channel = "RGBD_FRAME") {
+    for (int i = 0; i < count; ++i) append(channel, frame_bytes(100 + i));
+  }
+  /// "100 101 skip end" for what the source delivers.
+  std::string play(const LcmLogOptions& options = {}) {
+    auto source = LcmLogSource::open(path_, options);
+    if (!source) return source.error().message();
+    std::string text;
+    for (std::int64_t left = (*source)->remaining();; --left) {
+      EXPECT_EQ((*source)->remaining(), std::max<std::int64_t>(left, 0));
+      const SourceEvent event = (*source)->next(std::chrono::milliseconds(0));
+      if (const auto* frame = std::get_if<FramePtr>(&event)) text += std::to_string((*frame)->number) + " ";
+      if (std::holds_alternative<SkippedFrame>(event)) text += "skip ";
+      if (std::holds_alternative<SourceFailed>(event)) return text + "failed";
+      if (std::holds_alternative<EndOfStream>(event)) return text + "end";
+    }
+  }
+  Bytes file() const {
+    std::ifstream in(path_, std::ios::binary);
+    return Bytes(std::istreambuf_iterator<char>(in), {});
+  }
+  void replace_file(const Bytes& bytes) {
+    writer_.reset();
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "test.lcmlog";
+  std::unique_ptr<LcmLogWriter> writer_;
+};
+
+TEST_F(LcmLog, ReplaysFramesUnchanged) {
+  append_frames(2);
+  auto source = LcmLogSource::open(path_).value();
+  EXPECT_FALSE(source->live());
+  for (const int number : {100, 101}) {
+    const SourceEvent event = source->next(std::chrono::milliseconds(0));
+    expect_same_frame(*std::get<FramePtr>(event), test_frame(number));
+  }
+}
+
+TEST_F(LcmLog, StartAndStepChooseFrames) {
+  append_frames(6);
+  EXPECT_EQ(play(), "100 101 102 103 104 105 end");
+  EXPECT_EQ(play({.start = 4}), "104 105 end");
+  EXPECT_EQ(play({.start = 1, .step = 2}), "101 103 105 end");
+  EXPECT_EQ(play({.step = -1}), "105 104 103 102 101 100 end");
+  EXPECT_EQ(play({.start = 3, .step = -2}), "103 101 end");
+}
+
+TEST_F(LcmLog, ASenselessStartOrStepIsAnError) {
+  append_frames(2);
+  EXPECT_NE(play({.start = 2}).find("frames 0 to 1"), std::string::npos);
+  EXPECT_NE(play({.start = -1}).find("no frame -1"), std::string::npos);
+  EXPECT_NE(play({.step = 0}).find("step of 0"), std::string::npos);
+}
+
+TEST_F(LcmLog, OtherChannelsAreLeftOut) {
+  append("COMMAND", encode_message(command_t{}));
+  append_frames(2);
+  EXPECT_EQ(play(), "100 101 end");
+}
+
+TEST_F(LcmLog, AGlobChoosesTheChannel) {
+  append_frames(1, "LEFT_RGBD_FRAME");
+  append("RIGHT_RGBD_FRAME", frame_bytes(200));
+  EXPECT_EQ(play({.channel = "RIGHT*"}), "200 end");
+  EXPECT_EQ(play({.channel = "LEFT_RGBD_FRAME"}), "100 end");
+}
+
+TEST_F(LcmLog, SeveralChannelsWithFramesNeedAChoice) {
+  append_frames(1, "LEFT_RGBD_FRAME");
+  append_frames(1, "RIGHT_RGBD_FRAME");
+  const std::string message = play();
+  EXPECT_NE(message.find("LEFT_RGBD_FRAME, RIGHT_RGBD_FRAME"), std::string::npos) << message;
+}
+
+TEST_F(LcmLog, AChannelThatIsNotThereNamesThoseThatAre) {
+  append_frames(1);
+  append("COMMAND", encode_message(command_t{}));
+  const std::string message = play({.channel = "KINECT*"});
+  EXPECT_NE(message.find("COMMAND, RGBD_FRAME"), std::string::npos) << message;
+}
+
+TEST_F(LcmLog, ALogWithoutFramesNamesItsChannels) {
+  append("COMMAND", encode_message(command_t{}));
+  EXPECT_NE(play().find("channels are COMMAND"), std::string::npos);
+}
+
+TEST_F(LcmLog, WrongTypesAndDamagedMessagesAreSkipped) {
+  append("CAMERA", frame_bytes(100));
+  append("CAMERA", encode_message(command_t{}));
+  append("CAMERA", {});
+  Bytes damaged = frame_bytes(101);
+  damaged.resize(damaged.size() - 3);
+  append("CAMERA", damaged);
+  append("CAMERA", frame_bytes(102));
+  EXPECT_EQ(play({.channel = "CAMERA"}), "100 skip skip skip 102 end");
+}
+
+TEST_F(LcmLog, RepeatedAndOutdatedFramesAreSkipped) {
+  for (const int number : {100, 101, 101, 99, 102}) append("RGBD_FRAME", frame_bytes(number));
+  EXPECT_EQ(play(), "100 101 skip skip 102 end");
+  EXPECT_EQ(play({.step = -1}), "102 skip skip 101 100 end");
+}
+
+TEST_F(LcmLog, EveryTruncationReplaysTheWholeEvents) {
+  append_frames(2);
+  const Bytes whole = file();
+  const auto second = static_cast<std::size_t>(LcmLogReader::open(path_)->entries()[1].position);
+  for (std::size_t size = second; size < whole.size(); size += 101) {
+    replace_file(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    EXPECT_EQ(play(), "100 end") << size;
+    EXPECT_EQ(LcmLogReader::open(path_)->damaged_bytes(), static_cast<std::int64_t>(size - second));
+  }
+}
+
+TEST_F(LcmLog, DamageInTheMiddleCostsOnlyTheEventItHits) {
+  append_frames(3);
+  Bytes bytes = file();
+  bytes[static_cast<std::size_t>(LcmLogReader::open(path_)->entries()[1].position)] ^= 0xFF;
+  replace_file(bytes);
+  EXPECT_EQ(play(), "100 102 end");
+}
+
+TEST_F(LcmLog, LyingLengthsAreNoEvents) {
+  append_frames(3);
+  const Bytes whole = file();
+  const auto second = static_cast<std::size_t>(LcmLogReader::open(path_)->entries()[1].position);
+  for (const std::size_t length : {20u, 24u}) {
+    for (const std::uint8_t high : {0x7F, 0x80, 0xFF}) {
+      Bytes bytes = whole;
+      bytes[second + length] = high;
+      replace_file(bytes);
+      EXPECT_EQ(play(), "100 102 end") << length;
+    }
+  }
+}
+
+TEST_F(LcmLog, FilesThatAreNoLogsAreRejected) {
+  replace_file({});
+  EXPECT_NE(play().find("empty"), std::string::npos);
+  replace_file(Bytes(100'000, 'x'));
+  EXPECT_NE(play().find("is not an LCM log"), std::string::npos);
+  path_ = folder_ / ".";
+  EXPECT_NE(play().find("folder"), std::string::npos);
+  path_ = folder_ / "missing.lcmlog";
+  EXPECT_NE(play().find("No such file"), std::string::npos);
+}
+
+TEST_F(LcmLog, ForeignFramesReplayWithGivenIntrinsics) {
+  append("KINECT_FRAME", encode_message(kinect_message(test_frame(1), true)));
+  append("KINECT_FRAME", encode_message(kinect_message(test_frame(2), true)));
+  EXPECT_EQ(play({.foreign = {50, 50, 20, 15}}), "0 1 end") << "foreign frames are numbered by their place";
+  EXPECT_EQ(play(), "skip skip end") << "without intrinsics there is no frame";
+}
+
+TEST_F(LcmLog, ALogThatShrinksWhileItIsReadFailsClearly) {
+  append("CAMERA", Bytes(100'000, 1));  // more than a read buffer holds
+  auto source = LcmLogSource::open(path_, {.channel = "CAMERA"}).value();
+  replace_file({});
+  EXPECT_TRUE(std::holds_alternative<SourceFailed>(source->next(std::chrono::milliseconds(0))));
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,109 @@
+#include "io/lcm_log_writer.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+
+#include "io/lcm_log_reader.h"
+#include "test_frames.h"
+
+namespace barehand {
+namespace {
+
+const std::vector<std::uint8_t> kMessage = {1, 2, 3, 4, 5};
+
+TEST(LcmLogWriter, WritesWhatLcmReads) {
+  const TemporaryFolder folder;
+  {
+    auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+    ASSERT_TRUE(log->send("HAND_STATE", kMessage, 123456));
+    ASSERT_TRUE(log->send("HEALTH", {}, 123457));
+    EXPECT_EQ(log->events(), 2);
+  }
+  lcm::LogFile log(folder / "a.lcmlog", "r");
+  const lcm::LogEvent* event = log.readNextEvent();
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->channel, "HAND_STATE");
+  EXPECT_EQ(event->timestamp, 123456);
+  EXPECT_EQ(event->eventnum, 0);
+  const auto* data = static_cast<const std::uint8_t*>(event->data);
+  EXPECT_EQ(std::vector<std::uint8_t>(data, data + event->datalen), kMessage);
+  event = log.readNextEvent();
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->eventnum, 1);
+  EXPECT_EQ(event->datalen, 0);
+  EXPECT_EQ(log.readNextEvent(), nullptr);
+}
+
+TEST(LcmLogWriter, EveryEventIsInTheFileAtOnce) {
+  const TemporaryFolder folder;
+  auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+  for (int i = 1; i <= 3; ++i) {
+    ASSERT_TRUE(log->send("A", kMessage, i));
+    EXPECT_EQ(LcmLogReader::open(folder / "a.lcmlog")->entries().size(), static_cast<std::size_t>(i));
+    EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), static_cast<std::uintmax_t>(log->bytes()));
+  }
+}
+
+TEST(LcmLogWriter, ReplacesAFileOnlyIfAllowed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a.lcmlog") << "precious";
+  EXPECT_FALSE(LcmLogWriter::create(folder / "a.lcmlog", false));
+  EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), 8u);
+  EXPECT_TRUE(LcmLogWriter::create(folder / "a.lcmlog", true));
+  EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), 0u);
+}
+
+TEST(LcmLogWriter, AFolderThatDoesNotExistIsAnError) {
+  EXPECT_FALSE(LcmLogWriter::create("/nonexistent/folder/a.lcmlog", false));
+}
+
+TEST(LcmLogWriter, AFullDeviceIsAnError) {
+  auto log = LcmLogWriter::create("/dev/full", true).value();
+  const auto sent = log->send("A", kMessage, 1);
+  ASSERT_FALSE(sent);
+  EXPECT_NE(sent.error().message().find("No space left"), std::string::npos);
+  EXPECT_FALSE(log->send("A", kMessage, 2)) << "it stays failed";
+}
+
+/// Lets no file grow past `bytes` while it lives, as a full disk would: a write may succeed in part.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{bytes, old_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  rlimit old_{};
+  void (*old_handler_)(int) = nullptr;
+};
+
+TEST(LcmLogWriter, WhenTheDiskFillsUpTheWholeEventsStay) {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> large(10'000, 7);
+  {
+    const FileSizeLimit limit(25'000);
+    auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+    ASSERT_TRUE(log->send("A", large, 1));
+    ASSERT_TRUE(log->send("A", large, 2));
+    const auto third = log->send("A", large, 3);
+    ASSERT_FALSE(third);
+    EXPECT_NE(third.error().message().find("2 events"), std::string::npos) << third.error().message();
+  }
+  const auto log = LcmLogReader::open(folder / "a.lcmlog");
+  EXPECT_EQ(log->entries().size(), 2u);
+  EXPECT_EQ(log->damaged_bytes(), 0);
+}
+
+}  // namespace
+}  // namespace barehand
