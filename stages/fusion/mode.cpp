@@ -1,0 +1,59 @@
+#include "stages/fusion/mode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace barehand {
+namespace {
+
+/// Largest offset of b against a on any axis of a's own frame, in half widths.
+double box_distance(const SE3& a, const SE3& b, const Vector6d& half_width) {
+  Vector6d offset;
+  offset << a.R.transpose() * (b.t - a.t), log_so3(a.R.transpose() * b.R);
+  return offset.cwiseQuotient(half_width).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+std::vector<std::size_t> best_distinct(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
+                                       const Vector6d& half_width, double separation) {
+  std::vector<std::size_t> order(poses.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return log_belief[a] > log_belief[b]; });
+  std::vector<std::size_t> chosen;
+  for (const std::size_t i : order) {
+    if (static_cast<int>(chosen.size()) == count) break;
+    const bool distinct = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t k) {
+      return box_distance(poses[k], poses[i], half_width) >= separation;
+    });
+    if (distinct) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+SE3 mode_mean(const std::vector<SE3>& poses, const std::vector<double>& log_belief, double radius, double angle) {
+  const std::size_t best = std::max_element(log_belief.begin(), log_belief.end()) - log_belief.begin();
+  Vector6d sum = Vector6d::Zero();
+  double weights = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector6d offset = boxminus(poses[i], poses[best]);
+    if (offset.head<3>().norm() > radius || offset.tail<3>().norm() > angle) continue;
+    const double weight = std::exp(log_belief[i] - log_belief[best]);
+    sum += weight * offset;
+    weights += weight;
+  }
+  return boxplus(poses[best], sum / weights);
+}
+
+Matrix6d belief_covariance(const std::vector<SE3>& poses, const std::vector<double>& log_belief, const SE3& centre) {
+  Matrix6d covariance = Matrix6d::Zero();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector6d offset = boxminus(poses[i], centre);
+    covariance += std::exp(log_belief[i]) * offset * offset.transpose();
+  }
+  return covariance;
+}
+
+}  // namespace barehand

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "hand/samples.h"
+
+namespace barehand {
+
+/// Indices of at most `count` samples by falling belief (equal beliefs: lower index first); none lies closer to an
+/// earlier choice than `separation` half widths on every axis of that choice's frame.
+std::vector<std::size_t> best_distinct(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
+                                       const Vector6d& half_width, double separation);
+
+/// Belief-weighted mean of the samples within `radius` [m] and `angle` [rad] of the best sample.
+SE3 mode_mean(const std::vector<SE3>& poses, const std::vector<double>& log_belief, double radius, double angle);
+
+/// Second moment of the samples under the belief around `centre`, in boxplus coordinates of the camera frame.
+Matrix6d belief_covariance(const std::vector<SE3>& poses, const std::vector<double>& log_belief, const SE3& centre);
+
+}  // namespace barehand
