@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include <sched.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,7 +12,8 @@
 namespace barehand {
 
 struct Workers::Arena {
-  explicit Arena(int threads) : arena(threads) {}
+  explicit Arena(int threads) : limit(tbb::global_control::max_allowed_parallelism, threads), arena(threads) {}
+  tbb::global_control limit;  // or TBB would never use more threads than there are cores
   tbb::task_arena arena;
 };
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace barehand {
+
+/// What a parameter struct names its keys to: `template <class V> void visit(V& v, FooParams& p)` calls v once per key
+/// with the field, its range and its meaning. Files are read, written and checked by visitors alone, so a key exists
+/// in one place. Ranges are inclusive.
+class ConfigVisitor {
+ public:
+  virtual ~ConfigVisitor() = default;
+  virtual void operator()(const char* key, double& value, double lo, double hi, const char* doc) = 0;
+  virtual void operator()(const char* key, std::int64_t& value, std::int64_t lo, std::int64_t hi, const char* doc) = 0;
+  virtual void operator()(const char* key, bool& value, const char* doc) = 0;
+  virtual void operator()(const char* key, std::string& value, const char* doc) = 0;
+  /// One of `choices`.
+  virtual void operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
+                          const char* doc) = 0;
+  /// Any number of values, each within the range.
+  virtual void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) = 0;
+
+  void operator()(const char* key, int& value, int lo, int hi, const char* doc) {
+    std::int64_t wide = value;
+    (*this)(key, wide, lo, hi, doc);
+    value = static_cast<int>(wide);
+  }
+  /// A struct with a visitor of its own.
+  template <class Group>
+  void operator()(const char* key, Group& group, const char* doc) {
+    begin_group(key, doc);
+    visit(*this, group);
+    end_group();
+  }
+
+ protected:
+  virtual void begin_group(const char* key, const char* doc) = 0;
+  virtual void end_group() = 0;
+};
+
+}  // namespace barehand

@@ -1,0 +1,152 @@
+#include "io/config_file.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Inner {
+  double sigma_obs = 0.004;
+  std::vector<double> widths = {0.008, 0.1};
+};
+template <class V>
+void visit(V& v, Inner& p) {
+  v("sigma_obs", p.sigma_obs, 1e-4, 0.1, "m, accuracy of the depth");
+  v("widths", p.widths, 0, 1, "m and rad");
+}
+
+struct Outer {
+  int levels = 10;
+  std::int64_t seed = 1;
+  bool enabled = true;
+  std::string mode = "auto", name = "left \"A\"";
+  Inner inner;
+};
+template <class V>
+void visit(V& v, Outer& p) {
+  v("levels", p.levels, 1, 100, "hierarchy levels");
+  v("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers");
+  v("enabled", p.enabled, "what it does");
+  v("mode", p.mode, {"auto", "cpu"}, "which way");
+  v("name", p.name, "free text");
+  v("inner", p.inner, "the inner group");
+}
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  const std::string path_ = ::testing::TempDir() + "config_file_test.yaml";
+  const std::string good_ = print_config(Outer{});
+
+  Result<Outer> load(const std::string& text) {
+    std::ofstream(path_) << text;
+    return load_config<Outer>(path_);
+  }
+  /// The complete file with one piece of text replaced.
+  std::string with(const std::string& from, const std::string& to) {
+    std::string text = good_;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+  std::string error_of(const std::string& text) {
+    const auto config = load(text);
+    return config ? "no error" : config.error().message();
+  }
+  std::string place(const std::string& text, const std::string& piece) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(text.find(piece));
+    return path_ + ":" + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": ";
+  }
+};
+
+TEST_F(ConfigFile, PrintedConfigReadsBackExactly) {
+  Outer config;
+  config.levels = 3;
+  config.seed = std::numeric_limits<std::int64_t>::max();
+  config.enabled = false;
+  config.mode = "cpu";
+  config.name = "a: # \"b\" \\";
+  config.inner.sigma_obs = 0.1 / 3;
+  config.inner.widths = {};
+  const auto read = load(print_config(config));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->levels, 3);
+  EXPECT_EQ(read->seed, config.seed);
+  EXPECT_FALSE(read->enabled);
+  EXPECT_EQ(read->mode, "cpu");
+  EXPECT_EQ(read->name, config.name);
+  EXPECT_EQ(read->inner.sigma_obs, 0.1 / 3);
+  EXPECT_TRUE(read->inner.widths.empty());
+}
+
+TEST_F(ConfigFile, PrintedConfigSaysWhatKeysMean) {
+  EXPECT_THAT(good_, HasSubstr("# m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.004\n"));
+  EXPECT_THAT(good_, HasSubstr("# which way [auto | cpu]\nmode: \"auto\"\n"));
+}
+
+TEST_F(ConfigFile, UnknownKeyIsAnErrorWithLineAndSuggestion) {
+  const std::string text = with("  sigma_obs: 0.004", "  sigma_obs: 0.004\n  sigma_ob: 1");
+  EXPECT_EQ(error_of(text),
+            place(text, "sigma_ob: 1") + "unknown key 'inner.sigma_ob', did you mean 'inner.sigma_obs'?");
+}
+
+TEST_F(ConfigFile, UnknownKeyWithoutAnythingNearGetsNoSuggestion) {
+  EXPECT_THAT(error_of(good_ + "zzzzzzzz: 1\n"), Not(HasSubstr("did you mean")));
+}
+
+TEST_F(ConfigFile, MissingKeyIsAnError) {
+  EXPECT_THAT(error_of(with("levels: 10\n", "")), HasSubstr("key 'levels' is missing"));
+  EXPECT_THAT(error_of(with("  sigma_obs: 0.004\n", "")), HasSubstr("key 'inner.sigma_obs' is missing"));
+}
+
+TEST_F(ConfigFile, MissingGroupIsReportedOnce) {
+  const std::string error = error_of(good_.substr(0, good_.find("\n# the inner group")) + "\n");
+  EXPECT_THAT(error, HasSubstr("key 'inner' is missing"));
+  EXPECT_THAT(error, Not(HasSubstr("sigma_obs")));
+}
+
+TEST_F(ConfigFile, MistypedValuesAreErrors) {
+  for (const char* bad : {"ten", "10.5", "\"10\"", "[1]", "", "{a: 1}"})
+    EXPECT_THAT(error_of(with("levels: 10", std::string("levels: ") + bad)), HasSubstr("a whole number from 1 to 100"))
+        << bad;
+  EXPECT_THAT(error_of(with("sigma_obs: 0.004", "sigma_obs: thin")), HasSubstr("'thin'"));
+  EXPECT_THAT(error_of(with("enabled: true", "enabled: 7")), HasSubstr("true or false"));
+  EXPECT_THAT(error_of(with("mode: \"auto\"", "mode: gpu")), HasSubstr("one of auto, cpu"));
+  EXPECT_THAT(error_of(with("widths: [0.008, 0.1]", "widths: [0.008, x]")), HasSubstr("'inner.widths'"));
+  EXPECT_THAT(error_of(with("widths: [0.008, 0.1]", "widths: 3")), HasSubstr("a list of numbers"));
+}
+
+TEST_F(ConfigFile, ValuesOutOfRangeAreErrors) {
+  for (const char* bad : {"0", "101", "-3", "99999999999999999999"})
+    EXPECT_THAT(error_of(with("levels: 10", std::string("levels: ") + bad)), HasSubstr("'levels'")) << bad;
+  for (const char* bad : {"0", "0.2", ".nan", ".inf", "-0.004"})
+    EXPECT_THAT(error_of(with("sigma_obs: 0.004", std::string("sigma_obs: ") + bad)), HasSubstr("'inner.sigma_obs'"))
+        << bad;
+  EXPECT_THAT(error_of(with("[0.008, 0.1]", "[0.008, 1.5]")), HasSubstr("'1.5'"));
+}
+
+TEST_F(ConfigFile, DoubledKeyIsAnError) {
+  EXPECT_THAT(error_of(good_ + "levels: 4\n"), HasSubstr("key 'levels' occurs twice"));
+}
+
+TEST_F(ConfigFile, AllProblemsAreToldAtOnceInOrderOfLines) {
+  std::string text = with("levels: 10", "levels: ten");
+  text += "lost: 1\n";
+  EXPECT_THAT(error_of(text), ::testing::MatchesRegex("(.|\n)*levels(.|\n)*unknown key 'lost'(.|\n)*"));
+}
+
+TEST_F(ConfigFile, UnreadableFilesAreErrors) {
+  EXPECT_THAT(load_config<Outer>("/nonexistent/a.yaml").error().message(), HasSubstr("/nonexistent/a.yaml"));
+  EXPECT_THAT(error_of("levels: [1\nmode"), HasSubstr("not YAML"));
+  EXPECT_THAT(error_of(""), HasSubstr("no keys"));
+  EXPECT_THAT(error_of("just text"), HasSubstr("no keys"));
+}
+
+}  // namespace
+}  // namespace barehand
