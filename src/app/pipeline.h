@@ -1,0 +1,107 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "app/sink.h"
+#include "core/feedback.h"
+#include "core/log.h"
+#include "core/queue.h"
+#include "core/stage_monitor.h"
+#include "math/source.h"
+
+namespace barehand {
+
+/// Preprocess gets, with the k-th frame, the estimate of frame k - kFeedbackLag: always that one, so that the threaded
+/// and the inline runner give identical results. 1 would make preprocess wait for the tracker to finish the frame
+/// before, and nothing would run side by side; 2 lets preprocess of one frame run while the one before is tracked.
+inline constexpr std::int64_t kFeedbackLag = 2;
+
+/// The stages that the pipeline joins. The source and the functions are used by one thread each.
+struct PipelineStages {
+  FrameSource& source;
+  /// `hint`: see kFeedbackLag; null for the first frames and where a stage failed.
+  std::function<Result<HandObservationPtr>(const FramePtr& frame, const HandEstimate* hint)> preprocess;
+  std::function<Result<HandEstimatePtr>(const HandObservationPtr& observation)> track;
+  std::vector<Sink*> sinks;  ///< every one gets every frame, in this order
+};
+
+struct PipelineOptions {
+  bool threaded = true;                    ///< false: everything on the calling thread
+  int max_failures_in_a_row = 30;          ///< of one stage; then the run ends
+  std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
+  std::chrono::milliseconds patience{50};  ///< how long one call of a live source may wait; bounds the time to stop
+};
+
+struct RunResult {
+  PipelineHealth health;
+  std::optional<Error> error;  ///< what ended the run early, or left an output incomplete
+  bool stopped = false;        ///< by request_stop()
+};
+
+/// Runs frames through source -> [door] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on a thread
+/// of its own or all of them on one. Frames of a live source are dropped at the door when the tracker is slow, the
+/// newest wins; frames of a replay never. A frame on which a stage fails is counted, reported and left out. When the
+/// source ends or fails, or the run is stopped, what is in flight is drained and every sink is finished.
+class Pipeline {
+ public:
+  Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log);
+
+  /// Once. Returns when all is drained.
+  RunResult run();
+  /// Any thread: no more frames are taken from the source.
+  void request_stop() { stop_ = true; }
+  /// Any thread, any time; since the start of the run.
+  PipelineHealth health() const;
+  /// The same with times and latency since the last call; one caller.
+  PipelineHealth take_interval_health();
+
+ private:
+  struct Item {
+    std::int64_t index = 0;       ///< k-th frame through the door
+    std::int64_t arrived_us = 0;  ///< steady clock
+    TrackedFrame data;
+  };
+  enum class Capture { frame, nothing, end };
+
+  Capture capture(std::chrono::milliseconds patience);
+  Capture waited(std::chrono::milliseconds patience);
+  void run_inline();
+  void run_threaded();
+  void process(Item item);
+  HandEstimatePtr take_hint();
+  bool preprocess(Item& item, const HandEstimate* hint);
+  bool track(Item& item);
+  void deliver(const Item& item);
+  void finish_sinks();
+
+  void report(const StageMonitor& stage, const Item& item, const Error& error);
+  void end_with(Error error);
+  std::int64_t latency_us(const Item& item) const;
+  PipelineHealth counts() const;
+
+  PipelineStages stages_;
+  const PipelineOptions options_;
+  const Clock& clock_;
+  RepeatLog& log_;
+
+  BoundedQueue<Item> door_, to_track_, to_sinks_;
+  Feedback<HandEstimate> feedback_;
+  StageMonitor preprocess_monitor_, track_monitor_;
+  std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
+  std::atomic<bool> stop_ = false, ending_ = false;
+  std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0;
+  std::int64_t next_index_ = 0;                            // preprocess only
+  std::chrono::milliseconds waited_{0}, notice_at_{3000};  // source only
+
+  mutable std::mutex mutex_;  // of what follows
+  std::optional<Error> error_;
+  TimeHistogram latency_, interval_latency_;
+};
+
+}  // namespace barehand
