@@ -59,10 +59,10 @@ void walk(WireWalker& walker, const hand_joints_t*) {
 void walk(WireWalker& walker, const health_t*) {
   walker.skip(8);
   walker.string();
-  walker.skip(5 * 8 + 3 * kDouble);
-  for (std::int32_t n = walker.count(5 + 8 + 4 * kDouble); n > 0 && walker.ok(); --n) {
+  walker.skip(6 * 8 + 5 * kDouble);
+  for (std::int32_t n = walker.count(5 + 2 * 8 + 5 * kDouble); n > 0 && walker.ok(); --n) {
     walker.string();
-    walker.skip(8 + 4 * kDouble);
+    walker.skip(2 * 8 + 5 * kDouble);
   }
   for (std::int32_t n = walker.count(5 + 2 * 4 + 3 * 8); n > 0 && walker.ok(); --n) {
     walker.string();

@@ -121,11 +121,15 @@ health_t health() {
   counter.fill(m.published);
   counter.fill(m.dropped);
   counter.fill(m.failed);
-  counter.fill(m.lost);
+  counter.fill(m.skipped);
+  counter.fill(m.latency_count);
+  counter.fill(m.latency_mean);
   counter.fill(m.latency_p50);
   counter.fill(m.latency_p95);
+  counter.fill(m.latency_p99);
   counter.fill(m.latency_max);
-  m.stages = {{"preprocess", 30, 0.001, 0.002, 0.003, 0.004}, {"fusion", 29, 0.011, 0.012, 0.013, 0.014}};
+  m.stages = {{"preprocess", 30, 0.001, 0.002, 0.003, 0.004, 0.005, 6},
+              {"fusion", 29, 0.011, 0.012, 0.013, 0.014, 0.015, 7}};
   m.n_stages = static_cast<std::int32_t>(m.stages.size());
   m.queues = {{"door", 1, 2, 33, 30, 2}};
   m.n_queues = static_cast<std::int32_t>(m.queues.size());

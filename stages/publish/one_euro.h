@@ -1,0 +1,38 @@
+#pragma once
+
+#include "math/se3.h"
+
+namespace barehand {
+
+/// The One-Euro filter (Casiez, Roussel & Vogel, CHI 2012): a low pass whose cut-off rises with speed, so that a hand
+/// at rest does not tremble and a fast one does not lag.
+struct OneEuroParams {
+  bool enabled = true;
+  double min_cutoff = 3.0;     ///< Hz at rest
+  double beta = 30.0;          ///< Hz per m/s
+  double beta_rotation = 3.0;  ///< Hz per rad/s
+  double speed_cutoff = 2.0;   ///< Hz, of the low pass on the speed
+};
+template <class V>
+void visit(V& v, OneEuroParams& p) {
+  v("enabled", p.enabled, "off: the smoothed pose is the raw one");
+  v("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off at rest (lower: calmer, more lag)");
+  v("beta", p.beta, 0.0, 10000.0, "Hz per m/s, how fast the cut-off rises with speed (higher: less lag)");
+  v("beta_rotation", p.beta_rotation, 0.0, 10000.0, "Hz per rad/s, the same for rotation");
+  v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off of the speed itself");
+}
+
+/// One filtered rigid motion; translation and rotation have a cut-off each.
+class OneEuroPose {
+ public:
+  /// `dt` > 0: seconds since the last call; the first call after a reset returns `raw`.
+  SE3 filter(const SE3& raw, double dt, const OneEuroParams& params);
+  void reset() { started_ = false; }
+
+ private:
+  bool started_ = false;
+  SE3 raw_, smoothed_;
+  Vector6d speed_ = Vector6d::Zero();
+};
+
+}  // namespace barehand

@@ -1,0 +1,46 @@
+#include "stages/publish/pose_hold.h"
+
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+SegmentState held(SegmentState state, double seconds, const PublishParams& params) {
+  const double position = params.hold_growth * seconds, rotation = params.hold_growth_rotation * seconds;
+  state.covariance.diagonal().head<3>().array() += position * position;
+  state.covariance.diagonal().tail<3>().array() += rotation * rotation;
+  state.confidence *= 1 - seconds / params.hold_time;
+  state.seen = false;
+  return state;
+}
+
+}  // namespace
+
+PublishedTrack PoseHold::update(const HandEstimate& estimate, const PublishParams& params) {
+  if (estimate.status == TrackStatus::searching) {
+    last_.reset();
+    return {};
+  }
+  // A pose that a tracker holds from the start (it was given one) is held from then on.
+  if (estimate.status == TrackStatus::tracking || (estimate.status == TrackStatus::holding && !last_)) {
+    last_ = {TrackStatus::tracking, true, estimate.utime, estimate.segments};
+  }
+  if (estimate.status == TrackStatus::tracking) return *last_;
+
+  PublishedTrack track;
+  track.status = TrackStatus::lost;
+  if (!last_) return track;
+  const double seconds = std::abs(1e-6 * static_cast<double>(estimate.utime - last_->pose_utime));
+  if (seconds >= params.hold_time) return track;
+  track = *last_;
+  track.status = TrackStatus::holding;
+  // A tracker that holds by itself may move the pose on; one that says lost has none.
+  if (estimate.status == TrackStatus::holding) track.segments = estimate.segments;
+  for (SegmentState& segment : track.segments) {
+    segment = held(segment, seconds, params);
+    if (estimate.status == TrackStatus::lost) segment.velocity.setZero();
+  }
+  return track;
+}
+
+}  // namespace barehand
