@@ -27,14 +27,14 @@ struct SegmentState {
 /// Result of one frame: what the publish stage, result tables and overlays consume. Immutable once shared.
 struct HandEstimate {
   std::int64_t utime = 0;
-  std::int64_t number = 0;   ///< RgbdFrame::number
+  std::int64_t number = 0;  ///< RgbdFrame::number
   std::string sensor;
   TrackStatus status = TrackStatus::searching;
   std::int32_t hand_id = 0;
   Handedness handedness = Handedness::right;
   std::array<SegmentState, kSegmentCount> segments;  ///< meaningless while searching
-  double score = 0;       ///< global mismatch of model and data [m], lower is better
-  double joint_gap = 0;   ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
+  double score = 0;                                  ///< global mismatch of model and data [m], lower is better
+  double joint_gap = 0;  ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
   std::shared_ptr<const HandProfile> profile;
 
   /// A pose that may be shown and published as tracked.

@@ -13,7 +13,8 @@ struct Kernel {
   SE3 T_camera_segment;
   Vector6d half_width = Vector6d::Zero();
 };
-/// Where each local tracker draws its samples: the predicted pose at level 0, the S' best samples afterwards (Sec. 4.4).
+/// Where each local tracker draws its samples: the predicted pose at level 0, the S' best samples afterwards
+/// (Sec. 4.4).
 using Proposals = std::array<std::vector<Kernel>, kSegmentCount>;
 
 /// Discretised local pdf of every segment at one level: samples and their log-likelihoods (Eq. 3).

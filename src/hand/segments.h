@@ -12,18 +12,16 @@ inline constexpr int kSegmentCount = 16;
 inline constexpr int kPalm = 0;
 inline constexpr int kFingerCount = 5;  ///< thumb, index, middle, ring, little
 inline constexpr std::array<std::string_view, kSegmentCount> kSegmentNames = {
-    "palm",          "thumb_metacarpal",    "thumb_proximal", "thumb_distal",      "index_proximal", "index_intermediate",
-    "index_distal",  "middle_proximal",     "middle_intermediate", "middle_distal", "ring_proximal",
-    "ring_intermediate", "ring_distal",     "little_proximal", "little_intermediate", "little_distal"};
+    "palm",         "thumb_metacarpal", "thumb_proximal",      "thumb_distal",  "index_proximal", "index_intermediate",
+    "index_distal", "middle_proximal",  "middle_intermediate", "middle_distal", "ring_proximal",  "ring_intermediate",
+    "ring_distal",  "little_proximal",  "little_intermediate", "little_distal"};
 
 /// Segment k (0 = nearest the palm, 2 = fingertip) of a finger (0 = thumb).
 constexpr int segment_of(int finger, int k) { return 1 + 3 * finger + k; }
 constexpr int finger_of(int segment) { return (segment - 1) / 3; }
 constexpr bool is_tip(int segment) { return segment != kPalm && (segment - 1) % 3 == 2; }
 /// -1 for the palm.
-constexpr int parent_of(int segment) {
-  return segment == kPalm ? -1 : ((segment - 1) % 3 == 0 ? kPalm : segment - 1);
-}
+constexpr int parent_of(int segment) { return segment == kPalm ? -1 : ((segment - 1) % 3 == 0 ? kPalm : segment - 1); }
 
 std::optional<int> segment_from_name(std::string_view name);
 

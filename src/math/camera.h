@@ -15,13 +15,9 @@ struct Intrinsics {
   bool operator==(const Intrinsics&) const = default;
 
   /// Pixel (u, v) of a camera-frame point with z > 0.
-  Eigen::Vector2d project(const Eigen::Vector3d& p) const {
-    return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
-  }
+  Eigen::Vector2d project(const Eigen::Vector3d& p) const { return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy}; }
   /// Camera-frame point at depth z [m] (along the optical axis, not the ray).
-  Eigen::Vector3d unproject(double u, double v, double z) const {
-    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
-  }
+  Eigen::Vector3d unproject(double u, double v, double z) const { return {(u - cx) / fx * z, (v - cy) / fy * z, z}; }
 };
 
 }  // namespace barehand

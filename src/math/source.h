@@ -10,9 +10,13 @@
 namespace barehand {
 
 struct EndOfStream {};
-struct Timeout {};                      ///< nothing arrived in time; ask again
-struct SkippedFrame { Error error; };   ///< one frame was unreadable: count it, report it, ask for the next
-struct SourceFailed { Error error; };   ///< the source cannot go on
+struct Timeout {};  ///< nothing arrived in time; ask again
+struct SkippedFrame {
+  Error error;
+};  ///< one frame was unreadable: count it, report it, ask for the next
+struct SourceFailed {
+  Error error;
+};  ///< the source cannot go on
 
 using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed>;
 

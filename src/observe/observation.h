@@ -19,8 +19,8 @@ struct HandObservation {
   int u0 = 0, v0 = 0;         ///< top-left corner of the region of interest in the frame
   Image<float> depth;         ///< z [m]; 0 = no measurement
   Image<PixelLabel> label;
-  Image<Eigen::Vector3f> normal;          ///< unit, towards the camera, of hand pixels; zero where undefined
-  Image<std::int32_t> nearest_hand;       ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
+  Image<Eigen::Vector3f> normal;     ///< unit, towards the camera, of hand pixels; zero where undefined
+  Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
   std::vector<std::int32_t> hand_pixels;  ///< indices of the hand pixels
   std::vector<Eigen::Vector3f> cloud;     ///< evenly thinned hand points for ICP
   double noise = 0.001;                   ///< 1-sigma axial noise of this sensor at the hand's distance [m]
@@ -33,6 +33,5 @@ struct HandObservation {
   Eigen::Vector3f point(std::int32_t i) const { return point(i % depth.width(), i / depth.width()); }
 };
 using HandObservationPtr = std::shared_ptr<const HandObservation>;
-
 
 }  // namespace barehand

@@ -1,0 +1,168 @@
+#include "hand/implicit_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hand/joint_angles.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+// The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
+// known poses. Factors multiply the profile's own sections.
+constexpr double kPalmBlend = 0.008;     // m, between the metacarpals
+constexpr double kThenarBlend = 0.013;   // m, between thumb and palm: the fold of skin
+constexpr double kFingerBlend = 0.0035;  // m, between fingers and palm: the webs
+constexpr double kKnuckleTaper = 0.62;   // a phalanx next to the palm has lost this much of its taper at kMiddle
+constexpr double kMiddle = 0.45;         // of a phalanx
+constexpr double kWristSpread = 0.45;    // of the wrist's half width: where the outer metacarpals begin
+constexpr double kWristWidth = 0.51;     // of one metacarpal tube at the wrist
+constexpr double kWristThickness = 0.51;
+constexpr double kWristOffset = 0.22;
+constexpr double kHeelAt = 0.38;         // the heel of the hand, as a fraction of the metacarpals
+constexpr double kHeelThickness = 0.73;  // of the wrist's section, which includes the root of the thumb
+constexpr double kHeelOffset = 0.79;
+constexpr double kKnuckleThickness = 0.88;
+constexpr double kKnuckleOffset = 0.83;
+constexpr double kThenarRoot = 0.94;
+constexpr double kThenarTaper = 0.70;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
+constexpr double kThenarMiddle = 0.36;
+
+// Polynomial smooth minimum: differs from min only where |a - b| < k, by at most k / 4.
+double smooth_min(double a, double b, double k) {
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * k * 0.25;
+}
+
+EllipticSection mix(const EllipticSection& a, const EllipticSection& b, double u) {
+  const auto lerp = [u](double x, double y) { return x + u * (y - x); };
+  return {lerp(a.half_x, b.half_x), lerp(a.half_y, b.half_y), lerp(a.centre_x, b.centre_x),
+          lerp(a.centre_y, b.centre_y)};
+}
+
+EllipticSection section_at(const SegmentProfile& s, int end) {
+  return {s.half_width[end], s.half_thickness[end], s.flesh_offset_x[end], s.flesh_offset_y[end]};
+}
+
+// Fingers fanned out, away from the middle one.
+HandPose spread_pose(const HandProfile& profile) {
+  std::array<JointAngles, kSegmentCount> angles{};
+  const double thumb_side =
+      profile.segments[segment_of(1, 0)].T_hand_segment.t.x() < profile.segments[segment_of(4, 0)].T_hand_segment.t.x()
+          ? 1.0
+          : -1.0;  // positive abduction turns the bone towards -x
+  angles[segment_of(1, 0)].abduction = 8 * kDegree * thumb_side;
+  angles[segment_of(3, 0)].abduction = -8 * kDegree * thumb_side;
+  angles[segment_of(4, 0)].abduction = -18 * kDegree * thumb_side;
+  return forward_kinematics(profile, profile.segments[kPalm].T_hand_segment, angles);
+}
+
+EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int segment) {
+  const SegmentProfile& s = profile.segments[segment];
+  EllipticTube tube;
+  tube.T_tube_hand = pose[segment].inverse();
+  tube.length = s.length;
+  tube.middle = kMiddle;
+  EllipticSection proximal = section_at(s, 0), distal = section_at(s, 1);
+  double taper = kMiddle;
+  if (segment == segment_of(0, 0)) {
+    proximal.half_x *= kThenarRoot;
+    proximal.half_y *= kThenarRoot;
+    distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
+    taper = kThenarMiddle;
+  } else if (parent_of(segment) == kPalm) {
+    taper = kKnuckleTaper;  // flesh around a knuckle thins out fast
+  }
+  tube.sections = {proximal, mix(proximal, distal, taper), distal};
+  // The tip's skin ends one distal radius beyond the tip joint; other ends only need to meet their neighbour.
+  tube.cap = {std::min(s.half_width[0], s.half_thickness[0]),
+              is_tip(segment) ? s.radius[1] : std::min(distal.half_x, distal.half_y)};
+  return tube;
+}
+
+// The palm under finger `finger` (1..4), from the wrist to the knuckle, in a frame whose -z runs along it. Its section
+// reaches from the outer border of the hand (or the neighbour's knuckle) across the neighbouring metacarpals.
+EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, int finger) {
+  const SE3& T_hand_palm = pose[kPalm];
+  const SegmentProfile& palm = profile.segments[kPalm];
+  const auto knuckle = [&](int f) { return Eigen::Vector3d(T_hand_palm.inverse() * pose[segment_of(f, 0)].t); };
+  const EllipticSection root = section_at(profile.segments[segment_of(finger, 0)], 0);
+  const EllipticSection wrist = section_at(palm, 0);
+
+  const double little_side = knuckle(4).x() > knuckle(1).x() ? 1.0 : -1.0;
+  // Towards a neighbour the tube runs on to that neighbour's bone: no groove between metacarpals.
+  const double reach_little = finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x;
+  const double reach_thumb = finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x;
+
+  // At the wrist the four tubes share the wrist's section.
+  const double slot = (finger - 2.5) / 4 * 2 * wrist.half_x * kWristSpread * little_side;
+  const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
+  const Eigen::Vector3d end = knuckle(finger);
+
+  const Eigen::Vector3d z = (start - end).normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
+  Eigen::Matrix3d R_palm_tube;
+  R_palm_tube << x, z.cross(x), z;
+  EllipticTube tube;
+  tube.T_tube_hand = (T_hand_palm * SE3{R_palm_tube, start}).inverse();
+  tube.length = (end - start).norm();
+  tube.middle = kHeelAt;
+  tube.sections[0] = {wrist.half_x * kWristWidth, wrist.half_y * kWristThickness, 0, wrist.centre_y * kWristOffset};
+  tube.sections[2] = {0.5 * (reach_little + reach_thumb), root.half_y * kKnuckleThickness,
+                      little_side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5,
+                      root.centre_y * kKnuckleOffset};
+  // The heel of the hand is thicker than the wrist and than a straight line to the knuckles.
+  tube.sections[1] = mix(tube.sections[0], tube.sections[2], tube.middle);
+  tube.sections[1].half_y = wrist.half_y * kHeelThickness;
+  tube.sections[1].centre_y = wrist.centre_y * kHeelOffset;
+  tube.cap = {0.004, std::min(root.half_x, root.half_y) * 0.8};
+  return tube;
+}
+
+}  // namespace
+
+double EllipticTube::distance(const Eigen::Vector3d& p_hand) const {
+  const Eigen::Vector3d p = T_tube_hand * p_hand;
+  const double along = -p.z();
+  const double u = std::clamp(along / length, 0.0, 1.0);
+  const EllipticSection e = u < middle ? mix(sections[0], sections[1], u / middle)
+                                       : mix(sections[1], sections[2], (u - middle) / (1 - middle));
+  const double beyond = along < 0 ? along / cap[0] : (along > length ? (along - length) / cap[1] : 0.0);
+  const double cap_here = along < 0 ? cap[0] : cap[1];
+  const Eigen::Vector3d q((p.x() - e.centre_x) / e.half_x, (p.y() - e.centre_y) / e.half_y, beyond);
+  const double rho = q.norm();
+  const double slope = Eigen::Vector3d(q.x() / e.half_x, q.y() / e.half_y, q.z() / cap_here).norm();
+  if (slope < 1e-9) return -std::min(e.half_x, e.half_y);
+  return (rho - 1) * rho / slope;  // first-order distance to the level set rho = 1
+}
+
+ImplicitHand::ImplicitHand(const HandProfile& profile) : pose_(spread_pose(profile)) {
+  for (int finger = 1; finger < kFingerCount; ++finger) tubes_.push_back(metacarpal_tube(profile, pose_, finger));
+  palm_tubes_ = static_cast<int>(tubes_.size());
+  for (int s = 1; s < kSegmentCount; ++s) tubes_.push_back(phalanx_tube(profile, pose_, s));
+}
+
+double ImplicitHand::segment_distance(int segment, const Eigen::Vector3d& p) const {
+  if (segment != kPalm) return tubes_[palm_tubes_ + segment - 1].distance(p);
+  double d = tubes_[0].distance(p);
+  for (int i = 1; i < palm_tubes_; ++i) d = smooth_min(d, tubes_[i].distance(p), kPalmBlend);
+  return d;
+}
+
+double ImplicitHand::distance(const Eigen::Vector3d& p) const {
+  double d = segment_distance(kPalm, p);
+  double fingers = std::numeric_limits<double>::max();
+  for (int finger = 0; finger < kFingerCount; ++finger) {
+    double chain = std::numeric_limits<double>::max();
+    for (int k = 0; k < 3; ++k) chain = std::min(chain, segment_distance(segment_of(finger, k), p));
+    if (finger == 0)
+      d = smooth_min(d, chain, kThenarBlend);
+    else
+      fingers = std::min(fingers, chain);
+  }
+  return smooth_min(d, fingers, kFingerBlend);
+}
+
+}  // namespace barehand

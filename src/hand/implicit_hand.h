@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hand/hand_pose.h"
+
+namespace barehand {
+
+/// Elliptic section of a tube: half axes and centre along x and y [m].
+struct EllipticSection {
+  double half_x = 0, half_y = 0, centre_x = 0, centre_y = 0;
+};
+
+/// Tube of elliptic sections around a bone with rounded ends: the building block of the smooth skin.
+/// In its own frame the bone runs from the origin along -z over `length`.
+struct EllipticTube {
+  SE3 T_tube_hand;
+  double length = 0;
+  double middle = 0.5;                      ///< where the second section lies, as a fraction of the length
+  std::array<EllipticSection, 3> sections;  ///< at 0, `middle` and 1; linear between
+  std::array<double, 2> cap{};              ///< how far the rounding reaches beyond each end [m]
+
+  /// Distance to the surface [m], first-order accurate near it; negative inside.
+  double distance(const Eigen::Vector3d& p_hand) const;
+};
+
+/// The hand as an implicit surface in a pose with spread fingers, so that neighbouring fingers do not melt together.
+/// Phalanges follow the profile's sections; the palm is built from one tube per finger between wrist and knuckle.
+class ImplicitHand {
+ public:
+  explicit ImplicitHand(const HandProfile& profile);
+
+  /// Signed distance [m] of a point in the hand frame; smooth where palm, thenar and fingers meet.
+  double distance(const Eigen::Vector3d& p) const;
+  /// Distance to the nearest tube of one segment alone.
+  double segment_distance(int segment, const Eigen::Vector3d& p) const;
+  /// The pose (T_hand_segment) in which the surface is built.
+  const HandPose& pose() const { return pose_; }
+
+ private:
+  HandPose pose_;
+  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15
+  int palm_tubes_ = 0;
+};
+
+}  // namespace barehand

@@ -1,0 +1,28 @@
+#include "hand/joint_linearisation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+
+JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment) {
+  const SE3& parent = pose[parent_of(segment)];
+  const SE3 rest = profile.rest_relative(segment);
+  JointLinearisation joint;
+  joint.lever = parent.R * rest.t;
+  joint.gap = parent.t + joint.lever - pose[segment].t;
+  joint.R_camera_joint = parent.R * rest.R;
+  joint.R_joint_segment = joint.R_camera_joint.transpose() * pose[segment].R;
+  joint.angles = joint_angles(joint.R_joint_segment);
+
+  // R = Ry(a) Rz(t) Rx(-f): angular velocity d = e_y a' + Ry e_z t' - Ry Rz e_x f', inverted in closed form.
+  const double ca = std::cos(joint.angles.abduction), sa = std::sin(joint.angles.abduction);
+  const double st = std::sin(joint.angles.twist);
+  const double ct = std::copysign(std::max(std::abs(std::cos(joint.angles.twist)), 1e-3), std::cos(joint.angles.twist));
+  joint.d_angles.row(0) << -ca / ct, 0, sa / ct;
+  joint.d_angles.row(1) << -st / ct * ca, 1, st / ct * sa;
+  joint.d_angles.row(2) << sa, 0, ca;
+  return joint;
+}
+
+}  // namespace barehand

@@ -1,0 +1,167 @@
+#include "hand/skin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hand/implicit_hand.h"
+#include "hand/joint_angles.h"
+#include "hand/surface_nets.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kWristCut = 0.012;  // skin ends this far behind the wrist joint [m]
+
+double smoothstep(double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+struct Binding {
+  int a, b;
+  double weight_b;
+};
+
+// Share of the distal segment across a joint, from the position along the distal bone.
+double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
+  const double along = -(pose[distal].inverse() * p).z();
+  const SegmentProfile& s = profile.segments[distal];
+  const double reach = 0.75 * std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
+  return smoothstep(0.5 + along / (2 * reach));
+}
+
+Binding blended(int parent, int child, double share_child) {
+  if (share_child <= 0) return {parent, parent, 0};
+  if (share_child >= 1) return {child, child, 0};
+  return share_child < 0.5 ? Binding{parent, child, share_child} : Binding{child, parent, 1 - share_child};
+}
+
+// Thumb and palm melt over a wide fold: bind by the relative depth inside both.
+Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
+  constexpr double kRange = 0.012;
+  const int thumb = segment_of(0, 0);
+  const double difference = hand.segment_distance(kPalm, p) - hand.segment_distance(thumb, p);
+  return blended(kPalm, thumb, smoothstep(0.5 + difference / (2 * kRange)));
+}
+
+Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3d& p) {
+  int nearest = kPalm;
+  double best = hand.segment_distance(kPalm, p);
+  for (int s = 1; s < kSegmentCount; ++s) {
+    const double d = hand.segment_distance(s, p);
+    if (d < best) best = d, nearest = s;
+  }
+  if (nearest == kPalm) {
+    // The nearest knuckle decides whether a finger already carries this point.
+    int finger = 0;
+    double nearest_finger = hand.segment_distance(segment_of(0, 0), p);
+    for (int f = 1; f < kFingerCount; ++f) {
+      const double d = hand.segment_distance(segment_of(f, 0), p);
+      if (d < nearest_finger) nearest_finger = d, finger = f;
+    }
+    if (finger == 0) return bind_thenar(hand, p);
+    const int child = segment_of(finger, 0);
+    return blended(kPalm, child, std::min(0.5, share_across_joint(profile, hand.pose(), child, p)));
+  }
+  if (nearest == segment_of(0, 0)) {
+    const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
+    return share_next > 0 ? blended(nearest, nearest + 1, share_next) : bind_thenar(hand, p);
+  }
+  if (!is_tip(nearest)) {
+    const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
+    if (share_next > 0) return blended(nearest, nearest + 1, share_next);
+  }
+  return blended(parent_of(nearest), nearest, share_across_joint(profile, hand.pose(), nearest, p));
+}
+
+}  // namespace
+
+Skin make_blended_skin(const HandProfile& profile, double cell) {
+  const ImplicitHand hand(profile);
+  const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
+  Vector3d lower = hand.pose()[kPalm].t, upper = lower;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    for (const Vector3d& end : {proximal_end(hand.pose(), s), distal_end(profile, hand.pose(), s)}) {
+      lower = lower.cwiseMin(end);
+      upper = upper.cwiseMax(end);
+    }
+  }
+  const Vector3d margin = Vector3d::Constant(0.045);
+  const TriangleMesh mesh = extract_surface(distance, lower - margin, upper + margin, cell);
+
+  Skin skin;
+  skin.vertices.reserve(mesh.vertices.size());
+  std::vector<bool> beyond_wrist;
+  const SE3 T_palm_hand = hand.pose()[kPalm].inverse();
+  for (const Vector3d& p : mesh.vertices) {
+    const Binding binding = bind(hand, profile, p);
+    SkinVertex v;
+    v.a = static_cast<std::int16_t>(binding.a);
+    v.b = static_cast<std::int16_t>(binding.b);
+    v.weight_b = static_cast<float>(binding.weight_b);
+    v.in_a = (hand.pose()[binding.a].inverse() * p).cast<float>();
+    v.in_b = (hand.pose()[binding.b].inverse() * p).cast<float>();
+    v.normal_in_a = (hand.pose()[binding.a].R.transpose() * surface_normal(distance, p)).cast<float>();
+    skin.vertices.push_back(v);
+    beyond_wrist.push_back((T_palm_hand * p).z() > kWristCut);
+  }
+  for (const auto& t : mesh.triangles)
+    if (!(beyond_wrist[t[0]] && beyond_wrist[t[1]] && beyond_wrist[t[2]])) skin.triangles.push_back({t[0], t[1], t[2]});
+  return skin;
+}
+
+void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& posed) {
+  std::array<Eigen::Matrix3f, kSegmentCount> R;
+  std::array<Vector3f, kSegmentCount> t;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    R[s] = pose[s].R.cast<float>();
+    t[s] = pose[s].t.cast<float>();
+  }
+  posed.resize(skin.vertices.size());
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
+    const SkinVertex& v = skin.vertices[i];
+    posed[i] = R[v.a] * v.in_a + t[v.a];
+    if (v.weight_b > 0) posed[i] += v.weight_b * (R[v.b] * v.in_b + t[v.b] - posed[i]);
+  }
+}
+
+HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment) {
+  // A vertex stands for a third of each triangle around it.
+  HandPose rest;
+  for (int s = 0; s < kSegmentCount; ++s) rest[s] = profile.segments[s].T_hand_segment;
+  std::vector<Vector3f> posed;
+  pose_skin(skin, rest, posed);
+  std::vector<float> area(skin.vertices.size(), 0);
+  for (const auto& t : skin.triangles) {
+    const float third = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]).norm() / 6;
+    for (int corner : t) area[corner] += third;
+  }
+  std::array<std::vector<int>, kSegmentCount> members;
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i)
+    if (area[i] > 0) members[skin.vertices[i].a].push_back(static_cast<int>(i));
+
+  HandSurface surface;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const int count = static_cast<int>(members[s].size());
+    const int kept = std::min(count, points_per_segment);
+    float total = 0, kept_area = 0;
+    for (int i : members[s]) total += area[i];
+    SegmentSurface& out = surface[s];
+    for (int k = 0; k < kept; ++k) {
+      // Vertices come in grid order, so equal steps through them spread evenly over the surface.
+      const int i = members[s][static_cast<std::size_t>(k) * count / kept];
+      const SkinVertex& v = skin.vertices[i];
+      out.x.push_back(v.in_a.x()), out.y.push_back(v.in_a.y()), out.z.push_back(v.in_a.z());
+      out.nx.push_back(v.normal_in_a.x()), out.ny.push_back(v.normal_in_a.y()), out.nz.push_back(v.normal_in_a.z());
+      out.area.push_back(area[i]);
+      kept_area += area[i];
+    }
+    for (float& a : out.area) a *= total / kept_area;
+  }
+  return surface;
+}
+
+}  // namespace barehand

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace barehand {
+
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
+};
+
+/// Zero level set of a signed distance (negative inside) within a box, by naive surface nets (Gibson 1998) on a grid
+/// of the given cell size, its vertices moved onto the surface along the gradient.
+TriangleMesh extract_surface(const std::function<double(const Eigen::Vector3d&)>& distance,
+                             const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell);
+
+/// Unit outward normal of a signed distance by central differences.
+Eigen::Vector3d surface_normal(const std::function<double(const Eigen::Vector3d&)>& distance, const Eigen::Vector3d& p);
+
+}  // namespace barehand

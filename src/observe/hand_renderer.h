@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "hand/skin.h"
+#include "math/camera.h"
+
+namespace barehand {
+
+/// Every `stride`-th pixel of a rectangle of the camera image: cell (i, j) is pixel (u0 + i stride, v0 + j stride).
+struct CellGrid {
+  int u0 = 0, v0 = 0, stride = 1, width = 0, height = 0;
+};
+
+/// A posed skin seen by the camera at the cells of a grid. Buffers keep their allocation from render to render.
+struct RenderedHand {
+  CellGrid grid;
+  Image<float> depth;                             ///< z of the front-most skin [m]; 0 = no skin
+  Image<std::int32_t> vertex;                     ///< skin vertex that carries the cell; -1 = no skin
+  std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]
+  std::array<int, kSegmentCount> projected{};     ///< cells that a segment's camera-facing skin covers, hidden or not
+};
+
+/// Z-buffer rendering of the skin triangles that face the camera (paper Sec. 4.1 "rendered into a depth image").
+void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camera, const CellGrid& grid,
+                 RenderedHand& out);
+
+}  // namespace barehand

@@ -1,0 +1,119 @@
+#include "observe/model_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "observe/nearest_cell.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+using Kind = Correspondence::Kind;
+
+constexpr float kReferenceArea = 5e-6f;  // [m^2]: 2 pixels at 0.6 m and 525 px
+constexpr float kWristMargin = 0.010f;   // data this far behind the wrist belongs to the forearm [m]
+
+class Comparer {
+ public:
+  Comparer(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+           const ComparisonParams& params, ModelComparison& out)
+      : obs_(observation), skin_(skin), rendered_(rendered), params_(params), out_(out) {
+    const SE3 T_palm_camera = pose[kPalm].inverse();
+    wrist_axis_ = T_palm_camera.R.row(2).cast<float>();
+    wrist_offset_ = static_cast<float>(T_palm_camera.t.z());
+    const Intrinsics& c = obs_.frame->camera;
+    cell_area_per_z_sq_ = static_cast<float>(params.stride * params.stride / (c.fx * c.fy)) / kReferenceArea;
+  }
+
+  void run() {
+    out_.correspondences.clear();
+    out_.visible.fill(0);
+    out_.matched.fill(0);
+    nearest_occupied(rendered_.vertex, out_.nearest_model);
+    const CellGrid& g = rendered_.grid;
+    for (int j = 0; j < g.height; ++j)
+      for (int i = 0; i < g.width; ++i) {
+        const int u = i * g.stride, v = j * g.stride;
+        if (rendered_.vertex.at(i, j) >= 0)
+          judge_model(i, j, u, v);
+        else if (obs_.label.at(u, v) == PixelLabel::hand)
+          judge_unexplained(i, j, u, v);
+      }
+    out_.score = total_weight_ > 0 ? total_ / total_weight_ : params_.distance_cap;
+  }
+
+ private:
+  Vector3f model_point(int i, int j) const {
+    const Intrinsics& c = obs_.frame->camera;
+    const CellGrid& g = rendered_.grid;
+    const float z = rendered_.depth.at(i, j);
+    return {static_cast<float>((g.u0 + i * g.stride - c.cx) / c.fx) * z,
+            static_cast<float>((g.v0 + j * g.stride - c.cy) / c.fy) * z, z};
+  }
+
+  void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
+    const int vertex = rendered_.vertex.at(i, j);
+    const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
+    const float weight = cell_area_per_z_sq_ * z * z;
+    out_.correspondences.push_back({kind, vertex, model_point(i, j), rendered_.normal[vertex], data, weight});
+    total_ += weight * std::min<double>(cost_distance, params_.distance_cap);
+    total_weight_ += weight;
+  }
+
+  void judge_model(int i, int j, int u, int v) {
+    const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
+    const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
+    const PixelLabel label = obs_.label.at(u, v);
+    if (label == PixelLabel::unknown || z_data <= 0) {
+      ++out_.visible[segment];  // a hole in the data does not hide the segment
+      return;
+    }
+    if (label == PixelLabel::hand) {
+      ++out_.visible[segment];
+      if (std::abs(z_data - z_model) < params_.self_occlusion) ++out_.matched[segment];
+      add(Kind::surface, i, j, obs_.point(u, v), std::abs(z_data - z_model));
+      return;
+    }
+    // What is not hand and in front of the model hides it; behind the model it contradicts it.
+    const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
+    if (z_data < z_model + tolerance) return;
+    ++out_.visible[segment];
+    const std::int32_t nearest = obs_.nearest_hand.at(u, v);
+    if (nearest < 0) return;
+    const Vector3f data = obs_.point(nearest);
+    add(Kind::outside, i, j, data, (data - model_point(i, j)).norm());  // Eq. 1
+  }
+
+  void judge_unexplained(int i, int j, int u, int v) {
+    const Vector3f data = obs_.point(u, v);
+    if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // forearm
+    const std::int32_t nearest = out_.nearest_model.at(i, j);
+    if (nearest < 0) return;
+    const int mi = nearest % rendered_.grid.width, mj = nearest / rendered_.grid.width;
+    add(Kind::unexplained, mi, mj, data, (data - model_point(mi, mj)).norm());
+  }
+
+  const HandObservation& obs_;
+  const Skin& skin_;
+  const RenderedHand& rendered_;
+  const ComparisonParams& params_;
+  ModelComparison& out_;
+  Vector3f wrist_axis_;
+  float wrist_offset_ = 0, cell_area_per_z_sq_ = 0;
+  double total_ = 0, total_weight_ = 0;
+};
+
+}  // namespace
+
+CellGrid grid_of(const HandObservation& observation, int stride) {
+  return {observation.u0, observation.v0, stride, (observation.depth.width() + stride - 1) / stride,
+          (observation.depth.height() + stride - 1) / stride};
+}
+
+void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+             const ComparisonParams& params, ModelComparison& out) {
+  Comparer(observation, skin, pose, rendered, params, out).run();
+}
+
+}  // namespace barehand

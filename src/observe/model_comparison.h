@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "observe/hand_renderer.h"
+#include "observe/observation.h"
+
+namespace barehand {
+
+struct ComparisonParams {
+  int stride = 2;                      ///< compare every n-th pixel of the region of interest
+  double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
+  double occlusion_tolerance = 0.004;  ///< m, an object this far behind the model may still hide it
+  double self_occlusion = 0.010;  ///< m, hand data this far in front of the model belongs to another part (Sec. 4.2)
+};
+
+template <class V>
+void visit(V& v, ComparisonParams& p) {
+  v("stride", p.stride, 1, 16, "compare every n-th pixel of the region of interest");
+  v("distance_cap", p.distance_cap, 1e-3, 0.2, "m, no pixel costs more than this in the global score");
+  v("occlusion_tolerance", p.occlusion_tolerance, 0.0, 0.05,
+    "m, an object this far behind the model may still hide it");
+  v("self_occlusion", p.self_occlusion, 1e-3, 0.1,
+    "m, hand data this far in front of the model is another part (Sec. 4.2)");
+}
+
+/// One piece of evidence: where the model's skin should move to.
+struct Correspondence {
+  enum class Kind { surface, outside, unexplained };
+  Kind kind;
+  int vertex;                           ///< skin vertex that carries the model point
+  Eigen::Vector3f model, normal, data;  ///< camera frame [m]
+  float weight;                         ///< skin area of the cell relative to 5 mm^2
+};
+
+/// Evidence of a whole rendered hand against an observation, in both directions: model explained by data (surface,
+/// outside) and data explained by model (unexplained). Missing depth is no evidence.
+struct ModelComparison {
+  std::vector<Correspondence> correspondences;
+  double score = 0;  ///< mean capped distance over all evidence [m]; lower is better; the cap if there is none
+  std::array<int, kSegmentCount> visible{};  ///< cells in which a segment is front-most and not behind an object
+  std::array<int, kSegmentCount> matched{};  ///< of these, cells with hand data near the model
+  Image<std::int32_t> nearest_model;         ///< scratch: nearest model cell of every cell
+};
+
+/// Cells of the whole region of interest.
+CellGrid grid_of(const HandObservation& observation, int stride);
+
+void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+             const ComparisonParams& params, ModelComparison& out);
+
+}  // namespace barehand

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+
+#include "hand/gaussian_tree.h"
+#include "hand/joint_angles.h"
+#include "observe/model_comparison.h"
+
+namespace barehand {
+
+/// Weights of the continuous energy: the negative logarithm of the paper's likelihood (Eq. 3) and constraints
+/// (Eq. 4-6), made robust and taken over all segments at once.
+struct EnergyParams {
+  double sigma_depth = 0.002;        ///< m, of a surface distance
+  double robust_scale = 0.004;       ///< m, Geman-McClure scale of surface distances
+  double gate = 0.015;               ///< m, larger surface distances are ignored
+  double silhouette_scale = 0.008;   ///< m, Geman-McClure scale of silhouette distances
+  double silhouette_gate = 0.040;    ///< m, larger silhouette distances are ignored
+  double weight_outside = 0.5;       ///< of model pixels where the data shows no hand
+  double weight_unexplained = 1.0;   ///< of hand data that no model pixel explains
+  double sigma_gap = 0.0005;         ///< m, joint gap (Eq. 5)
+  double sigma_angle_deg = 2.0;      ///< angles beyond the limits, and twist (Eq. 6)
+  double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (Sec. 4.3)
+  double prior_translation = 0.05;   ///< m, pull of the palm to its prediction
+  double prior_rotation_deg = 30.0;  ///< pull of the palm and of seen joints to their prediction
+  double prior_unseen_deg = 4.0;     ///< pull of unseen joints to their prediction
+};
+
+template <class V>
+void visit(V& v, EnergyParams& p) {
+  v("sigma_depth", p.sigma_depth, 1e-4, 0.05, "m, of a surface distance");
+  v("robust_scale", p.robust_scale, 5e-4, 0.1, "m, Geman-McClure scale of surface distances");
+  v("gate", p.gate, 1e-3, 0.2, "m, larger surface distances are ignored");
+  v("silhouette_scale", p.silhouette_scale, 5e-4, 0.1, "m, Geman-McClure scale of silhouette distances");
+  v("silhouette_gate", p.silhouette_gate, 1e-3, 0.5, "m, larger silhouette distances are ignored");
+  v("weight_outside", p.weight_outside, 0.0, 10.0, "of model pixels where the data shows no hand");
+  v("weight_unexplained", p.weight_unexplained, 0.0, 10.0, "of hand data that no model pixel explains");
+  v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, joint gap (Eq. 5)");
+  v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0, "degrees, angles beyond the limits and twist (Eq. 6)");
+  v("limit_widening_deg", p.limit_widening_deg, 0.0, 60.0, "degrees, joint limits widened for contact (Sec. 4.3)");
+  v("prior_translation", p.prior_translation, 1e-4, 10.0, "m, pull of the palm to its prediction");
+  v("prior_rotation_deg", p.prior_rotation_deg, 0.1, 3600.0,
+    "degrees, pull of the palm and seen joints to their prediction");
+  v("prior_unseen_deg", p.prior_unseen_deg, 0.1, 3600.0, "degrees, pull of unseen joints to their prediction");
+}
+
+/// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
+/// correspondence pulls along the model's normal, a silhouette one in the image plane (and in depth where data is
+/// unexplained). Adds to `tree`; returns the robust energy.
+double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
+                      const EnergyParams& params, double widening, GaussianTree& tree);
+
+/// Soft joints (Eq. 4-6) as least squares: gap, flexion and abduction beyond their limits, twist. Returns the energy.
+double add_joint_terms(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
+                       const HandPose& pose, const EnergyParams& params, GaussianTree& tree);
+
+/// Pull to the predicted pose: the palm in the camera frame, every joint relative to its parent; `seen[s]` in [0, 1].
+double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
+                       const std::array<double, kSegmentCount>& seen, const HandPose& pose, const EnergyParams& params,
+                       GaussianTree& tree);
+
+}  // namespace barehand

@@ -1,0 +1,81 @@
+#include "stages/refinement/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+constexpr double kDegree = 0.017453292519943295;
+}
+
+Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
+                       std::shared_ptr<const Skin> skin)
+    : params_(params),
+      profile_(std::move(profile)),
+      skin_(std::move(skin)),
+      limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)) {}
+
+void Refinement::compare_at(const HandObservation& observation, const HandPose& pose) {
+  render_hand(*skin_, pose, observation.frame->camera, grid_of(observation, params_.comparison.stride), rendered_);
+  compare(observation, *skin_, pose, rendered_, params_.comparison, comparison_);
+}
+
+void Refinement::summarise(RefinedPose& result) const {
+  result.score = comparison_.score;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const double projected = std::max(1, rendered_.projected[s]);
+    result.visible[s] = std::min(1.0, comparison_.visible[s] / projected);
+    result.matched[s] = std::min(1.0, comparison_.matched[s] / projected);
+  }
+}
+
+bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening,
+                      HandPose& pose) {
+  tree_.set_zero();
+  add_data_terms(*skin_, pose, comparison_, params_.energy, widening, tree_);
+  add_joint_terms(*profile_, limits_, pose, params_.energy, tree_);
+  add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree_);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    tree_.H_self[s].diagonal() *= 1 + params_.damping;
+    tree_.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
+  }
+  std::array<Vector6d, kSegmentCount> x;
+  if (!tree_.solve(x)) return false;
+  // One scale for the whole hand, so that a long step keeps the joints closed.
+  double scale = 1;
+  for (const Vector6d& twist : x) {
+    scale = std::min(scale, params_.max_translation / std::max(twist.head<3>().norm(), 1e-12));
+    scale = std::min(scale, params_.max_rotation_deg * kDegree / std::max(twist.tail<3>().norm(), 1e-12));
+  }
+  for (int s = 0; s < kSegmentCount; ++s) {
+    pose[s] = boxplus(pose[s], scale * x[s]);
+    pose[s].R = orthonormalised(pose[s].R);
+  }
+  return true;
+}
+
+RefinedPose Refinement::evaluate(const HandObservation& observation, const HandPose& pose) {
+  RefinedPose result;
+  result.pose = pose;
+  compare_at(observation, pose);
+  summarise(result);
+  return result;
+}
+
+RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
+                               const std::array<double, kSegmentCount>& seen, int iterations) {
+  HandPose pose = start;
+  compare_at(observation, pose);
+  for (int i = 0; i < iterations; ++i) {
+    const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
+    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), pose)) break;
+    compare_at(observation, pose);
+  }
+  RefinedPose result;
+  result.pose = pose;
+  summarise(result);
+  if (!tree_.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);
+  return result;
+}
+
+}  // namespace barehand

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+
+#include "stages/refinement/hand_energy.h"
+
+namespace barehand {
+
+struct RefinementParams {
+  bool enabled = true;
+  int iterations = 5;             ///< Gauss-Newton steps from the best hypothesis
+  double damping = 1e-3;          ///< relative Levenberg damping
+  double first_widening = 2;      ///< gates and robust scales start this much wider and shrink to 1
+  double max_translation = 0.02;  ///< m, longest step of a segment
+  double max_rotation_deg = 25;   ///< largest turn of a segment in one step
+  ComparisonParams comparison;
+  EnergyParams energy;
+};
+
+template <class V>
+void visit(V& v, RefinementParams& p) {
+  v("enabled", p.enabled, "continuous refinement after the last level; false is the paper's method");
+  v("iterations", p.iterations, 0, 100, "Gauss-Newton steps from the best hypothesis");
+  v("damping", p.damping, 0.0, 1.0, "relative Levenberg damping");
+  v("first_widening", p.first_widening, 1.0, 10.0, "gates and robust scales start this much wider and shrink to 1");
+  v("max_translation", p.max_translation, 1e-3, 1.0, "m, longest step of a segment");
+  v("max_rotation_deg", p.max_rotation_deg, 1.0, 180.0, "degrees, largest turn of a segment in one step");
+  v("comparison", p.comparison, "model against data, pixel by pixel");
+  v("energy", p.energy, "weights of the energy");
+}
+
+/// A pose, how well it explains the frame, and what was seen of each segment there.
+struct RefinedPose {
+  HandPose pose;
+  double score = 0;                                  ///< ModelComparison::score [m]
+  std::array<double, kSegmentCount> visible{};       ///< fraction of the projected skin that is front-most
+  std::array<double, kSegmentCount> matched{};       ///< fraction of the projected skin that agrees with hand data
+  std::array<Matrix6d, kSegmentCount> covariance{};  ///< marginals of the Gaussian at the optimum (boxplus twist)
+};
+
+/// Robust Gauss-Newton on all 96 numbers with the paper's soft joints: one model with the sampler, since the energy is
+/// the negative log of Eq. 3 and Eq. 4-6. Not thread-safe: keeps its buffers.
+class Refinement {
+ public:
+  Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
+             std::shared_ptr<const Skin> skin);
+
+  /// Moves `start` to a nearby optimum. `predicted` is the weak prior; `seen[s]` in [0, 1] says how far segment s may
+  /// leave it freely.
+  RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
+                     const std::array<double, kSegmentCount>& seen, int iterations);
+  /// Score and visibility of a pose as it is.
+  RefinedPose evaluate(const HandObservation& observation, const HandPose& pose);
+
+ private:
+  void compare_at(const HandObservation& observation, const HandPose& pose);
+  void summarise(RefinedPose& result) const;
+  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, HandPose& pose);
+
+  RefinementParams params_;
+  std::shared_ptr<const HandProfile> profile_;
+  std::shared_ptr<const Skin> skin_;
+  std::array<JointLimits, kSegmentCount> limits_;
+  RenderedHand rendered_;
+  ModelComparison comparison_;
+  GaussianTree tree_;
+};
+
+}  // namespace barehand

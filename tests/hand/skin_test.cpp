@@ -1,0 +1,77 @@
+#include "hand/skin.h"
+
+#include "support/adult_hand.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+class SkinTest : public ::testing::Test {
+ protected:
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  Skin skin_ = make_blended_skin(*profile_, 0.004);
+};
+
+TEST_F(SkinTest, BindsEveryVertexToAdjacentSegmentsOnly) {
+  for (const SkinVertex& v : skin_.vertices) {
+    EXPECT_GE(v.weight_b, 0);
+    EXPECT_LE(v.weight_b, 0.5f);
+    EXPECT_TRUE(v.a == v.b || parent_of(v.a) == v.b || parent_of(v.b) == v.a) << v.a << " " << v.b;
+  }
+}
+
+TEST_F(SkinTest, FingertipsEndOneRadiusBeyondTheTipJoint) {
+  const HandPose pose = test::facing_pose(*profile_, 0.5, 0.0);
+  std::vector<Vector3f> posed;
+  pose_skin(skin_, pose, posed);
+  for (int finger = 0; finger < kFingerCount; ++finger) {
+    const int tip = segment_of(finger, 2);
+    const SegmentProfile& s = profile_->segments[tip];
+    double reach = 0;
+    for (std::size_t i = 0; i < posed.size(); ++i)
+      if (skin_.vertices[i].a == tip) reach = std::max(reach, -(pose[tip].inverse() * posed[i].cast<double>()).z());
+    EXPECT_NEAR(reach, s.length + s.radius[1], 0.0015) << finger;
+  }
+}
+
+TEST_F(SkinTest, FollowsARigidMotionOfTheWholeHand) {
+  const HandPose pose = test::facing_pose(*profile_, 0.5, 0.6);
+  const SE3 motion{exp_so3({0.3, -0.8, 0.2}), {0.02, -0.1, 0.3}};
+  HandPose moved = pose;
+  for (SE3& T : moved) T = motion * T;
+  std::vector<Vector3f> before, after;
+  pose_skin(skin_, pose, before);
+  pose_skin(skin_, moved, after);
+  for (std::size_t i = 0; i < before.size(); i += 37)
+    EXPECT_LT((motion * before[i].cast<double>() - after[i].cast<double>()).norm(), 1e-5);
+}
+
+TEST_F(SkinTest, ThicknessFollowsTheProfile) {
+  // Half way along the middle finger's second phalanx the skin is as wide as the profile's sections say.
+  const int s = segment_of(2, 1);
+  const SegmentProfile& segment = profile_->segments[s];
+  double widest = 0;
+  for (const SkinVertex& v : skin_.vertices)
+    if (v.a == s && std::abs(-v.in_a.z() - 0.5 * segment.length) < 0.004)
+      widest = std::max<double>(widest, std::abs(v.in_a.x()));
+  EXPECT_NEAR(widest, 0.5 * (segment.half_width[0] + segment.half_width[1]), 0.001);
+}
+
+TEST_F(SkinTest, SurfacePointsCarryTheWholeArea) {
+  const HandSurface few = surface_points(skin_, *profile_, 20), many = surface_points(skin_, *profile_, 100000);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto total = [](const SegmentSurface& part) {
+      double sum = 0;
+      for (float a : part.area) sum += a;
+      return sum;
+    };
+    EXPECT_LE(few[s].size(), 20u);
+    EXPECT_GT(few[s].size(), 10u);
+    EXPECT_NEAR(total(few[s]), total(many[s]), 1e-3 * total(many[s])) << s;
+  }
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,64 @@
+#include "observe/hand_renderer.h"
+
+#include <limits>
+
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+// Nearest camera-facing triangle along the ray of a pixel (Moeller-Trumbore); 0 = none.
+double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, const Eigen::Vector3d& ray) {
+  double nearest = std::numeric_limits<double>::max();
+  for (const auto& t : skin.triangles) {
+    const Eigen::Vector3d a = posed[t[0]].cast<double>(), ab = posed[t[1]].cast<double>() - a,
+                          ac = posed[t[2]].cast<double>() - a;
+    const Eigen::Vector3d p = ray.cross(ac);
+    const double det = ab.dot(p);
+    if (det < 1e-14) continue;  // seen from behind
+    const double u = -a.dot(p) / det;
+    const Eigen::Vector3d q = (-a).cross(ab);
+    const double v = ray.dot(q) / det, depth = ac.dot(q) / det;
+    if (u >= 0 && v >= 0 && u + v <= 1 && depth > 0) nearest = std::min(nearest, depth);
+  }
+  return nearest == std::numeric_limits<double>::max() ? 0 : nearest;
+}
+
+TEST(RenderHand, AgreesWithRayCasting) {
+  const auto profile = test::adult_hand();
+  const Skin skin = make_blended_skin(*profile, 0.005);
+  const HandPose pose = test::facing_pose(*profile, 0.45, 0.9);
+  const Intrinsics camera = test::small_camera();
+  RenderedHand rendered;
+  render_hand(skin, pose, camera, {7, 3, 3, 100, 75}, rendered);
+  int covered = 0, differ = 0;
+  for (int j = 0; j < 75; j += 2)
+    for (int i = 0; i < 100; i += 2) {
+      const double expected = ray_cast(skin, rendered.position, camera.unproject(7 + 3 * i, 3 + 3 * j, 1.0));
+      const double depth = rendered.depth.at(i, j);
+      if ((expected > 0) != (depth > 0)) {
+        ++differ;  // a ray may pass exactly through an edge
+      } else {
+        EXPECT_NEAR(depth, expected, 1e-4) << i << "," << j;
+      }
+      covered += expected > 0;
+    }
+  EXPECT_GT(covered, 50);
+  EXPECT_LE(differ, 1);
+}
+
+TEST(RenderHand, CountsHiddenSkinAsProjected) {
+  const auto profile = test::adult_hand();
+  const Skin skin = make_blended_skin(*profile, 0.005);
+  RenderedHand rendered;
+  const CellGrid grid{0, 0, 1, 320, 240};
+  render_hand(skin, test::facing_pose(*profile, 0.45, 1.4), test::small_camera(), grid, rendered);
+  std::array<int, kSegmentCount> front{};
+  for (std::size_t i = 0; i < rendered.vertex.size(); ++i)
+    if (rendered.vertex[i] >= 0) ++front[skin.vertices[rendered.vertex[i]].a];
+  const int proximal = segment_of(2, 0);  // behind the curled fingertips
+  EXPECT_LT(front[proximal], rendered.projected[proximal] / 2);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,95 @@
+#include "observe/model_comparison.h"
+
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+class CompareTest : public ::testing::Test {
+ protected:
+  ModelComparison compare_at(const HandObservation& observation, const HandPose& pose) {
+    RenderedHand rendered;
+    render_hand(skin_, pose, observation.frame->camera, grid_of(observation, params_.stride), rendered);
+    projected_ = rendered.projected;
+    ModelComparison out;
+    compare(observation, skin_, pose, rendered, params_, out);
+    return out;
+  }
+  HandPose shifted(const Eigen::Vector3d& by) const {
+    HandPose pose = pose_;
+    for (SE3& T : pose) T.t += by;
+    return pose;
+  }
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  Skin skin_ = make_blended_skin(*profile_, 0.005);
+  HandPose pose_ = test::facing_pose(*profile_, 0.45);
+  std::shared_ptr<HandObservation> observation_ = test::observe_skin(skin_, pose_);
+  ComparisonParams params_;
+  std::array<int, kSegmentCount> projected_{};
+};
+
+TEST_F(CompareTest, ScoreIsZeroAtTheTruthAndGrowsWithDisplacement) {
+  EXPECT_LT(compare_at(*observation_, pose_).score, 1e-5);
+  const double near = compare_at(*observation_, shifted({0.002, 0, 0})).score;
+  const double far = compare_at(*observation_, shifted({0.008, 0, 0})).score;
+  EXPECT_GT(near, 1e-4);
+  EXPECT_GT(far, 2 * near);
+}
+
+TEST_F(CompareTest, DepthShiftCostsItsLength) {
+  EXPECT_NEAR(compare_at(*observation_, shifted({0, 0, 0.005})).score, 0.005, 0.001);
+}
+
+TEST_F(CompareTest, UnexplainedDataCosts) {
+  // Tracker's fingers curled away from visible, straight ones: the data in their place must count.
+  const ModelComparison curled = compare_at(*observation_, test::facing_pose(*profile_, 0.45, 1.3));
+  int unexplained = 0;
+  for (const Correspondence& c : curled.correspondences) unexplained += c.kind == Correspondence::Kind::unexplained;
+  EXPECT_GT(unexplained, 50);
+  EXPECT_GT(curled.score, 0.003);
+}
+
+TEST_F(CompareTest, MissingDepthIsNoEvidence) {
+  for (std::size_t i = 0; i < observation_->label.size(); ++i) {
+    observation_->label[i] = PixelLabel::unknown;
+    observation_->depth[i] = 0;
+  }
+  const ModelComparison comparison = compare_at(*observation_, pose_);
+  EXPECT_TRUE(comparison.correspondences.empty());
+  EXPECT_EQ(comparison.score, params_.distance_cap);
+}
+
+TEST_F(CompareTest, AnObjectInFrontHidesWithoutContradicting) {
+  for (int v = 0; v < 100; ++v)
+    for (int u = 0; u < 320; ++u) {
+      observation_->label.at(u, v) = PixelLabel::object;
+      observation_->depth.at(u, v) = 0.3f;
+    }
+  const ModelComparison comparison = compare_at(*observation_, pose_);
+  EXPECT_LT(comparison.score, 1e-5);
+  const int tip = segment_of(2, 2);
+  EXPECT_GT(projected_[tip], 0);
+  EXPECT_EQ(comparison.visible[tip], 0);
+}
+
+TEST_F(CompareTest, AnObjectBehindContradicts) {
+  for (int v = 0; v < 100; ++v)
+    for (int u = 0; u < 320; ++u) {
+      observation_->label.at(u, v) = PixelLabel::object;
+      observation_->depth.at(u, v) = 0.6f;
+    }
+  EXPECT_GT(compare_at(*observation_, pose_).score, 0.002);
+}
+
+TEST_F(CompareTest, ForearmIsNotUnexplained) {
+  // Hand-like data far behind the wrist (below it in the image).
+  for (int v = 220; v < 240; ++v)
+    for (int u = 140; u < 180; ++u) {
+      observation_->label.at(u, v) = PixelLabel::hand;
+      observation_->depth.at(u, v) = 0.45f;
+    }
+  EXPECT_LT(compare_at(*observation_, pose_).score, 1e-5);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,127 @@
+#include "stages/refinement/hand_energy.h"
+
+#include "math/random.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+class EnergyTest : public ::testing::Test {
+ protected:
+  EnergyTest() {
+    pose_ = test::facing_pose(*profile_, 0.45, 0.5);
+    KeyedRandom random(1, 1);
+    for (SE3& T : pose_) {
+      Vector6d twist;
+      for (int i = 0; i < 6; ++i) twist[i] = random.uniform(-1, 1) * (i < 3 ? 0.002 : 0.25);
+      T = boxplus(T, twist);
+    }
+  }
+
+  // Random evidence of every kind, attached to skin vertices.
+  ModelComparison evidence() const {
+    ModelComparison comparison;
+    KeyedRandom random(1, 2);
+    std::vector<Eigen::Vector3f> posed;
+    pose_skin(skin_, pose_, posed);
+    for (int i = 0; i < 300; ++i) {
+      Correspondence c;
+      c.kind = static_cast<Correspondence::Kind>(i % 3);
+      c.vertex = static_cast<int>(random.bits() % posed.size());
+      c.model = posed[c.vertex];
+      c.normal = Eigen::Vector3f(random.normal(), random.normal(), random.normal()).normalized();
+      c.data = c.model + 0.003f * Eigen::Vector3f(random.normal(), random.normal(), random.normal());
+      c.weight = 1;
+      comparison.correspondences.push_back(c);
+    }
+    return comparison;
+  }
+
+  // Energy with the evidence's model points carried along by the skin.
+  double data_energy(ModelComparison comparison, const HandPose& pose) const {
+    for (Correspondence& c : comparison.correspondences) {
+      const SkinVertex& v = skin_.vertices[c.vertex];
+      const auto carried = [&](int s) { return pose[s] * (pose_[s].inverse() * c.model.cast<double>()); };
+      c.model = ((1 - v.weight_b) * carried(v.a) + v.weight_b * carried(v.b)).cast<float>();
+    }
+    GaussianTree unused;
+    unused.set_zero();
+    return add_data_terms(skin_, pose, comparison, params_, 1, unused);
+  }
+
+  // Largest relative deviation of -g from half the numeric gradient of `energy`.
+  template <class Energy>
+  double gradient_error(const Energy& energy, const GaussianTree& tree, double step) const {
+    double worst = 0, scale = 0;
+    for (int s = 0; s < kSegmentCount; ++s)
+      for (int i = 0; i < 6; ++i) {
+        const auto at = [&](double h) {
+          HandPose moved = pose_;
+          moved[s] = boxplus(moved[s], h * Vector6d::Unit(i));
+          return energy(moved);
+        };
+        const double numeric = 0.5 * (at(step) - at(-step)) / (2 * step);
+        worst = std::max(worst, std::abs(numeric + tree.g[s][i]));
+        scale = std::max(scale, std::abs(numeric));
+      }
+    return worst / scale;
+  }
+
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  Skin skin_ = make_blended_skin(*profile_, 0.006);
+  EnergyParams params_;
+  HandPose pose_;
+};
+
+TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
+  const ModelComparison comparison = evidence();
+  GaussianTree tree;
+  tree.set_zero();
+  add_data_terms(skin_, pose_, comparison, params_, 1, tree);
+  const auto energy = [&](const HandPose& pose) { return data_energy(comparison, pose); };
+  EXPECT_LT(gradient_error(energy, tree, 1e-3), 0.02);  // single-precision points bound the accuracy
+  tree.g[segment_of(1, 1)] *= 0.5;
+  EXPECT_GT(gradient_error(energy, tree, 1e-3), 0.05) << "the check must notice a wrong gradient";
+}
+
+TEST_F(EnergyTest, JointGradientMatchesCentralDifferences) {
+  const auto limits = widened_limits(*profile_, 0);
+  GaussianTree tree;
+  tree.set_zero();
+  add_joint_terms(*profile_, limits, pose_, params_, tree);
+  const auto energy = [&](const HandPose& pose) {
+    GaussianTree unused;
+    unused.set_zero();
+    return add_joint_terms(*profile_, limits, pose, params_, unused);
+  };
+  EXPECT_LT(gradient_error(energy, tree, 1e-6), 1e-5);
+}
+
+TEST_F(EnergyTest, PriorGradientIsExactForSmallTurns) {
+  HandPose predicted = pose_;
+  for (int s = 0; s < kSegmentCount; ++s)
+    predicted[s] = boxplus(predicted[s], Vector6d::Constant(0.3 * kDegree * (s % 3)));
+  std::array<double, kSegmentCount> seen;
+  seen.fill(0.3);
+  GaussianTree tree;
+  tree.set_zero();
+  add_prior_terms(*profile_, predicted, seen, pose_, params_, tree);
+  const auto energy = [&](const HandPose& pose) {
+    GaussianTree unused;
+    unused.set_zero();
+    return add_prior_terms(*profile_, predicted, seen, pose, params_, unused);
+  };
+  EXPECT_LT(gradient_error(energy, tree, 1e-5), 0.01);
+}
+
+TEST_F(EnergyTest, JointsWithinTheirLimitsCostNothing) {
+  GaussianTree tree;
+  tree.set_zero();
+  const HandPose closed = test::facing_pose(*profile_, 0.45, 0.5);
+  EXPECT_LT(add_joint_terms(*profile_, widened_limits(*profile_, 0.2), closed, params_, tree), 1e-9);
+}
+
+}  // namespace
+}  // namespace barehand

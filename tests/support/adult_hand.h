@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+
+#include "hand/joint_angles.h"
+#include "io/hand_json.h"
+
+namespace barehand::test {
+
+/// The shipped default hand.
+inline std::shared_ptr<const HandProfile> adult_hand() {
+  Result<HandProfile> profile = load_profile(BAREHAND_CONFIGS "/hands/adult_right.json");
+  EXPECT_TRUE(profile) << profile.error().message();
+  return std::make_shared<const HandProfile>(*profile);
+}
+
+/// Fingers up, palm towards a camera at `distance` [m], every finger joint flexed by `flexion` [rad].
+inline HandPose facing_pose(const HandProfile& profile, double distance, double flexion = 0.15) {
+  SE3 T_camera_palm;
+  // Hand -z (fingers) is up (camera -y), hand +y (back of the hand) looks away from the camera (+z).
+  T_camera_palm.R << 1, 0, 0, 0, 0, 1, 0, 1, 0;
+  if (T_camera_palm.R.determinant() < 0) T_camera_palm.R.col(0) *= -1;
+  T_camera_palm.t = {0, 0.08, distance};
+  std::array<JointAngles, kSegmentCount> angles{};
+  for (int s = 1; s < kSegmentCount; ++s)
+    if (finger_of(s) > 0) angles[s].flexion = flexion;
+  return forward_kinematics(profile, T_camera_palm, angles);
+}
+
+}  // namespace barehand::test

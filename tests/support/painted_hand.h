@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "observe/hand_renderer.h"
+#include "observe/nearest_cell.h"
+#include "observe/observation.h"
+#include "support/adult_hand.h"
+
+namespace barehand::test {
+
+inline Intrinsics small_camera() { return {320, 240, 262.0, 262.0, 159.5, 119.5}; }
+
+/// What an ideal camera sees of a posed skin before a wall at `wall` [m]; the whole image is the region of interest.
+/// Unit tests of single stages use it; accuracy is only ever measured on hands that the tracker does not know.
+inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const HandPose& pose, double wall = 1.2) {
+  const Intrinsics camera = small_camera();
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->camera = camera;
+  RenderedHand rendered;
+  render_hand(skin, pose, camera, {0, 0, 1, camera.width, camera.height}, rendered);
+  auto observation = std::make_shared<HandObservation>();
+  observation->frame = frame;
+  observation->hand_present = true;
+  observation->depth.reset(camera.width, camera.height, static_cast<float>(wall));
+  observation->label.reset(camera.width, camera.height, PixelLabel::background);
+  observation->normal.reset(camera.width, camera.height, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < rendered.vertex.size(); ++i) {
+    if (rendered.vertex[i] < 0) continue;
+    observation->depth[i] = rendered.depth[i];
+    observation->label[i] = PixelLabel::hand;
+    observation->normal[i] = rendered.normal[rendered.vertex[i]];
+    observation->hand_pixels.push_back(static_cast<std::int32_t>(i));
+  }
+  nearest_occupied(rendered.vertex, observation->nearest_hand);
+  for (std::size_t i = 0; i < observation->hand_pixels.size(); i += 7)
+    observation->cloud.push_back(observation->point(observation->hand_pixels[i]));
+  return observation;
+}
+
+}  // namespace barehand::test
