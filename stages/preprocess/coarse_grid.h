@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "math/frame.h"
+#include "stages/preprocess/params.h"
+#include "stages/preprocess/skin_model.h"
+
+namespace barehand {
+
+/// The whole frame seen through cells of step x step pixels: cheap enough to search it in every frame.
+struct CoarseGrid {
+  int step = 1;           ///< pixels per cell side
+  Intrinsics camera;      ///< of the cells: cell (c, r) is a pixel of this camera
+  Image<float> z;         ///< median of the cell's measurements [m]; 0 = none in the working range
+  Image<Rgb> colour;      ///< of the pixel that measured z; black = none
+  Image<float> odds;      ///< mean log odds of skin over the cell; 0 = no evidence
+  bool coloured = false;  ///< false: no colour, or a grey image: depth alone decides
+
+  Eigen::Vector3f point(int c, int r) const {
+    const float depth = z.at(c, r);
+    return {static_cast<float>((c - camera.cx) / camera.fx) * depth,
+            static_cast<float>((r - camera.cy) / camera.fy) * depth, depth};
+  }
+  /// Area [m^2] that a cell covers at depth z, facing the camera.
+  float cell_area(float depth) const { return static_cast<float>(depth * depth / (camera.fx * camera.fy)); }
+};
+
+/// Largest depth step [m] between neighbouring pixels of one surface: steep slopes pass, the gap between a fingertip
+/// and what is behind it does not. `pixel` = width of a pixel at depth z = z / fx.
+inline float same_surface_step(float z, float fx) {
+  const float away = z > 0.4f ? z - 0.4f : 0.f;
+  return 4.f * z / fx + 3.f * (0.0012f + 0.0019f * away * away);
+}
+
+/// Fills `grid` from the frame, keeping its allocations. A cell takes the median of five samples, so that single
+/// missing or flying pixels do not matter.
+void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, const SkinModel& skin, CoarseGrid& grid);
+
+}  // namespace barehand

@@ -1,0 +1,89 @@
+#include "stages/preprocess/components.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+enum Evidence : std::uint8_t { kNone = 0, kSkin = 1, kOther = 2, kOpen = 3 };
+
+bool joined(const CoarseGrid& grid, float a, float b) {
+  return std::abs(a - b) < same_surface_step(std::min(a, b), static_cast<float>(grid.camera.fx));
+}
+
+std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+}  // namespace
+
+void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Components& out) {
+  const int width = mask.width(), height = mask.height();
+  out.id.reset(width, height, -1);
+  std::vector<std::int32_t> parent;
+  parent.reserve(1024);
+  const int du[4] = {-1, -1, 0, 1}, dv[4] = {0, -1, -1, -1};
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!mask.at(u, v)) continue;
+      std::int32_t own = -1;
+      for (int k = 0; k < 4; ++k) {
+        const int nu = u + du[k], nv = v + dv[k];
+        if (!mask.contains(nu, nv) || !mask.at(nu, nv) || !joined(grid, grid.z.at(u, v), grid.z.at(nu, nv))) continue;
+        const std::int32_t other = root(parent, out.id.at(nu, nv));
+        if (own < 0) own = other;
+        const auto [low, high] = std::minmax(own, other);
+        parent[high] = own = low;
+      }
+      if (own < 0) parent.push_back(own = static_cast<std::int32_t>(parent.size()));
+      out.id.at(u, v) = own;
+    }
+  std::vector<std::int32_t> index(parent.size(), -1);
+  out.parts.clear();
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (out.id.at(u, v) < 0) continue;
+      std::int32_t& i = index[root(parent, out.id.at(u, v))];
+      if (i < 0) {
+        i = static_cast<std::int32_t>(out.parts.size());
+        out.parts.push_back({.nearest = grid.z.at(u, v)});
+      }
+      out.id.at(u, v) = i;
+      Components::Part& part = out.parts[i];
+      const Eigen::Vector3f p = grid.point(u, v);
+      ++part.cells;
+      part.area += grid.cell_area(p.z());
+      part.nearest = std::min(part.nearest, p.z());
+      part.centre += p;
+    }
+  for (Components::Part& part : out.parts) {
+    part.centre /= static_cast<float>(part.cells);
+    part.mean_z = part.centre.z();
+  }
+}
+
+void skin_cells(const CoarseGrid& grid, float threshold, std::vector<std::int32_t>& queue, Image<std::uint8_t>& mask) {
+  const int width = grid.z.width(), height = grid.z.height();
+  mask.reset(width, height, kNone);
+  queue.clear();
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (grid.z[i] <= 0) continue;
+    mask[i] = !grid.coloured || grid.odds[i] > threshold ? kSkin : grid.odds[i] < -threshold ? kOther : kOpen;
+    if (grid.coloured && mask[i] != kOpen) queue.push_back(static_cast<std::int32_t>(i));
+  }
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const int u = queue[head] % width, v = queue[head] / width;
+    const int nu[4] = {u - 1, u + 1, u, u}, nv[4] = {v, v, v - 1, v + 1};
+    for (int k = 0; k < 4; ++k) {
+      if (!mask.contains(nu[k], nv[k]) || mask.at(nu[k], nv[k]) != kOpen) continue;
+      if (!joined(grid, grid.z.at(u, v), grid.z.at(nu[k], nv[k]))) continue;
+      mask.at(nu[k], nv[k]) = mask.at(u, v);
+      queue.push_back(static_cast<std::int32_t>(mask.index(nu[k], nv[k])));
+    }
+  }
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] == kSkin;
+}
+
+}  // namespace barehand

@@ -1,0 +1,48 @@
+#include "stages/preprocess/depth_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/preprocess/coarse_grid.h"
+
+namespace barehand {
+namespace {
+
+// A line one pixel wide along a silhouette has two companions; a corner of a real surface has three.
+constexpr int kFewestCompanions = 3;
+
+}  // namespace
+
+void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params, const Region& region,
+                         Image<float>& depth, Image<std::uint8_t>& edge) {
+  raw_.reset(region.width + 2, region.height + 2);
+  depth.reset(region.width, region.height);
+  edge.reset(region.width, region.height);
+  const float unit = static_cast<float>(frame.depth_unit), nearest = static_cast<float>(params.min_depth);
+  for (int v = 0; v < region.height; ++v) {
+    const std::uint16_t* in = frame.depth.row(v + region.v0) + region.u0;
+    float* out = raw_.row(v + 1) + 1;
+    for (int u = 0; u < region.width; ++u) {
+      const float z = static_cast<float>(in[u]) * unit;
+      out[u] = z < nearest ? 0.f : z;
+    }
+  }
+  const float fx = static_cast<float>(frame.camera.fx);
+  for (int v = 0; v < region.height; ++v) {
+    const float* above = raw_.row(v) + 1;
+    const float* own = raw_.row(v + 1) + 1;
+    const float* below = raw_.row(v + 2) + 1;
+    float* out = depth.row(v);
+    std::uint8_t* border = edge.row(v);
+    for (int u = 0; u < region.width; ++u) {
+      const float z = own[u], step = same_surface_step(z, fx);
+      const auto same = [z, step](float other) { return static_cast<int>(std::abs(other - z) < step); };
+      const int companions = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +
+                             same(own[u + 1]) + same(below[u - 1]) + same(below[u]) + same(below[u + 1]);
+      out[u] = companions < kFewestCompanions ? 0.f : z;
+      border[u] = companions < 8 ? 255 : 0;
+    }
+  }
+}
+
+}  // namespace barehand

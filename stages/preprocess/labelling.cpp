@@ -1,0 +1,164 @@
+#include "stages/preprocess/labelling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace barehand {
+namespace {
+
+enum Evidence : std::uint8_t { kMissing = 0, kHand = 1, kOther = 2, kOpen = 3 };
+
+constexpr double kSpeckArea = 3e-5;  // m^2: less than half a fingertip
+constexpr float kInFront = 0.005f;   // m before the nearest hand pixel
+
+bool joined(float a, float b, float fx) { return std::abs(a - b) < same_surface_step(std::min(a, b), fx); }
+
+}  // namespace
+
+void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
+  const int width = grid.z.width(), height = grid.z.height();
+  const float fx = static_cast<float>(grid.camera.fx);
+  lowest_.reset(width, height, INFINITY);
+  highest_.reset(width, height, -INFINITY);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!hand.cells.at(u, v)) continue;
+      const float z = grid.z.at(u, v), step = same_surface_step(z, fx);
+      for (int y = std::max(0, v - 1); y <= std::min(height - 1, v + 1); ++y)
+        for (int x = std::max(0, u - 1); x <= std::min(width - 1, u + 1); ++x) {
+          lowest_.at(x, y) = std::min(lowest_.at(x, y), z - step);
+          highest_.at(x, y) = std::max(highest_.at(x, y), z + step);
+        }
+    }
+}
+
+void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
+  odds_.create(region.height, region.width, CV_32F);
+  present_.create(region.height, region.width, CV_32F);
+  for (int v = 0; v < region.height; ++v) {
+    const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
+    float* odds = odds_.ptr<float>(v);
+    float* present = present_.ptr<float>(v);
+    for (int u = 0; u < region.width; ++u) {
+      odds[u] = skin.log_odds(colour[u]);
+      present[u] = odds[u] != 0.f ? 1.f : 0.f;
+    }
+  }
+  if (params_.skew_px == 0) return;
+  const cv::Size window(2 * params_.skew_px + 1, 2 * params_.skew_px + 1);
+  cv::boxFilter(odds_, odds_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(present_, present_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+}
+
+void HandMask::flood(const RgbdFrame& frame, const Region& region, const Image<float>& depth) {
+  const float fx = static_cast<float>(frame.camera.fx);
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::int32_t i = queue_[head];
+    const int u = i % region.width, v = i / region.width;
+    const auto visit = [&](int nu, int nv) {
+      if (!evidence_.contains(nu, nv) || evidence_.at(nu, nv) != kOpen) return;
+      if (!joined(depth[i], depth.at(nu, nv), fx)) return;
+      evidence_.at(nu, nv) = evidence_[i];
+      queue_.push_back(static_cast<std::int32_t>(evidence_.index(nu, nv)));
+    };
+    visit(u - 1, v);
+    visit(u + 1, v);
+    visit(u, v - 1);
+    visit(u, v + 1);
+  }
+}
+
+void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask) {
+  const cv::Mat view(mask.height(), mask.width(), CV_8U, mask.data());
+  const int parts = cv::connectedComponentsWithStats(view, labels_, stats_, centroids_, 8, CV_32S);
+  if (parts <= 1) return;
+  const double per_metre_sq = frame.camera.fx * frame.camera.fy;
+  keep_.assign(parts, 1);
+  for (int k = 1; k < parts; ++k) {
+    const double x = centroids_.at<double>(k, 0), y = centroids_.at<double>(k, 1);
+    const float z = depth.at(static_cast<int>(x), static_cast<int>(y));
+    const double pixels = kSpeckArea * per_metre_sq / (z > 0 ? z * z : 0.25);
+    keep_[k] = stats_.at<int>(k, cv::CC_STAT_AREA) >= pixels;
+  }
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels_.ptr<int>(v);
+    std::uint8_t* own = mask.row(v);
+    for (int u = 0; u < mask.width(); ++u) own[u] &= keep_[label[u]];
+  }
+}
+
+void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
+                       const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
+                       Image<std::uint8_t>& mask) {
+  support(grid, hand);
+  if (grid.coloured) {
+    colour_evidence(frame, skin, region);
+    const cv::Mat edges(region.height, region.width, CV_8U, const_cast<std::uint8_t*>(edge.data()));
+    const int side = 2 * params_.skew_px + 1;
+    cv::dilate(edges, edges_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  }
+  const float threshold = static_cast<float>(params_.skin_odds);
+  evidence_.reset(region.width, region.height, kMissing);
+  queue_.clear();
+  const auto supported = [&](int u, int v) {
+    const int c = std::min((u + region.u0) / grid.step, grid.z.width() - 1);
+    const int r = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
+    const float z = depth.at(u, v);
+    return z > lowest_.at(c, r) && z < highest_.at(c, r);
+  };
+  for (int v = 0; v < region.height; ++v)
+    for (int u = 0; u < region.width; ++u) {
+      if (depth.at(u, v) <= 0) continue;
+      std::uint8_t& own = evidence_.at(u, v);
+      if (!grid.coloured) {
+        own = supported(u, v) ? kHand : kOther;
+        continue;
+      }
+      const float present = present_.at<float>(v, u);
+      const float odds = present > 0.5f ? odds_.at<float>(v, u) / present : 0.f;
+      if (edges_.at<std::uint8_t>(v, u) || std::abs(odds) < threshold)
+        own = kOpen;
+      else
+        own = odds > 0 && supported(u, v) ? kHand : kOther;
+      if (own != kOpen) queue_.push_back(static_cast<std::int32_t>(evidence_.index(u, v)));
+    }
+  flood(frame, region, depth);
+
+  mask.reset(region.width, region.height);
+  const Intrinsics& camera = frame.camera;
+  for (int v = 0; v < region.height; ++v)
+    for (int u = 0; u < region.width; ++u) {
+      const std::uint8_t own = evidence_.at(u, v);
+      if (own != kHand && own != kOpen) continue;
+      if (!supported(u, v) || (own == kOpen && odds_.at<float>(v, u) < 0)) continue;
+      const float z = depth.at(u, v);
+      const Eigen::Vector3f p(static_cast<float>((u + region.u0 - camera.cx) / camera.fx) * z,
+                              static_cast<float>((v + region.v0 - camera.cy) / camera.fy) * z, z);
+      mask.at(u, v) = !hand.wrist || hand.wrist->behind(p) <= 0;
+    }
+  remove_specks(frame, depth, mask);
+}
+
+void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, HandObservation& out) {
+  out.label.reset(mask.width(), mask.height(), PixelLabel::unknown);
+  const float reach_sq = static_cast<float>(reach * reach);
+  const float per_pixel_sq = static_cast<float>(1 / (camera.fx * camera.fy));
+  for (int v = 0; v < mask.height(); ++v)
+    for (int u = 0; u < mask.width(); ++u) {
+      const float z = out.depth.at(u, v);
+      if (z <= 0) continue;
+      PixelLabel& label = out.label.at(u, v);
+      if (mask.at(u, v)) {
+        label = PixelLabel::hand;
+        continue;
+      }
+      const std::int32_t i = out.nearest_hand.at(u, v);
+      const float dz = z - out.depth[i];
+      const float du = static_cast<float>(i % mask.width() - u), dv = static_cast<float>(i / mask.width() - v);
+      const float distance_sq = dz * dz + (du * du + dv * dv) * z * z * per_pixel_sq;
+      label = dz < -kInFront || distance_sq < reach_sq ? PixelLabel::object : PixelLabel::background;
+    }
+}
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "observe/observation.h"
+#include "stages/preprocess/depth_map.h"
+#include "stages/preprocess/hand_search.h"
+
+namespace barehand {
+
+/// Decides pixel by pixel what belongs to the hand that was found in the coarse grid.
+class HandMask {
+ public:
+  explicit HandMask(const PreprocessParams& params) : params_(params) {}
+  /// `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel lies at the depth of a
+  /// neighbouring hand cell, on the hand's side of the wrist; its colour, averaged over `skew_px`, is skin. Beside
+  /// depth edges and without colour, the depth-connected neighbours decide.
+  void compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
+               const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
+               Image<std::uint8_t>& mask);
+
+ private:
+  void support(const CoarseGrid& grid, const CoarseHand& hand);
+  void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
+  void flood(const RgbdFrame& frame, const Region& region, const Image<float>& depth);
+  void remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask);
+
+  PreprocessParams params_;
+  Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
+  cv::Mat odds_, present_, edges_, labels_, stats_, centroids_;
+  Image<std::uint8_t> evidence_;
+  std::vector<std::int32_t> queue_;
+  std::vector<std::uint8_t> keep_;
+};
+
+/// Names the remaining pixels: object = no hand but within `reach` [m] of the nearest hand pixel, or in front of it;
+/// background = other data; unknown = no data.
+void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, HandObservation& out);
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hand/hand_pose.h"
+#include "stages/preprocess/coarse_grid.h"
+
+namespace barehand {
+
+/// A rod with round ends: bone and flesh of one segment, or of one ray of the palm. Camera frame [m].
+struct Capsule {
+  Eigen::Vector3f a, b;
+  float radius = 0;
+};
+
+/// The tracker's older estimate as a rough body that can be moved over the new frame. Preprocessing needs to know
+/// where the hand may be and where its wrist ends, not its exact skin.
+class PredictedHand {
+ public:
+  /// None if the estimate has no pose or no profile.
+  static std::optional<PredictedHand> from(const HandEstimate* hint);
+
+  /// Distance [m] from a point to the skin; negative inside.
+  float distance(const Eigen::Vector3f& p) const;
+  /// How far [m] a point lies behind the wrist joint along the forearm; negative on the hand's side.
+  float behind_wrist(const Eigen::Vector3f& p) const { return (p - wrist_).dot(arm_axis_); }
+  Eigen::Vector3f centre() const { return 0.5f * (capsules_[1].a + capsules_[1].b); }
+  const std::array<Capsule, 19>& capsules() const { return capsules_; }
+  const Eigen::Vector3f& wrist() const { return wrist_; }
+  const Eigen::Vector3f& arm_axis() const { return arm_axis_; }
+  void translate(const Eigen::Vector3f& by);
+
+ private:
+  std::array<Capsule, 19> capsules_;  // 4 rays of the palm, 15 phalanges
+  Eigen::Vector3f wrist_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f arm_axis_ = Eigen::Vector3f::UnitZ();  // from the fingers towards the elbow
+};
+
+}  // namespace barehand

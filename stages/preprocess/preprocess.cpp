@@ -1,0 +1,143 @@
+#include "stages/preprocess/preprocess.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/preprocess/normals.h"
+
+namespace barehand {
+namespace {
+
+constexpr float kSurelySkin = 0.004f;   // m from the predicted skin
+constexpr float kSurelyOther = 0.045f;  // m from the predicted skin: no finger has moved there unnoticed
+constexpr float kSurroundings = 0.22f;  // m around the hand
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+Result<void> check(const RgbdFrame& frame) {
+  const Intrinsics& c = frame.camera;
+  const std::string where = "frame " + std::to_string(frame.number);
+  if (!c.valid()) return fail("no valid camera intrinsics", where, "give width, height, fx, fy, cx, cy of the sensor");
+  if (!(frame.depth_unit > 0)) return fail("depth unit is not positive", where, "give the metres per depth count");
+  const std::string expected = ", the intrinsics say " + size_text(c.width, c.height);
+  if (frame.depth.width() != c.width || frame.depth.height() != c.height)
+    return fail("depth is " + size_text(frame.depth.width(), frame.depth.height()) + expected, where,
+                "use the intrinsics of this depth image");
+  if (!frame.colour.empty() && (frame.colour.width() != c.width || frame.colour.height() != c.height))
+    return fail("colour is " + size_text(frame.colour.width(), frame.colour.height()) + expected, where,
+                "register colour to depth, or send no colour");
+  return {};
+}
+
+/// Every su-th column and sv-th row, chosen so that at most `most` points remain, hardly fewer.
+void thin_cloud(int most, HandObservation& out) {
+  out.cloud.clear();
+  const double share = static_cast<double>(out.hand_pixels.size()) / most;
+  const int su = std::max(1, static_cast<int>(std::sqrt(share)));
+  const int sv = std::max(1, static_cast<int>(std::ceil(share / su)));
+  for (const std::int32_t i : out.hand_pixels) {
+    const int u = i % out.depth.width(), v = i / out.depth.width();
+    if ((u + out.u0) % su == 0 && (v + out.v0) % sv == 0) out.cloud.push_back(out.point(u, v));
+  }
+}
+
+}  // namespace
+
+Preprocessor::Preprocessor(const PreprocessParams& params)
+    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params), masker_(params) {}
+
+Result<HandObservationPtr> Preprocessor::process(const FramePtr& frame, const HandEstimate* hint) {
+  if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
+  const std::shared_ptr<HandObservation> out = pool_.take();
+  out->frame = frame;
+  sample_coarsely(*frame, params_, skin_, grid_);
+  const double age = hint ? std::abs(static_cast<double>(frame->utime - hint->utime)) * 1e-6 : 0;
+  hand_ = &search_.find(grid_, hint, age);
+  const Region region = hand_->found ? region_of_interest(*frame) : Region{};
+  out->u0 = region.u0;
+  out->v0 = region.v0;
+  cleaner_.clean(*frame, params_, region, out->depth, edge_);
+  if (hand_->found)
+    masker_.compute(*frame, skin_, grid_, *hand_, region, out->depth, edge_, mask_);
+  else
+    mask_.reset(0, 0);
+  describe_hand(*out);
+  if (out->hand_present && hint && hint->status == TrackStatus::tracking) learn_skin();
+  return HandObservationPtr(out);
+}
+
+void Preprocessor::describe_hand(HandObservation& out) {
+  const Intrinsics& camera = out.frame->camera;
+  out.hand_pixels.clear();
+  double area = 0;
+  for (std::size_t i = 0; i < mask_.size(); ++i) {
+    if (!mask_[i]) continue;
+    out.hand_pixels.push_back(static_cast<std::int32_t>(i));
+    area += out.depth[i] * out.depth[i] / (camera.fx * camera.fy);
+  }
+  out.hand_present = area >= params_.min_hand_area;
+  if (!out.hand_present) {
+    out.hand_pixels.clear();
+    out.depth.reset(0, 0);
+    mask_.reset(0, 0);
+  }
+  transform_.compute(mask_, out.nearest_hand);
+  label_pixels(camera, mask_, params_.object_reach, out);
+  fit_normals(mask_, params_.normal_radius, out);
+  out.noise = measure_noise(mask_, out.depth, params_.noise_floor);
+  thin_cloud(params_.cloud_points, out);
+}
+
+Region Preprocessor::region_of_interest(const RgbdFrame& frame) const {
+  const Intrinsics& camera = frame.camera;
+  double u0 = camera.width, v0 = camera.height, u1 = 0, v1 = 0;
+  const auto include = [&](double u, double v) {
+    u0 = std::min(u0, u), u1 = std::max(u1, u);
+    v0 = std::min(v0, v), v1 = std::max(v1, v);
+  };
+  const int step = grid_.step;
+  for (int r = 0; r < grid_.z.height(); ++r)
+    for (int c = 0; c < grid_.z.width(); ++c)
+      if (hand_->cells.at(c, r)) {
+        include(c * step, r * step);
+        include((c + 1) * step, (r + 1) * step);
+      }
+  if (hand_->prediction)  // occluded fingers need the maps around them as well
+    for (const Capsule& capsule : hand_->prediction->capsules())
+      for (const Eigen::Vector3f& p : {capsule.a, capsule.b})
+        if (p.z() > params_.min_depth) {
+          const Eigen::Vector2d pixel = camera.project(p.cast<double>());
+          include(std::clamp(pixel.x(), 0.0, camera.width - 1.0), std::clamp(pixel.y(), 0.0, camera.height - 1.0));
+        }
+  Region region;
+  region.u0 = std::max(0, static_cast<int>(u0) - params_.margin_px);
+  region.v0 = std::max(0, static_cast<int>(v0) - params_.margin_px);
+  region.width = std::min(camera.width, static_cast<int>(u1) + params_.margin_px) - region.u0;
+  region.height = std::min(camera.height, static_cast<int>(v1) + params_.margin_px) - region.v0;
+  return region;
+}
+
+void Preprocessor::learn_skin() {
+  if (!grid_.coloured || !hand_->prediction) return;
+  const PredictedHand& hand = *hand_->prediction;
+  skin_colours_.clear();
+  other_colours_.clear();
+  for (int r = 0; r < grid_.z.height(); ++r)
+    for (int c = 0; c < grid_.z.width(); ++c) {
+      const Rgb colour = grid_.colour.at(c, r);
+      if (grid_.z.at(c, r) <= 0 || colour == Rgb{}) continue;
+      const Eigen::Vector3f p = grid_.point(c, r);
+      const bool near = (p - hand.centre()).squaredNorm() < kSurroundings * kSurroundings;
+      const bool skin_like = grid_.odds.at(c, r) > 0;
+      if (hand_->cells.at(c, r)) {
+        if (near && hand.distance(p) < kSurelySkin) skin_colours_.push_back(colour);
+      } else if (skin_like && (!near || hand.behind_wrist(p) > 0)) {
+        continue;  // a face, the other hand, the own forearm: skin all the same
+      } else if ((c + r) % 2 == 0 && (!near || hand.distance(p) > kSurelyOther)) {
+        other_colours_.push_back(colour);
+      }
+    }
+  skin_.learn(skin_colours_, other_colours_);
+}
+
+}  // namespace barehand

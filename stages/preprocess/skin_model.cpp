@@ -1,0 +1,100 @@
+#include "stages/preprocess/skin_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+constexpr int kFraction = 64;               // fixed-point steps per bin
+constexpr double kRedStart = -0.6;          // log R/G of the first bin's lower edge
+constexpr double kBlueStart = -1.5;         // log B/G
+constexpr std::size_t kFewestColours = 30;  // fewer pixels say nothing about a distribution
+constexpr float kOddsLimit = 4.f;           // no single pixel may outvote its whole neighbourhood
+
+/// Generic densities over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of fingertips
+/// and of shaded folds. Everything else scatters around grey.
+double skin_density(double red, double blue) {
+  constexpr double kRed = 0.15, kBlue = 0.17;
+  const double r = (red - 0.36) / kRed, b = (blue + 0.20) / kBlue;
+  return std::exp(-0.5 * (r * r + b * b)) / (2 * M_PI * kRed * kBlue);
+}
+
+double other_density(double red, double blue) {
+  constexpr double kRed = 0.35, kBlue = 0.45, kUniform = 0.05;
+  return std::exp(-0.5 * (red * red / (kRed * kRed) + blue * blue / (kBlue * kBlue))) / (2 * M_PI * kRed * kBlue) +
+         kUniform;
+}
+
+}  // namespace
+
+SkinModel::SkinModel(double rate, double share) : rate_(rate), share_(share) {
+  for (int i = 0; i < 256; ++i) {
+    log_[i] = static_cast<int>(std::lround(std::log(std::max(i, 1)) / kBinWidth * kFraction));
+    trust_[i] = i == 0 ? 0.f : std::clamp((i - 12) / 36.f, 0.05f, 1.f);
+  }
+  for (int b = 0; b < kBins; ++b)
+    for (int r = 0; r < kBins; ++r) {
+      const double red = kRedStart + (r + 0.5) * kBinWidth, blue = kBlueStart + (b + 0.5) * kBinWidth;
+      prior_skin_[b * kBins + r] = static_cast<float>(skin_density(red, blue) * kBinWidth * kBinWidth);
+      prior_other_[b * kBins + r] = static_cast<float>(other_density(red, blue) * kBinWidth * kBinWidth);
+    }
+  rebuild();
+}
+
+int SkinModel::bin(Rgb c) const {
+  constexpr int kRedOffset = static_cast<int>(-kRedStart / kBinWidth * kFraction + 0.5);
+  constexpr int kBlueOffset = static_cast<int>(-kBlueStart / kBinWidth * kFraction + 0.5);
+  const int red = (log_[c.r] - log_[c.g] + kRedOffset) / kFraction;
+  const int blue = (log_[c.b] - log_[c.g] + kBlueOffset) / kFraction;
+  return std::clamp(blue, 0, kBins - 1) * kBins + std::clamp(red, 0, kBins - 1);
+}
+
+void SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
+                    const SkinModel& model) {
+  Histogram fresh{};
+  double total = 0;
+  for (const Rgb& c : colours) {
+    const float weight = model.trust_[std::max({c.r, c.g, c.b})];
+    if (std::min({c.r, c.g, c.b}) >= kOverexposed) continue;
+    fresh[model.bin(c)] += weight;
+    total += weight;
+  }
+  if (total < kFewestColours) return;
+  const float scale = static_cast<float>(rate / total);
+  for (std::size_t i = 0; i < learned.size(); ++i)
+    learned[i] = static_cast<float>(1 - rate) * learned[i] + scale * fresh[i];
+  mass = (1 - rate) * mass + rate;
+}
+
+void SkinModel::learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& other) {
+  if (rate_ <= 0) return;
+  add(skin_, skin_mass_, skin, rate_, *this);
+  add(other_, other_mass_, other, rate_, *this);
+  rebuild();
+}
+
+void SkinModel::rebuild() {
+  // 3x3 binomial blur: a colour seen makes its neighbours likely.
+  const auto blurred = [](const Histogram& h, int b, int r) {
+    static constexpr float kWeight[3] = {0.25f, 0.5f, 0.25f};
+    float sum = 0;
+    for (int db = -1; db <= 1; ++db)
+      for (int dr = -1; dr <= 1; ++dr)
+        sum += kWeight[db + 1] * kWeight[dr + 1] *
+               h[std::clamp(b + db, 0, kBins - 1) * kBins + std::clamp(r + dr, 0, kBins - 1)];
+    return sum;
+  };
+  const float skin_prior = static_cast<float>(1 - share_ * skin_mass_);
+  const float other_prior = static_cast<float>(1 - share_ * other_mass_);
+  const float share = static_cast<float>(share_);
+  for (int b = 0; b < kBins; ++b)
+    for (int r = 0; r < kBins; ++r) {
+      const int i = b * kBins + r;
+      const float skin = skin_prior * prior_skin_[i] + share * blurred(skin_, b, r);
+      const float other = other_prior * prior_other_[i] + share * blurred(other_, b, r);
+      odds_[i] = std::clamp(std::log((skin + 1e-6f) / (other + 1e-6f)), -kOddsLimit, kOddsLimit);
+    }
+}
+
+}  // namespace barehand

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "math/frame.h"
+
+namespace barehand {
+
+/// Tells skin from everything else by colour. Chroma is (log R/G, log B/G): brightness cancels and a change of white
+/// balance is a mere shift. A generic density of human skin is blended with histograms of this person, light and
+/// surrounding; both classes forget at the same rate. Deterministic: depends only on the order of learn() calls.
+class SkinModel {
+ public:
+  /// `rate`: share of one learn() in the histograms; `share`: weight of a fully learned histogram against the prior.
+  SkinModel(double rate, double share);
+
+  /// log p(colour | skin) - log p(colour | other), damped for dark and overexposed pixels; 0 = no evidence.
+  float log_odds(Rgb c) const {
+    const int brightest = c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b);
+    const int darkest = c.r < c.g ? (c.r < c.b ? c.r : c.b) : (c.g < c.b ? c.g : c.b);
+    return darkest >= kOverexposed ? 0.f : trust_[brightest] * odds_[bin(c)];
+  }
+
+  /// Adapts to pixels known to be skin and pixels known not to be. Too few of a kind leave that kind as it is.
+  void learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& other);
+
+ private:
+  static constexpr int kBins = 40;           // per axis
+  static constexpr double kBinWidth = 0.05;  // in log chroma
+  static constexpr int kOverexposed = 250;
+  using Histogram = std::array<float, kBins * kBins>;
+
+  int bin(Rgb c) const;
+  static void add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
+                  const SkinModel& model);
+  void rebuild();
+
+  double rate_, share_;
+  std::array<int, 256> log_{};      // fixed-point log of a channel
+  std::array<float, 256> trust_{};  // by the brightest channel: chroma of dark pixels is noise
+  Histogram prior_skin_{}, prior_other_{}, skin_{}, other_{}, odds_{};
+  double skin_mass_ = 0, other_mass_ = 0;  // [0, 1): how much has been learned
+};
+
+}  // namespace barehand

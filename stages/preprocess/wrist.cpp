@@ -1,0 +1,111 @@
+#include "stages/preprocess/wrist.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace barehand {
+namespace {
+
+constexpr float kBin = 0.005f;  // m along the axis
+constexpr int kBins = 64;
+constexpr float kLongestHand = 0.21f;                // m, fingertip to wrist
+constexpr float kPalmFrom = 0.03f, kPalmTo = 0.16f;  // m from the fingertips: a fist's widest place, an open hand's
+constexpr float kWristBehindPalm = 0.11f;            // m, wrist after the widest place
+constexpr float kNarrowing = 0.88f;                  // wrist against palm
+constexpr int kFewestContacts = 3;
+
+struct Cell {
+  Eigen::Vector3f p;
+  float area;
+  int gaps;      // neighbours outside the part
+  bool contact;  // at the border of the image
+};
+
+std::vector<Cell> cells_of(const CoarseGrid& grid, const Components& surfaces, int part) {
+  const auto& id = surfaces.id;
+  std::vector<Cell> cells;
+  cells.reserve(surfaces.parts[part].cells);
+  for (int v = 0; v < id.height(); ++v)
+    for (int u = 0; u < id.width(); ++u) {
+      if (id.at(u, v) != part) continue;
+      const bool inside = u > 0 && v > 0 && u + 1 < id.width() && v + 1 < id.height();
+      int gaps = 0;
+      if (inside)
+        gaps = (id.at(u - 1, v) != part) + (id.at(u + 1, v) != part) + (id.at(u, v - 1) != part) +
+               (id.at(u, v + 1) != part);
+      cells.push_back({grid.point(u, v), grid.cell_area(grid.z.at(u, v)), gaps, !inside});
+    }
+  return cells;
+}
+
+/// Unit vector from the arm towards the fingertips.
+Eigen::Vector3f hand_direction(const std::vector<Cell>& cells, const Eigen::Vector3f& centre, bool& leaves_image) {
+  Eigen::Vector3f contact = Eigen::Vector3f::Zero();
+  int contacts = 0;
+  for (const Cell& c : cells)
+    if (c.contact) contact += c.p, ++contacts;
+  leaves_image = contacts >= kFewestContacts;
+  if (leaves_image) {
+    contact /= static_cast<float>(contacts);
+    const Cell& tip = *std::max_element(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
+      return (a.p - contact).squaredNorm() < (b.p - contact).squaredNorm();
+    });
+    Eigen::Vector3f hand = Eigen::Vector3f::Zero();
+    int count = 0;
+    for (const Cell& c : cells)
+      if ((c.p - tip.p).norm() < kLongestHand) hand += c.p, ++count;
+    return (hand / static_cast<float>(count) - contact).normalized();
+  }
+  Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
+  for (const Cell& c : cells) spread += (c.p - centre) * (c.p - centre).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(spread);
+  const Eigen::Vector3f axis = solver.eigenvectors().col(2);
+  // Separate fingers have more outline per area than a forearm.
+  float gaps[2] = {}, count[2] = {};
+  for (const Cell& c : cells) {
+    const int end = (c.p - centre).dot(axis) > 0;
+    gaps[end] += static_cast<float>(c.gaps);
+    count[end] += 1;
+  }
+  return gaps[1] * count[0] >= gaps[0] * count[1] ? axis : Eigen::Vector3f(-axis);
+}
+
+}  // namespace
+
+std::optional<WristPlane> find_wrist(const CoarseGrid& grid, const Components& surfaces, int part) {
+  const std::vector<Cell> cells = cells_of(grid, surfaces, part);
+  const Eigen::Vector3f centre = surfaces.parts[part].centre;
+  bool leaves_image = false;
+  const Eigen::Vector3f direction = hand_direction(cells, centre, leaves_image);
+  float tip = -INFINITY, end = INFINITY;
+  for (const Cell& c : cells) {
+    tip = std::max(tip, c.p.dot(direction));
+    end = std::min(end, c.p.dot(direction));
+  }
+  if (!leaves_image && tip - end < kLongestHand) return std::nullopt;
+  std::array<float, kBins> area{}, width{};
+  std::array<Eigen::Vector3f, kBins> sum;
+  sum.fill(Eigen::Vector3f::Zero());
+  for (const Cell& c : cells) {
+    const int bin = static_cast<int>((tip - c.p.dot(direction)) / kBin);
+    if (bin >= kBins) continue;
+    area[bin] += c.area;
+    sum[bin] += c.area * c.p;
+  }
+  for (int i = 1; i + 1 < kBins; ++i) width[i] = (area[i - 1] + area[i] + area[i + 1]) / (3 * kBin);
+  const auto palm = std::max_element(width.begin() + static_cast<int>(kPalmFrom / kBin),
+                                     width.begin() + static_cast<int>(kPalmTo / kBin));
+  const auto last = std::min(palm + static_cast<int>(kWristBehindPalm / kBin),
+                             width.begin() + static_cast<int>(std::min(tip - end, (kBins - 2) * kBin) / kBin) - 2);
+  int wrist = static_cast<int>(kLongestHand / kBin);
+  if (last > palm + 1) {
+    const auto narrowest = std::min_element(palm, last);
+    if (*narrowest < kNarrowing * *palm) wrist = static_cast<int>(narrowest - width.begin());
+  }
+  if (wrist + 2 >= kBins || tip - end < (wrist + 3) * kBin || area[wrist] <= 0) return std::nullopt;
+  return WristPlane{sum[wrist] / area[wrist], -direction};
+}
+
+}  // namespace barehand

@@ -1,0 +1,48 @@
+#include "stages/preprocess/skin_model.h"
+
+#include <gtest/gtest.h>
+
+namespace barehand {
+namespace {
+
+TEST(SkinModel, KnowsSkinOfAllTonesBeforeLearning) {
+  const SkinModel model(0.1, 0.85);
+  for (const Rgb skin : {Rgb{236, 200, 185}, Rgb{205, 150, 120}, Rgb{141, 96, 70}, Rgb{90, 58, 42}, Rgb{131, 76, 79}})
+    EXPECT_GT(model.log_odds(skin), 0.4f) << +skin.r;
+  for (const Rgb other : {Rgb{60, 160, 70}, Rgb{40, 60, 140}, Rgb{128, 128, 128}, Rgb{190, 200, 40}, Rgb{200, 30, 30}})
+    EXPECT_LT(model.log_odds(other), -0.4f) << +other.r;
+}
+
+TEST(SkinModel, BlackDarkAndOverexposedPixelsSayLittle) {
+  const SkinModel model(0.1, 0.85);
+  EXPECT_EQ(model.log_odds(Rgb{}), 0.f);
+  EXPECT_EQ(model.log_odds(Rgb{255, 252, 251}), 0.f);
+  EXPECT_LT(std::abs(model.log_odds(Rgb{12, 7, 6})), 0.3f);
+}
+
+TEST(SkinModel, LearnsToTellAWoodenObjectFromThisSkin) {
+  SkinModel model(0.1, 0.85);
+  const Rgb skin{205, 150, 128}, wood{170, 126, 88};
+  ASSERT_GT(model.log_odds(wood), 0.4f);
+  for (int frame = 0; frame < 20; ++frame) model.learn(std::vector<Rgb>(200, skin), std::vector<Rgb>(200, wood));
+  EXPECT_LT(model.log_odds(wood), -0.4f);
+  EXPECT_GT(model.log_odds(skin), 0.4f);
+}
+
+TEST(SkinModel, SkinSeenAlsoElsewhereStaysUndecidedRatherThanLost) {
+  SkinModel model(0.1, 0.85);
+  const Rgb skin{205, 150, 128};
+  for (int frame = 0; frame < 50; ++frame) model.learn(std::vector<Rgb>(200, skin), std::vector<Rgb>(200, skin));
+  EXPECT_GT(model.log_odds(skin), -0.4f);
+}
+
+TEST(SkinModel, AHandfulOfPixelsTeachesNothing) {
+  SkinModel model(0.5, 0.85);
+  const Rgb green{60, 160, 70};
+  const float before = model.log_odds(green);
+  model.learn(std::vector<Rgb>(5, green), {});
+  EXPECT_EQ(model.log_odds(green), before);
+}
+
+}  // namespace
+}  // namespace barehand
