@@ -1,25 +1,41 @@
 #include "core/parallel.h"
 
 #include <sched.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <thread>
 
-namespace barehand {
+#include "core/tbb_arena.h"
 
-struct Workers::Arena {
-  explicit Arena(int threads) : limit(tbb::global_control::max_allowed_parallelism, threads), arena(threads) {}
-  tbb::global_control limit;  // or TBB would never use more threads than there are cores
-  tbb::task_arena arena;
+namespace barehand {
+namespace {
+
+/// TBB orders everything that has to be ordered, but inside a library that the thread sanitizer cannot look into;
+/// these two atomics say the same where it can.
+struct Job {
+  const std::function<void(int)>& fn;
+  std::atomic<bool> started = false;
+  std::atomic<int> finished = 0;
+
+  struct Finish {
+    Job& job;
+    ~Finish() { job.finished.fetch_add(1, std::memory_order_release); }
+  };
+  static void run(void* self, int i) {
+    Job& job = *static_cast<Job*>(self);
+    [[maybe_unused]] const bool started = job.started.load(std::memory_order_acquire);
+    const Finish finish{job};
+    job.fn(i);
+  }
 };
+
+}  // namespace
 
 Workers::Workers(int threads) : threads_(threads) {
   assert(threads >= 1 && threads <= kMaxThreads);
-  if (threads > 1) arena_ = std::make_unique<Arena>(threads);
+  if (threads > 1) arena_ = std::make_unique<TbbArena>(threads);
 }
 
 Workers::~Workers() = default;
@@ -29,9 +45,16 @@ void Workers::for_each_index(int n, const std::function<void(int)>& fn) {
     for (int i = 0; i < n; ++i) fn(i);
     return;
   }
-  // Isolated: a thread that waits here takes no work of another stage, which would hold up its own.
-  arena_->arena.execute(
-      [&] { tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, n, [&](int i) { fn(i); }); }); });
+  Job job{fn};
+  job.started.store(true, std::memory_order_release);
+  const auto settle = [&] { [[maybe_unused]] const int finished = job.finished.load(std::memory_order_acquire); };
+  try {
+    arena_->for_each_index(n, &Job::run, &job);
+  } catch (...) {
+    settle();
+    throw;
+  }
+  settle();
 }
 
 Result<std::unique_ptr<Workers>> make_workers(int threads) {

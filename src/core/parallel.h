@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+class TbbArena;
+
 /// The one owner of the cores: stages spread their work through it and start no threads of their own.
 class Workers {
  public:
@@ -26,9 +28,8 @@ class Workers {
   int threads() const { return threads_; }
 
  private:
-  struct Arena;
   int threads_;
-  std::unique_ptr<Arena> arena_;  ///< none for one thread
+  std::unique_ptr<TbbArena> arena_;  ///< none for one thread
 };
 
 /// Number of threads from people: 0, negative or absurd counts are an error.

@@ -17,7 +17,7 @@ Result<void> check_size(int width, int height, const Intrinsics& camera, const s
 
 /// Lossless; a full disk is an error.
 Result<void> write_depth_png(const std::string& path, const Image<std::uint16_t>& depth);
-/// PNG (lossless) or JPEG (quality 95) by the ending of `path`.
+/// PNG (lossless) where `path` ends in .png, else JPEG of quality 95.
 Result<void> write_colour(const std::string& path, const Image<Rgb>& colour);
 
 }  // namespace barehand

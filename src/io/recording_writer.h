@@ -15,7 +15,7 @@ class RecordingWriter {
  public:
   struct Options {
     double fps = 0;                     ///< nominal rate noted in camera.json; 0 = not noted
-    std::string colour_ending = "jpg";  ///< "jpg" or "png" (lossless)
+    std::string colour_ending = "png";  ///< or "jpg": smaller, but lossy: black ("no colour here") may turn grey
   };
   /// Makes the folder. A folder that already holds a recording is an error: nothing is overwritten.
   static Result<RecordingWriter> create(const std::string& directory, Options options);

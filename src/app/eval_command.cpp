@@ -1,0 +1,118 @@
+#include "app/eval_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/eval_report.h"
+#include "io/hand_json.h"
+#include "io/recording.h"
+
+namespace barehand {
+namespace {
+
+struct EvalOptions {
+  std::vector<std::string> truths, results, labels;
+  std::string hand, plots, json, fingertips, recording;
+  std::optional<std::int64_t> start;
+  std::int64_t step = 1;
+};
+
+Result<void> check(const EvalOptions& o) {
+  if (o.truths.empty() && o.fingertips.empty())
+    return fail("there is nothing to compare with", "eval",
+                "give --truth, or --fingertips with --recording and --hand");
+  if (o.truths.size() > 1 && o.truths.size() != o.results.size())
+    return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
+                    std::to_string(o.results.size()) + " results",
+                "eval", "give it once for all results, or once for each");
+  if (!o.labels.empty() && o.labels.size() != o.results.size())
+    return fail("--label must be given once for each --result", "eval");
+  if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
+    return fail("--fingertips needs the camera and the fingers' thickness", "eval", "add --recording DIR and --hand");
+  if (o.step == 0) return fail("a step of 0 is no order of frames", "--step", "choose 1, 2 ... or -1, -2 ...");
+  return {};
+}
+
+std::string label_of(const EvalOptions& o, std::size_t i) {
+  return o.labels.empty() ? std::filesystem::path(o.results[i]).stem().string() : o.labels[i];
+}
+
+Result<void> evaluate_runs(const EvalOptions& o, const std::vector<ResultTable>& results, EvalReport& report) {
+  for (std::size_t i = 0; i < results.size() && !o.truths.empty(); ++i) {
+    const std::string& path = o.truths[o.truths.size() == 1 ? 0 : i];
+    const auto truth = read_table(path);
+    if (!truth) return tl::unexpected(truth.error());
+    auto evaluation = evaluate(*truth, results[i], {o.start, o.step});
+    if (!evaluation) {
+      evaluation.error().where = o.results[i] + " against " + path;
+      return tl::unexpected(evaluation.error());
+    }
+    report.runs.push_back({label_of(o, i), path, o.results[i], results[i].truncated, std::move(*evaluation)});
+  }
+  return {};
+}
+
+Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
+                                const HandProfile& profile, EvalReport& report) {
+  const auto labels = read_fingertip_labels(o.fingertips);
+  if (!labels) return tl::unexpected(labels.error());
+  const auto recording = open_recording(o.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  report.fingertips = evaluate_fingertips(*labels, results, profile, recording->camera);
+  return {};
+}
+
+Result<EvalReport> evaluate_all(const EvalOptions& o) {
+  std::vector<ResultTable> results;
+  for (const std::string& path : o.results) {
+    auto result = read_table(path);
+    if (!result) return tl::unexpected(result.error());
+    results.push_back(std::move(*result));
+  }
+  EvalReport report;
+  if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
+  if (o.hand.empty()) return report;
+  const auto profile = load_profile(o.hand);
+  if (!profile) return tl::unexpected(profile.error());
+  report.hand_length = profile->hand_length();
+  if (!o.fingertips.empty())
+    if (const auto tips = compare_fingertips(o, results, *profile, report); !tips) return tl::unexpected(tips.error());
+  return report;
+}
+
+Result<void> run(const EvalOptions& o) {
+  if (const auto good = check(o); !good) return good;
+  const auto report = evaluate_all(o);
+  if (!report) return tl::unexpected(report.error());
+  std::fputs(text_report(*report).c_str(), stdout);
+  if (!o.json.empty())
+    if (const auto written = write_json_report(*report, o.json); !written) return written;
+  if (!o.plots.empty()) return write_plots(*report, o.plots);
+  return {};
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& app, int& exit_code) {
+  auto o = std::make_shared<EvalOptions>();
+  CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
+  eval->add_option("--result", o->results, "result table; several are compared with one another")->required();
+  eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
+  eval->add_option("--label", o->labels, "name of each result in tables and plots");
+  eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
+  eval->add_option("--start", o->start, "first frame the result was to track, as given to track");
+  eval->add_option("--step", o->step, "step between frames, as given to track");
+  eval->add_option("--plots", o->plots, "folder for plots (PNG)");
+  eval->add_option("--json", o->json, "file for the figures");
+  eval->add_option("--fingertips", o->fingertips, "fingertips labelled in the image: frame,finger,u,v,visible");
+  eval->add_option("--recording", o->recording, "the recording that --fingertips belongs to");
+  eval->callback([o, &exit_code] {
+    const auto done = run(*o);
+    exit_code = done ? 0 : 1;
+    if (!done) std::fprintf(stderr, "barehand eval: %s\n", done.error().message().c_str());
+  });
+}
+
+}  // namespace barehand

@@ -1,0 +1,80 @@
+#include <cmath>
+#include <filesystem>
+
+#include "app/eval_report.h"
+#include "io/chart.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kMillimetre = 1000;
+
+Distribution scaled(Distribution d, double scale) {
+  for (double* value : {&d.mean, &d.deviation, &d.min, &d.quartile1, &d.median, &d.quartile3, &d.p90, &d.p95, &d.max})
+    *value *= scale;
+  return d;
+}
+
+BoxChart runs_chart(const std::vector<EvaluatedRun>& runs) {
+  BoxChart chart;
+  chart.text = {"Error over all hand segments (median, quartiles, range)", "", "segment error [mm]"};
+  chart.series.push_back({"", {}});
+  for (const EvaluatedRun& run : runs) {
+    chart.categories.push_back(run.label);
+    chart.series[0].boxes.push_back(scaled(run.evaluation.segment_error, kMillimetre));
+  }
+  return chart;
+}
+
+BoxChart segments_chart(const std::vector<EvaluatedRun>& runs) {
+  BoxChart chart;
+  chart.text = {"Error by segment (median, quartiles, range)", "", "segment error [mm]"};
+  for (std::string_view name : kSegmentNames) chart.categories.emplace_back(name);
+  for (const EvaluatedRun& run : runs) {
+    chart.series.push_back({run.label, {}});
+    for (const Distribution& d : run.evaluation.per_segment)
+      chart.series.back().boxes.push_back(scaled(d, kMillimetre));
+  }
+  return chart;
+}
+
+LineChart time_chart(const std::vector<EvaluatedRun>& runs) {
+  LineChart chart;
+  chart.text = {"Frame error over the sequence", "frame", "frame error [mm]"};
+  for (const EvaluatedRun& run : runs) {
+    chart.series.push_back({run.label, {}, {}});
+    for (const FrameErrors& frame : run.evaluation.frames) {
+      chart.series.back().x.push_back(static_cast<double>(frame.number));
+      chart.series.back().y.push_back(frame.tracked ? frame.mean * kMillimetre : NAN);
+    }
+  }
+  return chart;
+}
+
+BoxChart fingertips_chart(const FingertipEvaluation& fingertips) {
+  BoxChart chart;
+  chart.text = {"Projected fingertips against labels (median, quartiles, range)", "", "distance [px]"};
+  chart.categories = {"all"};
+  chart.categories.insert(chart.categories.end(), kFingerNames.begin(), kFingerNames.end());
+  chart.series.push_back({"", {fingertips.all}});
+  for (const Distribution& d : fingertips.per_finger) chart.series[0].boxes.push_back(d);
+  return chart;
+}
+
+}  // namespace
+
+Result<void> write_plots(const EvalReport& report, const std::string& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
+  Result<void> done;
+  if (!report.runs.empty())
+    done = write_chart(runs_chart(report.runs), directory + "/runs.png")
+               .and_then([&] { return write_chart(segments_chart(report.runs), directory + "/segments.png"); })
+               .and_then([&] { return write_chart(time_chart(report.runs), directory + "/time.png"); });
+  if (done && report.fingertips)
+    done = write_chart(fingertips_chart(*report.fingertips), directory + "/fingertips.png");
+  return done;
+}
+
+}  // namespace barehand

@@ -1,0 +1,107 @@
+#include "io/evaluation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+
+namespace barehand {
+namespace {
+
+using FramesByNumber = std::map<std::int64_t, const TableFrame*>;
+
+FramesByNumber by_number(const ResultTable& table) {
+  FramesByNumber frames;
+  for (const TableFrame& frame : table.frames) frames[frame.number] = &frame;
+  return frames;
+}
+
+FrameErrors frame_errors(const TableFrame& truth, const TableFrame& result) {
+  FrameErrors errors{truth.number, truth.timestamp, true, {}, 0, 0};
+  double sum = 0;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    errors.segments[s] = segment_error(truth.rows[s], result.rows[s]);
+    sum += errors.segments[s];
+  }
+  errors.mean = sum / kSegmentCount;
+  errors.mean_without_palm = (sum - errors.segments[kPalm]) / (kSegmentCount - 1);
+  return errors;
+}
+
+std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const ExpectedFrames& expected) {
+  std::vector<const TableFrame*> frames;
+  if (truth.frames.empty()) return frames;
+  const auto [first, last] =
+      std::minmax_element(truth.frames.begin(), truth.frames.end(),
+                          [](const TableFrame& a, const TableFrame& b) { return a.number < b.number; });
+  const std::int64_t start = expected.start.value_or(expected.step > 0 ? first->number : last->number);
+  for (const TableFrame& frame : truth.frames) {
+    const std::int64_t from_start = frame.number - start;
+    if (from_start % expected.step == 0 && from_start / expected.step >= 0) frames.push_back(&frame);
+  }
+  return frames;
+}
+
+/// Values of one evaluation before they are summarised.
+struct Collected {
+  std::vector<double> frame, without_palm, all, seen, hidden, gap;
+  std::array<std::vector<double>, kSegmentCount> segment;
+
+  void add(const FrameErrors& errors, const TableFrame& truth, const TableFrame& result) {
+    frame.push_back(errors.mean);
+    without_palm.push_back(errors.mean_without_palm);
+    for (int s = 0; s < kSegmentCount; ++s) {
+      all.push_back(errors.segments[s]);
+      segment[s].push_back(errors.segments[s]);
+      if (truth.rows[s].visible > kSeen) seen.push_back(errors.segments[s]);
+      if (truth.rows[s].visible < kHidden) hidden.push_back(errors.segments[s]);
+      // The palm's distal end is the middle finger's knuckle; the other knuckles are no end of any bone.
+      if (s != kPalm && parent_of(s) != kPalm)
+        gap.push_back((result.rows[parent_of(s)].distal - result.rows[s].proximal).norm());
+    }
+  }
+  void summarise_into(Evaluation& evaluation) const {
+    evaluation.frame_error = summarise(frame);
+    evaluation.frame_error_without_palm = summarise(without_palm);
+    evaluation.segment_error = summarise(all);
+    evaluation.seen = summarise(seen);
+    evaluation.hidden = summarise(hidden);
+    evaluation.joint_gap = summarise(gap);
+    for (int s = 0; s < kSegmentCount; ++s) evaluation.per_segment[s] = summarise(segment[s]);
+  }
+};
+
+}  // namespace
+
+double segment_error(const TableRow& truth, const TableRow& result) {
+  return 0.5 * ((truth.proximal - result.proximal).norm() + (truth.distal - result.distal).norm());
+}
+
+Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result, const ExpectedFrames& expected) {
+  assert(expected.step != 0);
+  const FramesByNumber results = by_number(result);
+  Evaluation evaluation;
+  Collected collected;
+  for (const TableFrame* frame_of_truth : expected_frames(truth, expected)) {
+    const TableFrame& frame = *frame_of_truth;
+    FrameErrors errors{frame.number, frame.timestamp, false, {}, 0, 0};
+    if (const auto found = results.find(frame.number); found != results.end()) {
+      if (std::abs(found->second->timestamp - frame.timestamp) > 0.001)
+        return fail("frame " + std::to_string(frame.number) + " has other time stamps in truth and result", {},
+                    "compare tables of the same recording");
+      errors = frame_errors(frame, *found->second);
+      collected.add(errors, frame, *found->second);
+    } else {
+      ++evaluation.untracked;
+    }
+    if (errors.lost()) evaluation.lost.push_back(frame.number);
+    evaluation.frames.push_back(errors);
+  }
+  if (collected.frame.empty() && !result.frames.empty())
+    return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
+  if (evaluation.frames.empty()) return fail("the truth has none of the frames asked for", {}, "check start and step");
+  collected.summarise_into(evaluation);
+  return evaluation;
+}
+
+}  // namespace barehand

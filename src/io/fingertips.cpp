@@ -1,0 +1,86 @@
+#include "io/fingertips.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace barehand {
+namespace {
+
+bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
+  std::istringstream line(text);
+  std::string field[5];
+  for (std::string& f : field)
+    if (!std::getline(line, f, ',')) return false;
+  const auto number = [](const std::string& f, auto& value) {
+    const auto [end, error] = std::from_chars(f.data(), f.data() + f.size(), value);
+    return error == std::errc{} && (end == f.data() + f.size() || *end == '\r');
+  };
+  const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
+  if (finger == kFingerNames.end()) return false;
+  label.finger = static_cast<int>(finger - kFingerNames.begin());
+  int shown = 0;
+  const bool good = number(field[0], label.frame) && number(field[2], label.pixel.x()) &&
+                    number(field[3], label.pixel.y()) && number(field[4], shown);
+  visible = shown != 0;
+  return good;
+}
+
+}  // namespace
+
+Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
+  std::string text;
+  std::getline(file, text);
+  if (text.rfind("frame,finger,u,v,visible", 0) != 0)
+    return fail("line 1 is no fingertip table's", path, "it must be \"frame,finger,u,v,visible\"");
+  std::vector<FingertipLabel> labels;
+  for (int number = 2; std::getline(file, text); ++number) {
+    if (text.empty()) continue;
+    FingertipLabel label;
+    bool visible = false;
+    if (!parse_label(text, label, visible))
+      return fail("line " + std::to_string(number) + ": is \"" + text + "\"", path,
+                  "a line holds frame,finger,u,v,visible");
+    if (visible) labels.push_back(label);
+  }
+  return labels;
+}
+
+Eigen::Vector3d fingertip(const TableFrame& frame, const HandProfile& profile, int finger) {
+  const int s = segment_of(finger, 2);
+  const TableRow& row = frame.rows[s];
+  return row.distal + profile.segments[s].radius[1] * (row.distal - row.proximal).normalized();
+}
+
+FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& labels,
+                                        const std::vector<ResultTable>& results, const HandProfile& profile,
+                                        const Intrinsics& camera) {
+  std::map<std::int64_t, const TableFrame*> tracked;
+  for (const ResultTable& result : results)
+    for (const TableFrame& frame : result.frames) tracked.try_emplace(frame.number, &frame);
+  FingertipEvaluation evaluation;
+  evaluation.labels = labels.size();
+  std::vector<double> all;
+  std::array<std::vector<double>, kFingerCount> fingers;
+  for (const FingertipLabel& label : labels) {
+    const auto found = tracked.find(label.frame);
+    const Eigen::Vector3d tip =
+        found == tracked.end() ? Eigen::Vector3d::Zero() : fingertip(*found->second, profile, label.finger);
+    if (tip.z() <= 0) {  // no hand there, or one behind the camera, which has no image
+      ++evaluation.missing;
+      continue;
+    }
+    const double distance = (camera.project(tip) - label.pixel).norm();
+    all.push_back(distance);
+    fingers[label.finger].push_back(distance);
+  }
+  evaluation.all = summarise(all);
+  for (int f = 0; f < kFingerCount; ++f) evaluation.per_finger[f] = summarise(fingers[f]);
+  return evaluation;
+}
+
+}  // namespace barehand

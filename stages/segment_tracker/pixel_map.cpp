@@ -1,0 +1,61 @@
+#include "stages/segment_tracker/pixel_map.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace barehand {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr PixelMap::Cell kSilent{0, 0, -1, -kInfinity};
+
+PixelMap::Cell not_hand(const HandObservation& o, std::size_t pixel, float occluder_z) {
+  const std::int32_t nearest = o.nearest_hand[pixel];
+  if (nearest < 0) return kSilent;  // no hand pixel anywhere: Eq. 1 is undefined
+  const Eigen::Vector3f p = o.point(nearest);
+  return {p.x(), p.y(), -p.z(), occluder_z};
+}
+
+PixelMap::Cell cell_of(const HandObservation& o, int u, int v, bool missing_is_background) {
+  const std::size_t pixel = o.label.index(u, v);
+  const float z = o.depth[pixel];
+  if (o.label[pixel] == PixelLabel::hand) {
+    const Eigen::Vector3f p = o.point(u, v);
+    return {p.x(), p.y(), p.z(), kInfinity};
+  }
+  if (o.label[pixel] == PixelLabel::unknown && !missing_is_background) return kSilent;
+  // Any depth that is not skin hides what lies behind it.
+  return not_hand(o, pixel, z > 0 ? z : kInfinity);
+}
+
+}  // namespace
+
+PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Workers& workers) {
+  const Intrinsics& camera = o.frame->camera;
+  const int w = o.label.width(), h = o.label.height();
+  PixelMap map;
+  map.width = w + 2;
+  map.height = h + 2;
+  map.fx = static_cast<float>(camera.fx);
+  map.fy = static_cast<float>(camera.fy);
+  map.cx = static_cast<float>(camera.cx - o.u0 + 1);
+  map.cy = static_cast<float>(camera.cy - o.v0 + 1);
+  map.cells.assign(static_cast<std::size_t>(map.width) * map.height, kSilent);
+  map.hidden.assign(map.cells.size(), 0);
+  if (w == 0 || h == 0) return map;
+
+  workers.for_each_index(map.height, [&](int row) {
+    const int v = row - 1;
+    for (int u = -1; u <= w; ++u) {
+      PixelMap::Cell& cell = map.cells[map.index(u + 1, row)];
+      if (o.label.contains(u, v)) {
+        cell = cell_of(o, u, v, missing_is_background);
+      } else if (u + o.u0 >= 0 && u + o.u0 < camera.width && v + o.v0 >= 0 && v + o.v0 < camera.height) {
+        cell = not_hand(o, o.label.index(std::clamp(u, 0, w - 1), std::clamp(v, 0, h - 1)), kInfinity);
+      }
+    }
+  });
+  return map;
+}
+
+}  // namespace barehand

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+
+#include "core/parallel.h"
+#include "hand/samples.h"
+#include "hand/surface.h"
+#include "observe/observation.h"
+#include "stages/segment_tracker/patch_distance.h"
+#include "stages/segment_tracker/pixel_map.h"
+#include "stages/segment_tracker/sampling.h"
+#include "stages/segment_tracker/segment_tracker_params.h"
+
+namespace barehand {
+
+/// One frame as all levels of the local trackers share it: data, and what is hidden at the prediction.
+struct PreparedObservation {
+  PixelMap map;
+  std::array<double, kSegmentCount> unoccluded{};  ///< alpha of Eq. 3 at the predicted pose
+};
+
+/// The 16 local trackers of Sec. 4: each draws its own samples and judges them by the data around it alone. Stateless
+/// between calls; results do not depend on the number of workers.
+class SegmentTracker {
+ public:
+  SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface, Workers& workers);
+
+  const SegmentTrackerParams& params() const { return params_; }
+
+  /// Once per frame. `hidden`, when given, replaces this stage's own labels of self-occlusion: the size of the region
+  /// of interest, bit s set where the hand hides segment s.
+  PreparedObservation prepare(const HandObservation& observation, const HandPose& predicted,
+                              const Image<std::uint16_t>* hidden = nullptr) const;
+
+  /// Once per level: S samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment without
+  /// observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
+  SegmentSamples sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) const;
+
+  /// One pose of one segment against the data.
+  PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;
+
+ private:
+  bool observed(int segment) const { return segment != kPalm || params_.observe_palm; }
+
+  SegmentTrackerParams params_;
+  std::shared_ptr<const HandSurface> surface_;
+  Workers& workers_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+namespace barehand {
+
+/// Local trackers: how many samples, how they are compared with the data, what counts as hidden (paper Sec. 4.1, 4.2).
+struct SegmentTrackerParams {
+  int samples = 60;
+  double sigma_obs_start = 0.004;
+  double sigma_obs_end = 0.001;
+  double pixel_distance_cap = 0.008;
+  std::string missing_depth = "unknown";
+  std::string self_occlusion = "data";
+  double self_occlusion_threshold = 0.010;
+  double patch_margin = 0.010;
+  double min_counted = 0.05;
+  bool observe_palm = true;
+};
+
+template <class V>
+void visit(V& v, SegmentTrackerParams& p) {
+  v("samples", p.samples, 1, 10000, "S: samples per segment and level (Sec. 4)");
+  v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, accuracy of the depth at the first level (Eq. 2)");
+  v("sigma_obs_end", p.sigma_obs_end, 1e-5, 0.1,
+    "m, the same at the last level, geometric in between; paper: constant");
+  v("pixel_distance_cap", p.pixel_distance_cap, 0.0, 1.0,
+    "m, largest distance one pixel can have (Eq. 1); 0: uncapped (paper)");
+  v("missing_depth", p.missing_depth, {"unknown", "background"},
+    "a pixel without depth is left out (unknown), or is not hand (background, paper)");
+  v("self_occlusion", p.self_occlusion, {"data", "model", "both", "off"},
+    "hidden by the hand where the data is in front of the predicted segment (data, paper Sec. 4.2), where the "
+    "predicted "
+    "skin of another segment is (model), or either");
+  v("self_occlusion_threshold", p.self_occlusion_threshold, 0.0, 0.1, "m, how far in front (Sec. 4.2)");
+  v("patch_margin", p.patch_margin, 0.0, 0.1, "m, self-occlusion is labelled so far around the predicted segment");
+  v("min_counted", p.min_counted, 0.0, 1.0,
+    "a sample with a smaller visible part than this has no evidence: it gets its siblings' mean distance");
+  v("observe_palm", p.observe_palm, "compare the palm with the data, too; the paper does not (Sec. 4.1)");
+}
+
+}  // namespace barehand

@@ -1,0 +1,104 @@
+#include "app/eval_command.h"
+
+#include <gmock/gmock.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/hand_json.h"
+#include "io/recording_writer.h"
+#include "io/result_table.h"
+#include "tests/io/small_hand.h"
+#include "tests/io/temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class EvalCommand : public testing::Test {
+ protected:
+  EvalCommand() {
+    write_table("truth.csv", 0);
+    write_table("out.csv", 0.002);
+    EXPECT_TRUE(save_profile(test::small_hand(), folder_ / "hand.json"));
+  }
+  void write_table(const std::string& name, double offset) {
+    auto writer = TableWriter::create(folder_ / name);
+    for (int i = 0; i < 3; ++i) {
+      TableFrame frame{i, 0.1 * i, {}};
+      for (TableRow& row : frame.rows) row = {{offset, 0, 0.5}, {offset - 0.03, 0, 0.5}, 1};
+      ASSERT_TRUE(writer->write(frame));
+    }
+  }
+  /// Runs the command; `%` stands for the test's folder.
+  int run(std::string line) {
+    for (auto at = line.find('%'); at != std::string::npos; at = line.find('%')) line.replace(at, 1, folder_.path());
+    CLI::App app;
+    int exit_code = -1;
+    add_eval_command(app, exit_code);
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    app.parse(line);
+    out_ = testing::internal::GetCapturedStdout();
+    err_ = testing::internal::GetCapturedStderr();
+    return exit_code;
+  }
+  test::TempFolder folder_;
+  std::string out_, err_;
+};
+
+TEST_F(EvalCommand, PrintsMetricsAndWritesJsonAndPlots) {
+  ASSERT_EQ(run("eval --truth %/truth.csv --result %/out.csv --hand %/hand.json --plots %/plots --json %/e.json"), 0)
+      << err_;
+  EXPECT_THAT(out_, HasSubstr("frames 3, tracked 3, lost 0"));
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  EXPECT_NEAR(report["runs"][0]["frame_error_mm"]["mean"], 2, 1e-6);
+  EXPECT_NEAR(report["runs"][0]["segments_mm"]["ring_distal"]["p95"], 2, 1e-6);
+  EXPECT_NEAR(report["runs"][0]["mean_frame_error_over_hand_length"], 0.002 / test::small_hand().hand_length(), 1e-6);
+  for (const char* plot : {"runs.png", "segments.png", "time.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/" + plot)) << plot;
+}
+
+TEST_F(EvalCommand, ComparesSeveralRunsUnderTheirLabels) {
+  ASSERT_EQ(run("eval --truth %/truth.csv --result %/out.csv %/truth.csv --label ours perfect --json %/e.json"), 0);
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  EXPECT_EQ(report["runs"][1]["label"], "perfect");
+  EXPECT_NEAR(report["runs"][1]["frame_error_mm"]["max"], 0, 1e-9);
+}
+
+TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
+  auto writer = RecordingWriter::create(folder_ / "recording");
+  RgbdFrame frame;
+  frame.camera = {320, 240, 250, 250, 160, 120};
+  frame.depth.reset(320, 240);
+  ASSERT_TRUE(writer->write(frame));
+  // Tip of the truth: u = 160 - 250 * 0.038 / 0.5 = 141.
+  test::write_text(folder_ / "tips.csv", "frame,finger,u,v,visible\n1,index,141,123,1\n");
+  ASSERT_EQ(run("eval --result %/truth.csv --fingertips %/tips.csv --recording %/recording --hand %/hand.json "
+                "--json %/e.json --plots %/plots"),
+            0)
+      << err_;
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  EXPECT_NEAR(report["fingertips"]["fingers_px"]["index"]["median"], 3, 1e-6);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/fingertips.png"));
+}
+
+TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
+  EXPECT_EQ(run("eval --result %/out.csv"), 1);
+  EXPECT_THAT(err_, HasSubstr("give --truth"));
+  EXPECT_EQ(run("eval --result %/out.csv --fingertips tips.csv"), 1);
+  EXPECT_THAT(err_, HasSubstr("--recording"));
+  EXPECT_EQ(run("eval --result %/none.csv --truth %/truth.csv"), 1);
+  EXPECT_THAT(err_, HasSubstr("none.csv: cannot be read"));
+  EXPECT_EQ(run("eval --result %/out.csv --truth %/truth.csv --json /no/such/place.json"), 1);
+  EXPECT_THAT(err_, HasSubstr("/no/such/place.json: cannot be written"));
+  EXPECT_THAT(out_, HasSubstr("frames 3")) << "what was computed is printed all the same";
+  EXPECT_EQ(run("eval --result %/out.csv %/out.csv --truth %/truth.csv --label one"), 1);
+  EXPECT_THAT(err_, HasSubstr("--label"));
+}
+
+}  // namespace
+}  // namespace barehand
