@@ -1,0 +1,118 @@
+#include "io/overlay.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "io/image_file.h"
+#include "io/overlay_drawing.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+
+class OverlayWriter::Output {
+ public:
+  virtual ~Output() = default;
+  virtual Result<void> write(const Image<Rgb>& picture, std::int64_t number) = 0;
+  virtual Result<void> finish() { return {}; }
+};
+
+class OverlayWriter::Folder : public OverlayWriter::Output {
+ public:
+  explicit Folder(std::string path) : path_(std::move(path)) {}
+  Result<void> write(const Image<Rgb>& picture, std::int64_t number) override {
+    char name[40];
+    std::snprintf(name, sizeof name, "/%06lld.jpg", static_cast<long long>(number));
+    return write_colour(path_ + name, picture);
+  }
+
+ private:
+  std::string path_;
+};
+
+class OverlayWriter::Video : public OverlayWriter::Output {
+ public:
+  Video(std::string path, double fps) : path_(std::move(path)), fps_(fps) {}
+  ~Video() override { (void)finish(); }
+
+  Result<void> open(cv::Size size) {
+    // Backends by name: OpenCV would try, and complain about, every one it knows.
+    const bool avi = fs::path(path_).extension() == ".avi";
+    const bool opened =
+        avi ? writer_.open(path_, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps_, size)
+            : writer_.open(path_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps_, size);
+    if (!opened)
+      return fail("cannot be opened for video", path_,
+                  "check the folder; where OpenCV has no MPEG-4 codec, let the name end in .avi or give a folder");
+    size_ = size;
+    return {};
+  }
+  Result<void> write(const Image<Rgb>& picture, std::int64_t number) override {
+    const cv::Size size(picture.width(), picture.height());
+    if (!writer_.isOpened())
+      if (const auto opened = open(size); !opened) return opened;
+    if (size != size_)
+      return fail("frame " + std::to_string(number) + " has another size than the first", path_,
+                  "give a folder for single pictures");
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(size, CV_8UC3, const_cast<Rgb*>(picture.data())), bgr, cv::COLOR_RGB2BGR);
+    writer_.write(bgr);
+    written_ = true;
+    return {};
+  }
+  Result<void> finish() override {
+    if (!writer_.isOpened()) return {};
+    writer_.release();
+    std::error_code error;
+    if (written_ && (fs::file_size(path_, error) == 0 || error))
+      return fail("holds nothing after it was closed", path_, "check the free space");
+    return {};
+  }
+
+ private:
+  std::string path_;
+  double fps_;
+  cv::VideoWriter writer_;
+  cv::Size size_;
+  bool written_ = false;
+};
+
+Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps,
+                                          std::shared_ptr<const HandSurface> surface) {
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == ".mp4" || ending == ".avi") {
+    // The size is known with the first frame only; a small video tells now whether there is a codec.
+    if (const auto probe = Video(path, fps).open({64, 64}); !probe) return tl::unexpected(probe.error());
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    return OverlayWriter(std::make_unique<Video>(path, fps), std::move(surface));
+  }
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) return fail("cannot be made: " + error.message(), path, "check the path and its permissions");
+  return OverlayWriter(std::make_unique<Folder>(path), std::move(surface));
+}
+
+OverlayWriter::OverlayWriter(std::unique_ptr<Output> output, std::shared_ptr<const HandSurface> surface)
+    : output_(std::move(output)), surface_(std::move(surface)), own_surface_(!surface_) {}
+OverlayWriter::OverlayWriter(OverlayWriter&&) noexcept = default;
+OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
+OverlayWriter::~OverlayWriter() = default;
+
+const HandSurface& OverlayWriter::skin_of(const HandEstimate& estimate) {
+  constexpr int kPoints = 240;  // a segment; enough for a smooth outline
+  if (own_surface_ && (!surface_ || (estimate.profile && estimate.profile != profile_))) {
+    profile_ = estimate.profile;
+    surface_ = std::make_shared<HandSurface>(profile_ ? make_cylinder_surface(*profile_, kPoints) : HandSurface{});
+  }
+  return *surface_;
+}
+
+Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimate& estimate) {
+  return output_->write(draw_overlay(frame, estimate, skin_of(estimate)), frame.number);
+}
+
+Result<void> OverlayWriter::finish() { return output_->finish(); }
+
+}  // namespace barehand

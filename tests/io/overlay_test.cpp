@@ -1,0 +1,160 @@
+#include "io/overlay.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "hand/joint_angles.h"
+#include "io/image_file.h"
+#include "io/overlay_drawing.h"
+#include "small_hand.h"
+#include "temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+RgbdFrame grey_frame(int width = 320, std::int64_t number = 7) {
+  RgbdFrame frame;
+  frame.number = number;
+  const double f = width * 0.75;
+  frame.camera = {width, width * 3 / 4, f, f, width * 0.5, width * 0.375};
+  frame.depth.reset(width, width * 3 / 4, 400);
+  frame.colour.reset(width, width * 3 / 4, Rgb{100, 100, 100});
+  return frame;
+}
+
+/// Open hand upright in front of the camera, its back towards it.
+HandEstimate open_hand(double confidence = 1) {
+  HandEstimate estimate;
+  estimate.status = TrackStatus::tracking;
+  estimate.profile = std::make_shared<HandProfile>(test::small_hand());
+  SE3 palm{exp_so3({-M_PI / 2, 0, 0}), {0, 0.08, 0.4}};  // fingers along -y of the camera, its back along -z
+  const HandPose pose = forward_kinematics(*estimate.profile, palm, {});
+  for (int s = 0; s < kSegmentCount; ++s) {
+    SegmentState& state = estimate.segments[s];
+    state.T_camera_segment = pose[s];
+    state.confidence = confidence;
+    state.seen = true;
+  }
+  return estimate;
+}
+
+Image<Rgb> draw(const HandEstimate& estimate) {
+  return draw_overlay(grey_frame(), estimate, make_cylinder_surface(test::small_hand(), 200));
+}
+
+/// Pixel of the left picture at a point in the camera frame.
+Rgb pixel_at(const Image<Rgb>& sheet, const Eigen::Vector3d& p) {
+  const Eigen::Vector2d pixel = grey_frame().camera.project(p) * 2;
+  return sheet.at(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
+}
+
+Eigen::Vector3d middle_tip(const HandEstimate& e) {
+  const int s = segment_of(2, 2);
+  return e.segments[s].T_camera_segment * e.profile->segments[s].distal;
+}
+
+TEST(Overlay, SmallFramesAreEnlargedAndPicturesStandSideBySide) {
+  const Image<Rgb> sheet = draw(open_hand());
+  EXPECT_EQ(sheet.width(), 2 * 640);
+  EXPECT_EQ(sheet.height(), 480 + kCaptionHeight);
+  EXPECT_EQ(overlay_scale(grey_frame(640).camera), 1);
+}
+
+TEST(Overlay, DistalEndsAreBlueDotsAndHollowWhereInferred) {
+  HandEstimate estimate = open_hand();
+  const Rgb seen = pixel_at(draw(estimate), middle_tip(estimate));
+  EXPECT_GT(seen.b, 200);
+  EXPECT_LT(seen.r, 90);
+  estimate.segments[segment_of(2, 2)].seen = false;
+  const Rgb inferred = pixel_at(draw(estimate), middle_tip(estimate));
+  EXPECT_LT(inferred.b, 200);
+}
+
+TEST(Overlay, SkinIsFilledTheMoreTheHigherTheConfidence) {
+  // Beside the bone of the middle finger (green), within its skin.
+  const auto green_at = [](double confidence) {
+    const HandEstimate estimate = open_hand(confidence);
+    const SE3& T = estimate.segments[segment_of(2, 0)].T_camera_segment;
+    const Rgb p = pixel_at(draw(estimate), T * Eigen::Vector3d(0.006, 0, -0.015));
+    return p.g - p.r;
+  };
+  EXPECT_GT(green_at(1.0), green_at(0.5) + 10);
+  EXPECT_GT(green_at(0.5), green_at(0.0) + 10);
+}
+
+TEST(Overlay, NothingIsDrawnWithoutAPoseAndAHandBehindTheCameraDoesNoHarm) {
+  HandEstimate estimate = open_hand();
+  estimate.status = TrackStatus::lost;
+  EXPECT_EQ(pixel_at(draw(estimate), middle_tip(estimate)), (Rgb{100, 100, 100}));
+  estimate = open_hand();
+  for (SegmentState& state : estimate.segments) state.T_camera_segment.t.z() -= 0.4;
+  const Image<Rgb> sheet = draw(estimate);
+  EXPECT_EQ(sheet.at(5, 5), (Rgb{100, 100, 100}));
+}
+
+TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
+  RgbdFrame frame = grey_frame();
+  frame.colour = {};
+  frame.depth.at(10, 10) = 0;
+  HandEstimate estimate;
+  const Image<Rgb> sheet = draw_overlay(frame, estimate, {});
+  EXPECT_EQ(sheet.at(20, 20), (Rgb{0, 0, 0}));
+  EXPECT_GT(sheet.at(100, 100).r, 30);
+}
+
+class OverlayFiles : public testing::Test {
+ protected:
+  test::TempFolder folder_;
+};
+
+TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
+  auto writer = OverlayWriter::open(folder_ / "overlay", 30);
+  ASSERT_TRUE(writer) << writer.error().message();
+  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), open_hand()));
+  ASSERT_TRUE(writer->finish());
+  const auto picture = read_colour(folder_ / "overlay/000011.jpg");
+  ASSERT_TRUE(picture) << picture.error().message();
+  EXPECT_EQ(picture->width(), 1280);
+  EXPECT_TRUE(fs::exists(folder_ / "overlay/000012.jpg"));
+}
+
+TEST_F(OverlayFiles, VideosHoldEveryFrame) {
+  for (const char* name : {"overlay.avi", "overlay.mp4"}) {
+    const std::string path = folder_ / name;
+    auto writer = OverlayWriter::open(path, 30);
+    ASSERT_TRUE(writer) << writer.error().message();
+    EXPECT_FALSE(fs::exists(path)) << "nothing is left of the trial of the codec";
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), open_hand()));
+    ASSERT_TRUE(writer->finish());
+    cv::VideoCapture video(path);
+    cv::Mat picture;
+    int count = 0;
+    while (video.read(picture)) ++count;
+    EXPECT_EQ(count, 5) << name;
+    EXPECT_EQ(picture.cols * picture.rows, 0);
+  }
+}
+
+TEST_F(OverlayFiles, OutsideConditionsAreReported) {
+  EXPECT_THAT(OverlayWriter::open(folder_ / "none/overlay.avi", 30).error().message(),
+              AllOf(HasSubstr("none/overlay.avi"), HasSubstr("cannot be opened for video")));
+  EXPECT_FALSE(OverlayWriter::open(folder_ / "none/overlay.mp4", 30));
+  EXPECT_THAT(OverlayWriter::open("/proc/overlay", 30).error().message(), HasSubstr("/proc/overlay: cannot be made"));
+
+  auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
+  ASSERT_TRUE(video->write(grey_frame(320), open_hand()));
+  EXPECT_THAT(video->write(grey_frame(800, 8), open_hand()).error().message(), HasSubstr("frame 8 has another size"));
+
+  auto pictures = OverlayWriter::open(folder_ / "overlay", 30);
+  fs::create_symlink("/dev/full", folder_ / "overlay/000007.jpg");
+  EXPECT_THAT(pictures->write(grey_frame(), open_hand()).error().message(),
+              AllOf(HasSubstr("000007.jpg"), HasSubstr("free space")));
+}
+
+}  // namespace
+}  // namespace barehand
