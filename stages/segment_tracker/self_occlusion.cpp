@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace barehand {
 namespace {
@@ -77,7 +78,8 @@ PredictedPatch predict_patch(const SegmentSurface& skin, const SE3& T, const Pix
     z_lo = std::min(z_lo, p.z);
   }
   const float scale = map.fx / z_lo, border = static_cast<float>(margin) * scale;
-  const float spacing = std::sqrt(skin.area[0]) * scale;
+  const float skin_area = std::accumulate(skin.area.begin(), skin.area.end(), 0.0f);
+  const float spacing = std::sqrt(skin_area / static_cast<float>(skin.size())) * scale;
   const auto inside = [](float x, int size) { return static_cast<int>(std::clamp(x, 1.0f, size - 1.0f)); };
   patch.u0 = inside(u_lo - border, map.width);
   patch.v0 = inside(v_lo - border, map.height);
