@@ -1,0 +1,175 @@
+#include "stages/prediction/initialiser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace barehand {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::array<double, 3> kPitches = {0, 0.6, -0.6};
+constexpr int kLastGoodTurns = 8;
+
+/// Mean of the points that face a camera looking along `view`, weighted by the area they show.
+Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
+  Vector3d sum = Vector3d::Zero();
+  double weight = 0;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const Eigen::Vector3f local_view = (pose[s].R.transpose() * view).cast<float>();
+    Eigen::Vector3f local = Eigen::Vector3f::Zero();
+    float local_weight = 0;
+    for (const CoarseSkin::Point& q : skin.points[s]) {
+      const float w = std::max(0.0f, -q.n.dot(local_view)) * q.width * q.width;
+      local += w * q.p;
+      local_weight += w;
+    }
+    sum += pose[s].R * local.cast<double>() + local_weight * pose[s].t;
+    weight += local_weight;
+  }
+  return weight > 0 ? Vector3d(sum / weight) : pose[kPalm].t;
+}
+
+}  // namespace
+
+struct Initialiser::Trial {
+  std::string name;
+  ScoredPose scored;
+};
+
+double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b) {
+  double sum = 0;
+  for (int s = 0; s < kSegmentCount; ++s) sum += (distal_end(profile, a, s) - distal_end(profile, b, s)).norm();
+  return sum / kSegmentCount;
+}
+
+Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const HandSurface& surface,
+                         const InitialiserParams& params)
+    : profile_(std::move(profile)),
+      surface_(surface),
+      params_(params),
+      limits_(widened_limits(*profile_, params.widening)),
+      shapes_(shape_templates(*profile_, limits_)),
+      coarse_skin_(make_coarse_skin(surface, params.coarse_cell)),
+      fine_skin_(make_coarse_skin(surface, params.fine_cell)) {}
+
+std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
+                                                 const HandPose* last_good) const {
+  if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
+  const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
+  const CoarseGrid coarse = make_coarse_grid(observation, params_.coarse_cell);
+  const CoarseGrid fine = make_coarse_grid(observation, params_.fine_cell);
+  if (coarse.empty() || fine.empty()) return {};
+  PoseCost coarse_cost(*profile_, coarse, coarse_skin_, params_.score, params_.search.shape_prior);
+  PoseCost fine_cost(*profile_, fine, fine_skin_, params_.score, params_.search.shape_prior);
+  const auto frame = static_cast<std::uint32_t>(observation.frame->number);
+
+  const double turn = effort == Effort::quick ? std::fmod(0.6180339887 * frame, 1.0) : 0.0;
+  Trials trials = template_trials(coarse, work, turn, coarse_cost);
+  if (last_good) add_last_good(trials, *last_good, coarse, coarse_cost);
+  trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct);
+  std::uint32_t number = 0;
+  for (Trial& trial : trials) {
+    const KeyedRandom random(seed, frame, 1, number++);
+    trial.scored = search_pose(trial.scored, coarse_cost, limits_, work.first_evaluations, random, params_.search);
+  }
+  trials = most_promising(std::move(trials), work.second_survivors, params_.distinct);
+  const ObservedCloud cloud(observation);
+  number = 0;
+  for (Trial& trial : trials) {
+    trial.scored.cost = fine_cost(trial.scored.articulated);
+    align(trial, observation, cloud, fine_cost);
+    const KeyedRandom random(seed, frame, 2, number++);
+    trial.scored = search_pose(trial.scored, fine_cost, limits_, work.second_evaluations, random, params_.search);
+  }
+  std::vector<StartCandidate> result;
+  for (Trial& trial : most_promising(std::move(trials), params_.results, params_.distinct)) {
+    result.push_back({trial.name, posed(*profile_, trial.scored.articulated), trial.scored.cost});
+  }
+  return result;
+}
+
+Initialiser::Trials Initialiser::template_trials(const CoarseGrid& grid, const SearchEffort& effort, double turn,
+                                                 PoseCost& cost) const {
+  // With few shapes every second or third template is taken, so that open and closed hands both stay.
+  const std::size_t stride = std::max<std::size_t>(1, shapes_.size() / effort.shapes);
+  Trials trials;
+  for (std::size_t i = 0; i < shapes_.size(); i += stride) {
+    for (int r = 0; r < effort.rolls; ++r) {
+      for (const double pitch : kPitches) {
+        for (int k = 0; k < effort.in_plane; ++k) {
+          ArticulatedPose pose;
+          pose.angles = shapes_[i].angles;
+          pose.T_camera_palm.R =
+              palm_orientation(2 * kPi * r / effort.rolls, pitch, 2 * kPi * (k + turn) / effort.in_plane);
+          add_placed(trials, shapes_[i].name, pose, grid, cost);
+        }
+      }
+    }
+  }
+  return trials;
+}
+
+/// Lays a hand over the data in two ways: visible skin on the centroid; palm on the widest place of the hand, which
+/// holds when fingers are hidden. The better one is kept.
+void Initialiser::add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape,
+                             const CoarseGrid& grid, PoseCost& cost) const {
+  ArticulatedPose by_centroid = shape, by_palm = shape;
+  const Vector3d view = grid.centroid.normalized();
+  const HandPose pose = posed(*profile_, shape);
+  by_centroid.T_camera_palm.t += grid.centroid - visible_mean(coarse_skin_, pose, view);
+  const SegmentProfile& palm = profile_->segments[kPalm];
+  const Vector3d skin_at_palm = pose[kPalm] * (0.6 * palm.distal) - 0.5 * palm.half_thickness[1] * view;
+  by_palm.T_camera_palm.t += grid.palm_centre - skin_at_palm;
+  ScoredPose first{by_centroid, cost(by_centroid)}, second{by_palm, cost(by_palm)};
+  trials.push_back({std::string(name), first.cost <= second.cost ? first : second});
+}
+
+void Initialiser::add_last_good(Trials& trials, const HandPose& last_good, const CoarseGrid& grid,
+                                PoseCost& cost) const {
+  ArticulatedPose pose = articulated_from(*profile_, last_good, limits_);
+  trials.push_back({"last", {pose, cost(pose)}});
+  const SE3 original = pose.T_camera_palm;
+  for (int k = 0; k < kLastGoodTurns; ++k) {
+    const Eigen::AngleAxisd turn(2 * kPi * k / kLastGoodTurns, Vector3d::UnitZ());
+    pose.T_camera_palm = SE3{turn.toRotationMatrix() * original.R, original.t};
+    add_placed(trials, "last", pose, grid, cost);
+  }
+}
+
+/// The best `count` trials of which no two are closer than `distinct`.
+Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct) const {
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; });
+  Trials chosen;
+  std::vector<HandPose> poses;
+  for (Trial& trial : trials) {
+    if (static_cast<int>(chosen.size()) >= count) break;
+    const HandPose pose = posed(*profile_, trial.scored.articulated);
+    const bool twin = std::any_of(poses.begin(), poses.end(), [&](const HandPose& other) {
+      return pose_distance(*profile_, pose, other) < distinct;
+    });
+    if (twin) continue;
+    poses.push_back(pose);
+    chosen.push_back(std::move(trial));
+  }
+  return chosen;
+}
+
+/// Rigid alignment to the cloud, taken if the score agrees.
+void Initialiser::align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud,
+                        PoseCost& cost) const {
+  const HandPose pose = posed(*profile_, trial.scored.articulated);
+  const auto model = visible_points(surface_, pose, observation.frame->camera, params_.icp.model_points);
+  const IcpResult icp = align_rigid(model, cloud, SE3{}, 0, params_.icp);
+  if (!icp.reliable) return;
+  ScoredPose aligned = trial.scored;
+  aligned.articulated.T_camera_palm = icp.motion * aligned.articulated.T_camera_palm;
+  aligned.cost = cost(aligned.articulated);
+  if (aligned.cost < trial.scored.cost) trial.scored = aligned;
+}
+
+}  // namespace barehand

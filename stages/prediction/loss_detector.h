@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+
+#include "hand/hand_pose.h"
+
+namespace barehand {
+
+/// When a hand counts as tracked. The global score is the mean mismatch of model and data [m].
+struct LossParams {
+  double lost_score = 0.004;       ///< above it a frame is bad; for a hand of kReferenceHandLength and no noise
+  double recovered_score = 0.003;  ///< below it a frame is good; between the two, nothing changes (hysteresis)
+  double noise_factor = 1.0;       ///< sensor noise added in quadrature to both thresholds, in standard deviations
+  int bad_frames = 4;              ///< consecutive bad frames until the hand is lost
+  int good_frames = 1;             ///< consecutive good frames until a searched hand is tracked
+  int min_hand_pixels = 200;       ///< fewer are no data: the pose is held
+  double hold_time = 0.5;          ///< [s] without data until the held hand is lost
+  double forget_time = 3.0;        ///< [s] after the loss until the last pose is no longer a start
+};
+
+template <class V>
+void visit(V& v, LossParams& p) {
+  v("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame whose global score is above is bad (hand of 190 mm)");
+  v("recovered_score", p.recovered_score, 1e-4, 0.1, "m, a frame whose global score is below is good");
+  v("noise_factor", p.noise_factor, 0.0, 10.0, "standard deviations of sensor noise added in quadrature");
+  v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames until the hand is lost");
+  v("good_frames", p.good_frames, 1, 1000, "consecutive good frames until a hand that was searched for is tracked");
+  v("min_hand_pixels", p.min_hand_pixels, 1, 1000000, "with fewer hand pixels the pose is held");
+  v("hold_time", p.hold_time, 0.0, 60.0, "s without data until the held hand is lost");
+  v("forget_time", p.forget_time, 0.0, 3600.0, "s after the loss until the last pose is forgotten");
+}
+
+/// What one frame says about the tracked hand.
+struct TrackEvidence {
+  double dt = 0;                ///< since the frame before [s]
+  int hand_pixels = 0;          ///< 0 where no hand is present
+  std::optional<double> score;  ///< global score of the best pose [m]; none: no pose was found or tried
+  double noise = 0;             ///< HandObservation::noise [m]
+  double hand_length = 0;       ///< HandProfile::hand_length() [m]
+};
+
+/// Says whether the hand is tracked at all. Pure state machine:
+///   searching --good--> tracking <--good-- holding --no data for hold_time--> lost --forget_time--> searching
+///   tracking --no data--> holding;  tracking | holding --bad_frames bad ones--> lost --good--> tracking.
+/// While holding the pose is kept; while lost the last good pose is one of the starts of the search.
+class LossDetector {
+ public:
+  static constexpr double kReferenceHandLength = 0.19;  ///< [m]
+
+  explicit LossDetector(const LossParams& params) : params_(params) {}
+
+  /// The status after this frame.
+  TrackStatus update(const TrackEvidence& evidence);
+  TrackStatus status() const { return status_; }
+  /// A pose was given from outside: tracking until the scores say otherwise.
+  void start_tracking() { enter(TrackStatus::tracking); }
+  void reset() { enter(TrackStatus::searching); }
+
+  /// Score [m] above which a frame with this noise and hand is bad; below `good_threshold` it is good.
+  double bad_threshold(const TrackEvidence& evidence) const;
+  double good_threshold(const TrackEvidence& evidence) const;
+
+ private:
+  enum class Verdict { no_data, good, undecided, bad };
+  Verdict judge(const TrackEvidence& evidence) const;
+  TrackStatus next_while_tracked(Verdict verdict, double dt);
+  TrackStatus next_while_lost(Verdict verdict, double dt);
+  void enter(TrackStatus status);
+
+  LossParams params_;
+  TrackStatus status_ = TrackStatus::searching;
+  int good_ = 0, bad_ = 0;    // consecutive frames
+  double time_in_state_ = 0;  // [s] holding or lost
+};
+
+}  // namespace barehand

@@ -1,0 +1,117 @@
+#include "stages/prediction/motion_prediction.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace barehand {
+
+namespace {
+
+/// Shortens the two halves of a velocity to the bounds.
+Vector6d bounded(Vector6d velocity, const PredictionParams& params) {
+  const double speed = velocity.head<3>().norm(), angular = velocity.tail<3>().norm();
+  if (speed > params.max_speed) velocity.head<3>() *= params.max_speed / speed;
+  if (angular > params.max_angular_speed) velocity.tail<3>() *= params.max_angular_speed / angular;
+  return velocity;
+}
+
+}  // namespace
+
+HandPose moved(const SE3& motion, const HandPose& pose) {
+  HandPose result;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    result[s] = motion * pose[s];
+    result[s].R = orthonormalised(result[s].R);
+  }
+  return result;
+}
+
+void MotionModel::restart(const HandPose& pose, std::int64_t utime) {
+  pose_ = pose;
+  utime_ = utime;
+  has_pose_ = true;
+  seen_.fill(true);
+  velocity_.fill(Vector6d::Zero());
+  global_velocity_.setZero();
+}
+
+void MotionModel::update(const HandPose& pose, const std::array<bool, kSegmentCount>& seen,
+                         const Prediction& prediction) {
+  const double dt = prediction.dt;
+  const bool usable = has_pose_ && dt > 0 && dt <= params_.max_interval;
+  // Without ICP the palm stands for the hand; else the whole motion would count as relative and be applied twice.
+  const SE3 global = prediction.icp.reliable ? prediction.icp.motion : SE3(pose[kPalm] * pose_[kPalm].inverse());
+  const HandPose carried = moved(usable ? global : SE3{}, pose_);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const Vector6d measured =
+        usable ? bounded(boxminus(pose[s], carried[s]) / dt, params_) : Vector6d(Vector6d::Zero());
+    velocity_[s] = params_.smoothing * velocity_[s] + (1 - params_.smoothing) * measured;
+  }
+  if (usable) global_velocity_ = boxminus(carried[kPalm], pose_[kPalm]) / dt;
+  if (!usable) global_velocity_.setZero();
+  pose_ = pose;
+  seen_ = seen;
+  utime_ = prediction.utime;
+  has_pose_ = true;
+}
+
+double MotionModel::damping_of(int segment, double dt) const {
+  if (seen_[segment]) return params_.damping;
+  return dt * params_.slow_rate > 1 ? params_.slow_unseen_damping : params_.unseen_damping;
+}
+
+HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, double dt) const {
+  HandPose pose = carried;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    Vector6d velocity = velocity_[s];
+    velocity << motion.R * velocity.head<3>(), motion.R * velocity.tail<3>();  // the velocity turns with the hand
+    pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity);
+  }
+  // An unseen segment keeps its orientation but stays on the joint of a parent that moved.
+  for (int s = 1; s < kSegmentCount; ++s) {
+    if (seen_[s]) continue;
+    const int parent = parent_of(s);
+    const Eigen::Vector3d joint_in_parent = carried[parent].inverse() * carried[s].t;
+    pose[s].t = pose[parent] * joint_in_parent;
+  }
+  return pose;
+}
+
+Prediction MotionModel::predict(const HandObservation& observation, const HandSurface& surface) const {
+  assert(has_pose_);
+  Prediction result;
+  result.utime = observation.frame->utime;
+  result.dt = std::max(0.0, static_cast<double>(observation.frame->utime - utime_) * 1e-6);
+  const StartPose held{"held", pose_};
+  const ObservedCloud cloud(observation);
+  if (static_cast<int>(cloud.size()) < icp_params_.min_points) {
+    result.candidates = {held};
+    return result;
+  }
+  const bool recent = result.dt > 0 && result.dt <= params_.max_interval;
+  const double ahead = recent && params_.velocity ? result.dt : 0;
+  const SE3 last_motion = boxplus(pose_[kPalm], ahead * global_velocity_) * pose_[kPalm].inverse();
+  const auto model = visible_points(surface, pose_, observation.frame->camera, icp_params_.model_points);
+  result.icp = align_rigid(model, cloud, last_motion, result.dt, icp_params_);
+
+  const HandPose carried = moved(last_motion, pose_);
+  const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};
+  if (result.icp.reliable) {
+    const StartPose icp{"icp", moved(result.icp.motion, pose_)};
+    const StartPose both{"icp_velocity", with_velocity(icp.pose, result.icp.motion, ahead)};
+    result.candidates = {both, icp, velocity, held};
+    if (!params_.velocity) result.candidates = {icp, held};
+  } else {
+    result.candidates = {held, velocity};
+    if (!params_.velocity) result.candidates = {held};
+  }
+  return result;
+}
+
+Proposals proposals_at(const HandPose& pose, const std::array<Vector6d, kSegmentCount>& half_width) {
+  Proposals proposals;
+  for (int s = 0; s < kSegmentCount; ++s) proposals[s] = {Kernel{pose[s], half_width[s]}};
+  return proposals;
+}
+
+}  // namespace barehand

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hand/samples.h"
+#include "stages/prediction/rigid_icp.h"
+
+namespace barehand {
+
+/// Transition between frames (paper Sec. 4.4): ICP for the global motion, constant velocity for every segment
+/// relative to it. Deviation: segments that were not seen hold relative to the global motion at sensor rate, where
+/// their velocity is noise that feeds itself.
+struct PredictionParams {
+  bool velocity = true;              ///< constant velocity per segment
+  double damping = 0.9;              ///< fraction of a seen segment's relative velocity that is kept
+  double unseen_damping = 0.0;       ///< the same for unseen segments at sensor rate
+  double slow_unseen_damping = 0.5;  ///< and for unseen segments below `slow_rate`
+  double slow_rate = 10;             ///< [Hz] frame rate below which unseen segments keep some velocity
+  double smoothing = 0.0;            ///< weight of the velocity before in the new one: 0 = last difference
+  double max_speed = 2.0;            ///< [m/s] bound of the relative velocity
+  double max_angular_speed = 20;     ///< [rad/s]
+  double max_interval = 0.5;         ///< [s] after a longer gap velocities are forgotten
+};
+
+template <class V>
+void visit(V& v, PredictionParams& p) {
+  v("velocity", p.velocity, "constant velocity per segment, relative to the global motion (Sec. 4.4)");
+  v("damping", p.damping, 0.0, 1.0, "fraction of a seen segment's relative velocity that is kept");
+  v("unseen_damping", p.unseen_damping, 0.0, 1.0, "the same for unseen segments at sensor rate");
+  v("slow_unseen_damping", p.slow_unseen_damping, 0.0, 1.0, "the same for unseen segments below slow_rate");
+  v("slow_rate", p.slow_rate, 0.0, 1000.0, "Hz, frame rate below which unseen segments keep some velocity");
+  v("smoothing", p.smoothing, 0.0, 0.99, "weight of the velocity before in the new one");
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, bound of the relative velocity");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, bound of the relative velocity");
+  v("max_interval", p.max_interval, 1e-3, 60.0, "s, after a longer gap velocities are forgotten");
+}
+
+/// A pose the next frame may start from. The tracker lets candidates compete by their global score.
+struct StartPose {
+  std::string name;  ///< held, icp, icp_velocity, velocity
+  HandPose pose;
+};
+
+struct Prediction {
+  std::vector<StartPose> candidates;  ///< [0] is the primary one, the centre of the level 0 proposals
+  IcpResult icp;
+  std::int64_t utime = 0;  ///< of the observation [us]
+  double dt = 0;           ///< [s] since the last pose
+  const HandPose& primary() const { return candidates.front().pose; }
+};
+
+/// What is carried from frame to frame: the last pose and the motion that led to it.
+class MotionModel {
+ public:
+  MotionModel(const PredictionParams& params, const IcpParams& icp_params) : params_(params), icp_params_(icp_params) {}
+
+  bool has_pose() const { return has_pose_; }
+  const HandPose& pose() const { return pose_; }
+  std::int64_t utime() const { return utime_; }
+
+  /// Starts anew from a pose without velocity. `utime` [us] of the observation it belongs to.
+  void restart(const HandPose& pose, std::int64_t utime);
+  /// Records the estimate of a frame whose prediction was `prediction`. `seen`: estimated from data.
+  void update(const HandPose& pose, const std::array<bool, kSegmentCount>& seen, const Prediction& prediction);
+  void forget() { has_pose_ = false; }
+
+  /// Candidates for an observation. Needs has_pose(). With few hand points the pose is held: one candidate `held`.
+  /// A non-positive interval (equal or backward stamps) is treated as a standstill.
+  Prediction predict(const HandObservation& observation, const HandSurface& surface) const;
+
+  /// Per second, relative to the global motion: of the origin, then angular, camera frame.
+  const std::array<Vector6d, kSegmentCount>& relative_velocity() const { return velocity_; }
+
+ private:
+  HandPose with_velocity(const HandPose& moved, const SE3& motion, double dt) const;
+  double damping_of(int segment, double dt) const;
+
+  PredictionParams params_;
+  IcpParams icp_params_;
+  bool has_pose_ = false;
+  std::int64_t utime_ = 0;
+  HandPose pose_;
+  std::array<bool, kSegmentCount> seen_{};
+  std::array<Vector6d, kSegmentCount> velocity_{};
+  Vector6d global_velocity_ = Vector6d::Zero();  // of the palm's frame under the global motion, per second
+};
+
+/// The pose moved rigidly: every segment by `motion` (camera frame).
+HandPose moved(const SE3& motion, const HandPose& pose);
+
+/// Proposals of level 0: one kernel at the pose for every segment (Sec. 4.4).
+Proposals proposals_at(const HandPose& pose, const std::array<Vector6d, kSegmentCount>& half_width);
+
+}  // namespace barehand

@@ -1,0 +1,70 @@
+#include "stages/prediction/observed_cloud.h"
+
+#include <cassert>
+#include <cmath>
+#include <nanoflann.hpp>
+
+namespace barehand {
+
+struct ObservedCloud::Index {
+  std::vector<Eigen::Vector3f> points, normals;
+
+  // nanoflann's data set interface.
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Index>, Index, 3>;
+  std::unique_ptr<Tree> tree;
+};
+
+namespace {
+
+/// Normal of the pixel in which the point lies; a measured normal always faces the camera.
+Eigen::Vector3f normal_at(const HandObservation& observation, const Eigen::Vector3f& p) {
+  const Eigen::Vector2d uv = observation.frame->camera.project(p.cast<double>());
+  const int u = static_cast<int>(std::lround(uv.x())) - observation.u0;
+  const int v = static_cast<int>(std::lround(uv.y())) - observation.v0;
+  return observation.normal.contains(u, v) ? observation.normal.at(u, v) : Eigen::Vector3f::Zero();
+}
+
+}  // namespace
+
+ObservedCloud::ObservedCloud(const HandObservation& observation) : index_(std::make_unique<Index>()) {
+  index_->points = observation.cloud;
+  std::erase_if(index_->points, [](const Eigen::Vector3f& p) { return !(p.z() > 0) || !p.allFinite(); });
+  index_->normals.reserve(index_->points.size());
+  for (const Eigen::Vector3f& p : index_->points) index_->normals.push_back(normal_at(observation, p));
+  if (index_->points.empty()) return;
+  index_->tree = std::make_unique<Index::Tree>(3, *index_, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+}
+
+ObservedCloud::~ObservedCloud() = default;
+ObservedCloud::ObservedCloud(ObservedCloud&&) noexcept = default;
+ObservedCloud& ObservedCloud::operator=(ObservedCloud&&) noexcept = default;
+
+std::size_t ObservedCloud::size() const { return index_->points.size(); }
+Eigen::Vector3d ObservedCloud::point(std::size_t i) const { return index_->points[i].cast<double>(); }
+Eigen::Vector3d ObservedCloud::normal(std::size_t i) const { return index_->normals[i].cast<double>(); }
+
+Eigen::Vector3d ObservedCloud::centroid() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : index_->points) sum += p.cast<double>();
+  return sum / static_cast<double>(std::max<std::size_t>(1, size()));
+}
+
+std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p) const {
+  assert(!empty());
+  const float query[3] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+  std::size_t best = 0;
+  float distance_sq = 0;
+  nanoflann::KNNResultSet<float> result(1);
+  result.init(&best, &distance_sq);
+  index_->tree->findNeighbors(result, query, nanoflann::SearchParams());
+  return best;
+}
+
+}  // namespace barehand

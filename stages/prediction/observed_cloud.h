@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "observe/observation.h"
+
+namespace barehand {
+
+/// The hand points of one frame with their normals, indexed for nearest-neighbour search.
+class ObservedCloud {
+ public:
+  explicit ObservedCloud(const HandObservation& observation);
+  ~ObservedCloud();
+  ObservedCloud(ObservedCloud&&) noexcept;
+  ObservedCloud& operator=(ObservedCloud&&) noexcept;
+
+  std::size_t size() const;
+  bool empty() const { return size() == 0; }
+  /// Camera frame [m].
+  Eigen::Vector3d point(std::size_t i) const;
+  /// Unit, towards the camera; zero where undefined.
+  Eigen::Vector3d normal(std::size_t i) const;
+  Eigen::Vector3d centroid() const;
+  /// Index of the point nearest to `p`. The cloud is not empty.
+  std::size_t nearest(const Eigen::Vector3d& p) const;
+
+ private:
+  struct Index;
+  std::unique_ptr<Index> index_;
+};
+
+}  // namespace barehand

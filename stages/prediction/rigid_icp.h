@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+
+#include "stages/prediction/observed_cloud.h"
+#include "stages/prediction/visible_points.h"
+
+namespace barehand {
+
+/// Registration of the previous hand surface to the new frame: the large global motion (paper Sec. 4.4, its [2]).
+struct IcpParams {
+  bool enabled = true;
+  int model_points = 300;         ///< visible surface points that take part
+  int iterations = 12;            ///< per start
+  double scale_start = 0.030;     ///< [m] Geman-McClure scale of the first iteration
+  double scale_end = 0.004;       ///< [m] and of the last
+  double point_weight = 0.1;      ///< weight of the point-to-point distance beside the point-to-plane one
+  int min_points = 100;           ///< fewer observed points: hold
+  double min_inliers = 0.5;       ///< fraction of model points that must match for the result to be reliable
+  double max_speed = 4.0;         ///< [m/s] faster motion is not believed
+  double max_angular_speed = 20;  ///< [rad/s]
+  double slack = 0.03;            ///< [m] allowed whatever the frame interval; rotations: slack / 0.1 m
+};
+
+template <class V>
+void visit(V& v, IcpParams& p) {
+  v("enabled", p.enabled, "estimate the global motion of the hand by ICP (Sec. 4.4)");
+  v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
+  v("iterations", p.iterations, 1, 200, "per start");
+  v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
+  v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
+  v("point_weight", p.point_weight, 0.0, 10.0, "point-to-point beside point-to-plane distance");
+  v("min_points", p.min_points, 3, 1000000, "fewer observed points: the pose is held");
+  v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of model points that must match");
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion is not believed");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion is not believed");
+  v("slack", p.slack, 0.0, 1.0, "m, motion allowed whatever the frame interval (rotation: slack / 0.1 m)");
+}
+
+/// Motion of the hand between two frames in camera coordinates: p_new = motion * p_old.
+struct IcpResult {
+  SE3 motion;
+  double rms = 0;         ///< [m] point-to-plane, over the matching points
+  double inliers = 0;     ///< fraction of model points that match
+  bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
+};
+
+/// Best of three starts: identity, shift of the centroid, `last_motion` (already scaled to this frame interval).
+/// `dt` [s] since the frame in which `model` was posed.
+IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
+                      double dt, const IcpParams& params);
+
+/// A matched pair with the plane normal used for it.
+struct IcpPair {
+  Eigen::Vector3d model, data, normal;
+};
+/// Residuals (point-to-plane, then the three point-to-point components, not weighted) of a pair whose model point,
+/// given in a frame at the pivot, was moved by `T_camera_pivot`; and their derivative by the boxplus twist.
+struct IcpResidual {
+  Eigen::Vector4d value;
+  Eigen::Matrix<double, 4, 6> jacobian;
+};
+IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair);
+
+}  // namespace barehand

@@ -1,0 +1,81 @@
+#include "stages/prediction/start_templates.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace barehand {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Flexion of a finger's three joints [degrees]; spread of the fingers away from the middle one [degrees].
+struct Curl {
+  std::string_view name;
+  std::array<double, 3> finger, thumb;
+  double spread;
+};
+constexpr std::array<Curl, 6> kCurls = {{
+    {"open", {3, 5, 3}, {0, 5, 5}, 0},
+    {"spread", {0, 5, 3}, {-5, 0, 0}, 12},
+    {"half_open", {25, 35, 20}, {5, 10, 10}, 3},
+    {"relaxed_curl", {40, 60, 35}, {10, 15, 20}, 0},
+    {"grasp", {30, 45, 30}, {20, 20, 25}, 10},
+    {"loose_fist", {70, 90, 50}, {20, 30, 35}, 0},
+}};
+
+}  // namespace
+
+HandPose posed(const HandProfile& profile, const ArticulatedPose& articulated) {
+  return forward_kinematics(profile, articulated.T_camera_palm, articulated.angles);
+}
+
+void clamp_angles(std::array<JointAngles, kSegmentCount>& angles,
+                  const std::array<JointLimits, kSegmentCount>& limits) {
+  for (int s = 1; s < kSegmentCount; ++s) {
+    angles[s].flexion = std::clamp(angles[s].flexion, limits[s].flexion_lo, limits[s].flexion_hi);
+    angles[s].abduction = std::clamp(angles[s].abduction, limits[s].abduction_lo, limits[s].abduction_hi);
+    angles[s].twist = 0;
+  }
+}
+
+ArticulatedPose articulated_from(const HandProfile& profile, const HandPose& pose,
+                                 const std::array<JointLimits, kSegmentCount>& limits) {
+  ArticulatedPose result;
+  result.T_camera_palm = pose[kPalm];
+  for (int s = 1; s < kSegmentCount; ++s) result.angles[s] = joint_angles(profile, pose, s);
+  clamp_angles(result.angles, limits);
+  return result;
+}
+
+std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
+                                           const std::array<JointLimits, kSegmentCount>& limits) {
+  // A positive angle about +y of the segment leads to the right hand's thumb side.
+  const double thumbwards = profile.handedness == Handedness::right ? 1 : -1;
+  constexpr std::array<double, kFingerCount> kFan = {0, 1, 0, -0.7, -1.4};
+  std::vector<ShapeTemplate> templates;
+  for (const Curl& curl : kCurls) {
+    ShapeTemplate shape{curl.name, {}};
+    for (int finger = 0; finger < kFingerCount; ++finger) {
+      for (int k = 0; k < 3; ++k)
+        shape.angles[segment_of(finger, k)].flexion = kDegree * (finger == 0 ? curl.thumb[k] : curl.finger[k]);
+      shape.angles[segment_of(finger, 0)].abduction = kDegree * thumbwards * kFan[finger] * curl.spread;
+    }
+    clamp_angles(shape.angles, limits);
+    templates.push_back(shape);
+  }
+  return templates;
+}
+
+Eigen::Matrix3d palm_orientation(double roll, double pitch, double in_plane) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  Eigen::Matrix3d upright;  // palm to the camera, fingers up: x = -x_camera, y = z_camera, z = y_camera
+  upright << -1, 0, 0, 0, 0, 1, 0, 1, 0;
+  return (AngleAxisd(in_plane, Vector3d::UnitZ()) * AngleAxisd(-pitch, Vector3d::UnitX()) *
+          AngleAxisd(roll, Vector3d::UnitY()))
+             .toRotationMatrix() *
+         upright;
+}
+
+}  // namespace barehand
