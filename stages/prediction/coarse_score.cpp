@@ -1,121 +1,194 @@
 #include "stages/prediction/coarse_score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-
-#include "math/random.h"
 
 namespace barehand {
 
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kCloseToHand = 0.008f;  // [m] holes and missing borders this close to the hand may be hand
-constexpr float kFootprint = 0.4f;      // half side of a splat in point widths; 0.5 would fatten the silhouette
+constexpr float kCloseCost = 0.1f;
+constexpr float kNearest = 0.02f;  // [m] points nearer to the camera plane are not drawn
+constexpr int kBorder = 1;
+constexpr std::size_t kLanes = 8;
+// A splat covers 2 x 2 cells: on average one cell more than belongs to the silhouette, less what cells that are hand
+// by a third add to the data. Points are pulled inwards by this fraction of a cell to make up for it.
+constexpr double kShrink = 0.8;
+
+/// One row of a rigid transform; points are first pulled inwards along their normals by `shrink` [m].
+struct Row {
+  float x, y, z, offset, shrink;
+};
+void affine(const CoarseSkin::Part& part, const Row& row, float* __restrict out) {
+  const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
+  const float *nx = part.nx.data(), *ny = part.ny.data(), *nz = part.nz.data();
+  const Row r = row;
+  const std::size_t count = part.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] =
+        r.x * (x[i] - r.shrink * nx[i]) + r.y * (y[i] - r.shrink * ny[i]) + r.z * (z[i] - r.shrink * nz[i]) + r.offset;
+  }
+}
+
+void divide(std::size_t count, const float* __restrict z, float focal, float centre, float* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = focal * out[i] / z[i] + centre;
+}
+
+/// Negative where the skin faces an eye at `eye` (segment frame).
+void face(const CoarseSkin::Part& part, const Eigen::Vector3f& eye, float* __restrict out) {
+  const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
+  const float *nx = part.nx.data(), *ny = part.ny.data(), *nz = part.nz.data();
+  const float ex = eye.x(), ey = eye.y(), ez = eye.z();
+  const std::size_t count = part.size();
+  for (std::size_t i = 0; i < count; ++i) out[i] = nx[i] * (x[i] - ex) + ny[i] * (y[i] - ey) + nz[i] * (z[i] - ez);
+}
 
 }  // namespace
 
-CoarseSkin make_coarse_skin(const HandSurface& surface, double spacing) {
-  CoarseSkin coarse;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentSurface& skin = surface[s];
-    double area = 0;
-    for (const float a : skin.area) area += a;
-    const double wanted = std::ceil(area / (spacing * spacing));
-    const auto count = std::min(skin.size(), static_cast<std::size_t>(wanted));
-    // Jitter within equal strata: a fixed stride would beat against the spiral in which surfaces are sampled.
-    KeyedRandom random(0, static_cast<std::uint32_t>(s));
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto i = std::min(skin.size() - 1,
-                              static_cast<std::size_t>((static_cast<double>(k) + random.uniform()) *
-                                                       static_cast<double>(skin.size()) / static_cast<double>(count)));
-      coarse.points[s].push_back({{skin.x[i], skin.y[i], skin.z[i]},
-                                  {skin.nx[i], skin.ny[i], skin.nz[i]},
-                                  static_cast<float>(std::sqrt(area / static_cast<double>(count)))});
-    }
-  }
-  return coarse;
+CoarseScorer::CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params)
+    : skin_(skin), params_(params), camera_(grid.camera), shrink_(kShrink * grid.cell), hand_cells_(grid.hand_cells) {
+  camera_.width += 2 * kBorder, camera_.height += 2 * kBorder;
+  camera_.cx += kBorder, camera_.cy += kBorder;
+  image_lo_u_ = static_cast<float>(grid.i_lo), image_hi_u_ = static_cast<float>(grid.i_hi + 2 * kBorder);
+  image_lo_v_ = static_cast<float>(grid.j_lo), image_hi_v_ = static_cast<float>(grid.j_hi + 2 * kBorder);
+  if (!grid.empty()) prepare(grid);
+  std::size_t largest = skin.forearm.size();
+  for (const CoarseSkin::Part& part : skin.parts) largest = std::max(largest, part.size());
+  for (auto* buffer : {&u_, &v_, &z_, &facing_}) buffer->resize(largest);
+  visible_.resize(largest);
 }
 
-CoarseScorer::CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params)
-    : grid_(grid), skin_(skin), params_(params), z_(grid.depth.size(), 0), stamp_(grid.depth.size(), 0) {
-  covered_.reserve(grid.depth.size());
+void CoarseScorer::prepare(const CoarseGrid& grid) {
+  const std::size_t cells = static_cast<std::size_t>(camera_.width) * camera_.height;
+  const std::size_t padded = (cells + kLanes - 1) / kLanes * kLanes;
+  for (auto* values :
+       {&costs_.data, &costs_.slope, &costs_.front, &costs_.behind, &costs_.empty, &costs_.forearm, &costs_.bare})
+    values->assign(padded, 0.0f);
+  hand_z_.assign(padded, kInfinity);
+  forearm_z_.assign(padded, kInfinity);
+  for (int j = 0; j < grid.depth.height(); ++j) {
+    for (int i = 0; i < grid.depth.width(); ++i) {
+      prepare_cell(grid, grid.depth.index(i, j), static_cast<std::size_t>(j + kBorder) * camera_.width + i + kBorder);
+    }
+  }
+}
+
+void CoarseScorer::prepare_cell(const CoarseGrid& grid, std::size_t from, std::size_t to) {
+  const float cap = static_cast<float>(params_.depth_cap);
+  const float distance = std::min(grid.hand_distance[from], cap) / cap;
+  const float background = static_cast<float>(params_.background) * distance;
+  const bool measured = grid.depth[from] > 0;
+  costs_.data[to] = grid.depth[from];
+  // Skin of the arm or a sleeve may be where the forearm is, or something in front of it; not empty space.
+  costs_.bare[to] = measured ? static_cast<float>(params_.no_forearm) : 0.0f;
+  costs_.forearm[to] = measured ? 0.0f : kCloseCost;
+  switch (grid.label[from]) {
+    case PixelLabel::hand:
+      costs_.slope[to] = 1 / cap;
+      costs_.empty[to] = static_cast<float>(params_.unexplained);
+      costs_.bare[to] = 0;
+      break;
+    case PixelLabel::unknown:
+      costs_.front[to] = costs_.behind[to] =
+          grid.hand_distance[from] < kCloseToHand ? kCloseCost : static_cast<float>(params_.unknown) * distance;
+      break;
+    case PixelLabel::object:
+      costs_.front[to] = background;
+      costs_.behind[to] = measured ? static_cast<float>(params_.hidden) : background;
+      break;
+    case PixelLabel::background:
+      costs_.front[to] = costs_.behind[to] = background;
+      break;
+  }
 }
 
 double CoarseScorer::operator()(const HandPose& pose) {
-  for (const SE3& T : pose) {
-    if (!T.all_finite()) return std::numeric_limits<double>::infinity();
+  const bool finite = std::all_of(pose.begin(), pose.end(), [](const SE3& T) { return T.all_finite(); });
+  if (hand_cells_ == 0 || !finite) return std::numeric_limits<double>::infinity();
+  std::fill(hand_z_.begin(), hand_z_.end(), kInfinity);
+  std::fill(forearm_z_.begin(), forearm_z_.end(), kInfinity);
+  double outside = 0;
+  for (const CoarseSkin::Part& part : skin_.parts) {
+    splat(part, pose[part.segment], hand_z_);
+    outside += outside_cost(part);
   }
-  if (grid_.empty()) return std::numeric_limits<double>::infinity();
-  splat(pose);
-  double cost = outside_cost_;
-  int explained = 0;
-  for (const std::int32_t i : covered_) {
-    cost += cell_cost(i, z_[i]);
-    explained += grid_.label[i] == PixelLabel::hand;
-  }
-  cost += params_.unexplained * (grid_.hand_cells - explained);
-  return cost / grid_.hand_cells;
+  splat(skin_.forearm, pose[kPalm], forearm_z_);  // may leave the region of interest without cost
+  return (outside + sum_of_costs()) / hand_cells_;
 }
 
-double CoarseScorer::cell_cost(std::size_t i, float z) const {
-  const float cap = static_cast<float>(params_.depth_cap);
-  const float data = grid_.depth[i];
-  const float distance = std::min(grid_.hand_distance[i], cap) / cap;
-  switch (grid_.label[i]) {
-    case PixelLabel::hand:
-      return std::min(std::abs(z - data), cap) / cap;
-    case PixelLabel::unknown:
-      return grid_.hand_distance[i] < kCloseToHand ? 0.1 : params_.unknown * distance;
-    case PixelLabel::object:
-      if (data > 0 && data < z) return params_.hidden;
-      break;
-    case PixelLabel::background:
-      break;
+/// Fixed order of summation: lanes first, then across, whatever the compiler makes of it.
+double CoarseScorer::sum_of_costs() const {
+  const float cap = static_cast<float>(params_.depth_cap), sleeve = static_cast<float>(params_.sleeve_depth);
+  const float *hand_z = hand_z_.data(), *forearm_z = forearm_z_.data(), *data = costs_.data.data();
+  const float *slope = costs_.slope.data(), *front = costs_.front.data(), *behind = costs_.behind.data();
+  const float *empty = costs_.empty.data(), *forearm = costs_.forearm.data(), *bare = costs_.bare.data();
+  std::array<float, kLanes> sum{};
+  for (std::size_t block = 0; block < hand_z_.size(); block += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      // Everything is loaded before it is chosen from: the loop stays free of branches.
+      const std::size_t i = block + lane;
+      const float z = hand_z[i], f = forearm_z[i], d = data[i], per_metre = slope[i];
+      const float in_front = front[i], hidden = behind[i], no_model = empty[i], arm = forearm[i], no_sleeve = bare[i];
+      const float side = z < d ? in_front : hidden;
+      const float model = per_metre * std::min(std::abs(z - d), cap) + side;
+      const float hand = z < kInfinity ? model : no_model;
+      const float air = d > f + sleeve ? no_sleeve : 0.0f;
+      const float stub = per_metre * std::min(std::abs(f - d), cap) + arm + air;
+      sum[lane] += f < z ? stub : hand;
+    }
   }
-  return params_.background * distance;
+  double total = 0;
+  for (const float s : sum) total += s;
+  return total;
 }
 
-void CoarseScorer::splat(const HandPose& pose) {
-  ++now_;
-  covered_.clear();
-  outside_cost_ = 0;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const Eigen::Matrix3f R = pose[s].R.cast<float>();
-    const Eigen::Vector3f t = pose[s].t.cast<float>();
-    for (const CoarseSkin::Point& q : skin_.points[s]) {
-      const Eigen::Vector3f p = R * q.p + t;
-      if (p.z() > 0.02f && (R * q.n).dot(p) < 0) splat_point(p.x(), p.y(), p.z(), q.width);
-    }
-  }
+void CoarseScorer::project(const CoarseSkin::Part& part, const SE3& T) {
+  const Eigen::Matrix3f R = T.R.cast<float>();
+  const Eigen::Vector3f t = T.t.cast<float>(), eye = R.transpose() * -t;
+  const float shrink = static_cast<float>(shrink_);
+  // One output at a time: the compiler vectorises what it can prove not to overlap.
+  affine(part, {R(2, 0), R(2, 1), R(2, 2), t.z(), 0}, z_.data());
+  affine(part, {R(0, 0), R(0, 1), R(0, 2), t.x(), shrink}, u_.data());
+  affine(part, {R(1, 0), R(1, 1), R(1, 2), t.y(), shrink}, v_.data());
+  divide(part.size(), z_.data(), static_cast<float>(camera_.fx), static_cast<float>(camera_.cx), u_.data());
+  divide(part.size(), z_.data(), static_cast<float>(camera_.fy), static_cast<float>(camera_.cy), v_.data());
+  face(part, eye, facing_.data());
 }
 
-void CoarseScorer::splat_point(float x, float y, float z, float width) {
-  const Intrinsics& c = grid_.camera;
-  const float u = static_cast<float>(c.fx) * x / z + static_cast<float>(c.cx);
-  const float v = static_cast<float>(c.fy) * y / z + static_cast<float>(c.cy);
-  const float half = kFootprint * static_cast<float>(c.fx) * width / z;
-  const int i_lo = static_cast<int>(std::floor(u - half + 0.5f)), i_hi = static_cast<int>(std::floor(u + half + 0.5f));
-  const int j_lo = static_cast<int>(std::floor(v - half + 0.5f)), j_hi = static_cast<int>(std::floor(v + half + 0.5f));
-  if (i_lo < 0 || j_lo < 0 || i_hi >= grid_.depth.width() || j_hi >= grid_.depth.height()) {
-    const int i = static_cast<int>(std::lround(u)), j = static_cast<int>(std::lround(v));
-    if (!grid_.depth.contains(i, j)) {
-      // Beyond the region of interest, yet in the image, no hand was found.
-      outside_cost_ += grid_.in_image(i, j) ? params_.background : params_.outside;
-      return;
-    }
+double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
+  const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
+  int beyond_region = 0, beyond_image = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const bool seen = facing_[i] < 0;
+    const bool off_grid = (u_[i] < 0.5f) | (v_[i] < 0.5f) | (u_[i] > w - 0.5f) | (v_[i] > h - 0.5f);
+    const bool off_image =
+        (u_[i] < image_lo_u_) | (v_[i] < image_lo_v_) | (u_[i] > image_hi_u_) | (v_[i] > image_hi_v_);
+    beyond_region += seen & off_grid & !off_image;
+    beyond_image += seen & off_grid & off_image;
   }
-  for (int j = std::max(0, j_lo); j <= std::min(j_hi, grid_.depth.height() - 1); ++j) {
-    for (int i = std::max(0, i_lo); i <= std::min(i_hi, grid_.depth.width() - 1); ++i) {
-      const std::size_t index = grid_.depth.index(i, j);
-      if (stamp_[index] != now_) {
-        stamp_[index] = now_;
-        z_[index] = z;
-        covered_.push_back(static_cast<std::int32_t>(index));
-      } else {
-        z_[index] = std::min(z_[index], z);
-      }
-    }
+  // Beyond the region of interest, yet in the image, no hand was found.
+  return params_.background * beyond_region + params_.outside * beyond_image;
+}
+
+void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer) {
+  project(part, T);
+  const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
+  int visible = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    visible_[visible] = static_cast<std::int32_t>(i);
+    visible += (facing_[i] < 0) & (z_[i] > kNearest) & (u_[i] >= 0) & (v_[i] >= 0) & (u_[i] < w) & (v_[i] < h);
+  }
+  const std::size_t stride = camera_.width;
+  for (int k = 0; k < visible; ++k) {
+    const std::int32_t i = visible_[k];
+    float* cell = z_buffer.data() + static_cast<std::size_t>(v_[i]) * stride + static_cast<std::size_t>(u_[i]);
+    const float z = z_[i];
+    cell[0] = std::min(cell[0], z), cell[1] = std::min(cell[1], z);
+    cell[stride] = std::min(cell[stride], z), cell[stride + 1] = std::min(cell[stride + 1], z);
   }
 }
 

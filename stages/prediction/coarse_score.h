@@ -4,19 +4,21 @@
 #include <vector>
 
 #include "hand/hand_pose.h"
-#include "hand/surface.h"
 #include "stages/prediction/coarse_grid.h"
+#include "stages/prediction/coarse_skin.h"
 
 namespace barehand {
 
-/// Weights of the quick score of a whole pose.
+/// Weights of the quick score of a whole pose; each is the cost of one cell.
 struct CoarseScoreParams {
-  double depth_cap = 0.025;  ///< [m] depth differences and image distances count up to this
-  double background = 1.2;   ///< model where the background is seen, at the cap
-  double unknown = 0.4;      ///< model where nothing is measured and no hand is near
-  double hidden = 0.15;      ///< model behind an object: allowed, but seen hands are better
-  double outside = 0.4;      ///< model outside the image
-  double unexplained = 1.0;  ///< hand cells without model
+  double depth_cap = 0.025;    ///< [m] depth differences and image distances count up to this
+  double background = 1.2;     ///< model where the background is seen, at the cap
+  double unknown = 0.4;        ///< model where nothing is measured and no hand is near
+  double hidden = 0.15;        ///< model behind an object: allowed, but seen hands are better
+  double outside = 0.4;        ///< model outside the image
+  double unexplained = 1.0;    ///< hand cells without model
+  double no_forearm = 0.6;     ///< forearm where the background is seen
+  double sleeve_depth = 0.03;  ///< [m] a surface this close to the forearm counts as its sleeve
 };
 
 template <class V>
@@ -27,21 +29,13 @@ void visit(V& v, CoarseScoreParams& p) {
   v("hidden", p.hidden, 0.0, 100.0, "cost of a model cell behind an object");
   v("outside", p.outside, 0.0, 100.0, "cost of a model cell outside the image");
   v("unexplained", p.unexplained, 0.0, 100.0, "cost of a hand cell without model");
+  v("no_forearm", p.no_forearm, 0.0, 100.0, "cost of a forearm cell where the background is seen");
+  v("sleeve_depth", p.sleeve_depth, 0.0, 1.0, "m, a surface this close to the forearm counts as its sleeve");
 }
-
-/// The skin thinned to about one point per `spacing` x `spacing` [m], ready to be posed quickly.
-struct CoarseSkin {
-  struct Point {
-    Eigen::Vector3f p, n;  ///< segment frame
-    float width;           ///< [m] side of the square of skin for which it stands
-  };
-  std::array<std::vector<Point>, kSegmentCount> points;
-};
-CoarseSkin make_coarse_skin(const HandSurface& surface, double spacing);
 
 /// Silhouette and depth score of a whole pose on a coarse grid: the skin is splatted into a z-buffer of cells; every
 /// covered cell costs its capped depth difference (hand), or its distance to the hand (background); hand cells that
-/// stay uncovered cost too. 0 = perfect; about 1 = as good as no model at all. Not thread-safe: one per thread.
+/// stay uncovered cost too. 0 = perfect; about 1 = as good as no model at all. Refers to the skin; one per thread.
 class CoarseScorer {
  public:
   CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params);
@@ -50,18 +44,29 @@ class CoarseScorer {
   double operator()(const HandPose& pose);
 
  private:
-  void splat(const HandPose& pose);
-  void splat_point(float x, float y, float z, float width);
-  double cell_cost(std::size_t index, float z) const;
+  /// Cost of model depth z over a cell: slope min(|z - data|, cap) + (z < data ? front : behind); without model
+  /// `empty`. Of forearm depth: the first term + forearm + (z is in front by more than sleeve_depth ? bare : 0).
+  /// Arrays over the cells with a border of one cell, so that splats need no range check.
+  struct CellCosts {
+    std::vector<float> data, slope, front, behind, empty, forearm, bare;
+  };
+  void prepare(const CoarseGrid& grid);
+  void prepare_cell(const CoarseGrid& grid, std::size_t from, std::size_t to);
+  void project(const CoarseSkin::Part& part, const SE3& T);
+  void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
+  double outside_cost(const CoarseSkin::Part& part) const;
+  double sum_of_costs() const;
 
-  const CoarseGrid& grid_;
   const CoarseSkin& skin_;
   CoarseScoreParams params_;
-  std::vector<float> z_;  // of the pose last splatted, where stamped
-  std::vector<std::uint32_t> stamp_;
-  std::uint32_t now_ = 0;
-  std::vector<std::int32_t> covered_;
-  double outside_cost_ = 0;  // of the points that fall off the grid
+  Intrinsics camera_;  // of the bordered cells
+  double shrink_ = 0;  // [m]
+  float image_lo_u_ = 0, image_lo_v_ = 0, image_hi_u_ = 0, image_hi_v_ = 0;
+  int hand_cells_ = 0;
+  CellCosts costs_;
+  std::vector<float> hand_z_, forearm_z_;  // z-buffers; infinite where nothing was drawn
+  std::vector<float> u_, v_, z_, facing_;  // of the part being splatted; facing < 0: towards the camera
+  std::vector<std::int32_t> visible_;
 };
 
 }  // namespace barehand

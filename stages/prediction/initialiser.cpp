@@ -18,16 +18,18 @@ constexpr int kLastGoodTurns = 8;
 Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
   Vector3d sum = Vector3d::Zero();
   double weight = 0;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const Eigen::Vector3f local_view = (pose[s].R.transpose() * view).cast<float>();
+  for (const CoarseSkin::Part& part : skin.parts) {
+    const SE3& T = pose[part.segment];
+    const Eigen::Vector3f local_view = (T.R.transpose() * view).cast<float>();
     Eigen::Vector3f local = Eigen::Vector3f::Zero();
     float local_weight = 0;
-    for (const CoarseSkin::Point& q : skin.points[s]) {
-      const float w = std::max(0.0f, -q.n.dot(local_view)) * q.width * q.width;
-      local += w * q.p;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const float facing = -local_view.dot(Eigen::Vector3f(part.nx[i], part.ny[i], part.nz[i]));
+      const float w = std::max(0.0f, facing) * part.width * part.width;
+      local += w * Eigen::Vector3f(part.x[i], part.y[i], part.z[i]);
       local_weight += w;
     }
-    sum += pose[s].R * local.cast<double>() + local_weight * pose[s].t;
+    sum += T.R * local.cast<double>() + local_weight * T.t;
     weight += local_weight;
   }
   return weight > 0 ? Vector3d(sum / weight) : pose[kPalm].t;
@@ -53,8 +55,8 @@ Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const HandS
       params_(params),
       limits_(widened_limits(*profile_, params.widening)),
       shapes_(shape_templates(*profile_, limits_)),
-      coarse_skin_(make_coarse_skin(surface, params.coarse_cell)),
-      fine_skin_(make_coarse_skin(surface, params.fine_cell)) {}
+      coarse_skin_(make_coarse_skin(*profile_, surface, params.coarse_cell)),
+      fine_skin_(make_coarse_skin(*profile_, surface, params.fine_cell)) {}
 
 std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
                                                  const HandPose* last_good) const {
