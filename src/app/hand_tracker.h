@@ -1,18 +1,66 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "app/tracker_params.h"
+#include "core/parallel.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
+#include "stages/fusion/fusion.h"
+#include "stages/segment_tracker/segment_tracker.h"
 
 namespace barehand {
 
 /// Tracks one hand through a sequence of observations, in order: prediction, then segment tracker and fusion level by
-/// level, then refinement and the choice of the best hypothesis. Synchronous; owns no thread, clock, file or socket.
+/// level, then refinement and the choice of the best hypothesis by one global score. Without a hand, or after a loss,
+/// it searches. Synchronous; owns no thread, clock, file or socket. Same observations and seed, same estimates.
 class HandTracker {
  public:
-  virtual ~HandTracker() = default;
-  virtual HandEstimatePtr process(const HandObservationPtr& observation) = 0;
+  HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
+              Workers& workers);
+
+  /// Never null; says searching or lost where there is no hand.
+  HandEstimatePtr process(const HandObservation& observation);
+  /// The next observation is tracked from this pose (T_camera_segment).
+  void start_at(const HandPose& pose) { requested_start_ = pose; }
+  /// Forgets the hand; the next observation is searched.
+  void reset();
+
+ private:
+  /// What one frame yielded before it is judged.
+  struct Fit {
+    RefinedPose refined;
+    double joint_gap = 0;
+    std::optional<Prediction> prediction;  ///< none: found by a search
+  };
+  std::optional<Fit> follow(const HandObservation& observation);
+  std::optional<Fit> search(const HandObservation& observation);
+  FusedPose sample(const HandObservation& observation, const Prediction& prediction);
+  RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
+  void remember(const HandObservation& observation, const Fit& fit, bool tracked_before);
+  HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
+  void fill_held(HandEstimate& out, double held_s) const;
+  double interval_factor(double dt) const;
+  double raw_gap(const HandPose& pose) const;
+
+  TrackerParams params_;
+  std::shared_ptr<const HandProfile> profile_;
+  std::shared_ptr<const HandSurface> surface_;
+  std::uint64_t seed_;
+  SegmentTracker segment_tracker_;
+  Fusion fusion_;
+  Refinement refinement_;
+  MotionModel motion_;
+  LossDetector loss_;
+  Initialiser initialiser_;
+
+  std::uint32_t frame_ = 0;  // observations so far: keys the random numbers
+  int search_frames_ = 0;    // since the last hand
+  std::int64_t last_utime_ = 0;
+  std::int32_t hand_id_ = 0;
+  std::optional<HandPose> requested_start_, last_good_;
+  HandEstimatePtr last_tracked_;  // base of velocities and of holding
 };
 
 }  // namespace barehand

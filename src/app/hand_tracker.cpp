@@ -1,0 +1,174 @@
+#include "app/hand_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+constexpr double kMicro = 1e-6;
+constexpr double kDistinct = 0.001;  // start poses closer than this are the same [m]
+
+std::shared_ptr<const Skin> make_skin(const TrackerParams& params, const HandProfile& profile) {
+  return std::make_shared<const Skin>(make_blended_skin(profile, params.skin_cell));
+}
+
+std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, const HandProfile& profile) {
+  if (params.skin == "cylinders")
+    return std::make_shared<const HandSurface>(make_cylinder_surface(profile, params.skin_points));
+  return std::make_shared<const HandSurface>(
+      surface_points(make_blended_skin(profile, params.skin_cell), profile, params.skin_points));
+}
+
+// How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
+std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
+  std::array<double, kSegmentCount> free;
+  for (int s = 0; s < kSegmentCount; ++s) free[s] = std::clamp(at_start.matched[s] / 0.4, 0.0, 1.0);
+  return free;
+}
+
+}  // namespace
+
+HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
+                         Workers& workers)
+    : params_(params),
+      profile_(std::move(profile)),
+      surface_(make_surface(params_, *profile_)),
+      seed_(seed),
+      segment_tracker_(params_.segment_tracker, surface_, workers),
+      fusion_(params_.fusion, profile_, workers),
+      refinement_(params_.refinement, profile_, make_skin(params_, *profile_)),
+      motion_(params_.prediction, params_.icp),
+      loss_(params_.loss),
+      initialiser_(profile_, *surface_, params_.initialiser) {}
+
+void HandTracker::reset() {
+  loss_.reset();
+  motion_.forget();
+  last_good_.reset();
+  requested_start_.reset();
+  search_frames_ = 0;
+}
+
+HandEstimatePtr HandTracker::process(const HandObservation& observation) {
+  ++frame_;
+  const std::int64_t utime = observation.frame->utime;
+  if (requested_start_) {
+    motion_.restart(*requested_start_, utime);
+    loss_.start_tracking();
+    ++hand_id_;
+    requested_start_.reset();
+  }
+  const bool tracked_before = motion_.has_pose();
+  const int pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
+  std::optional<Fit> fit;
+  if (pixels >= params_.loss.min_hand_pixels) fit = tracked_before ? follow(observation) : search(observation);
+
+  TrackEvidence evidence;
+  evidence.dt = last_utime_ ? std::max(0.0, (utime - last_utime_) * kMicro) : 0.0;
+  evidence.hand_pixels = pixels;
+  if (fit) evidence.score = fit->refined.score;
+  evidence.noise = observation.noise;
+  evidence.hand_length = profile_->hand_length();
+  last_utime_ = utime;
+  const TrackStatus status = loss_.update(evidence);
+
+  if (status == TrackStatus::tracking && fit) {
+    remember(observation, *fit, tracked_before);
+    if (fit->refined.score < loss_.good_threshold(evidence)) last_good_ = fit->refined.pose;
+  } else if (status == TrackStatus::lost || status == TrackStatus::searching) {
+    motion_.forget();
+    if (status == TrackStatus::searching) last_good_.reset();
+  }
+  return estimate(observation, fit);
+}
+
+void HandTracker::remember(const HandObservation& observation, const Fit& fit, bool tracked_before) {
+  search_frames_ = 0;
+  if (!fit.prediction) {
+    motion_.restart(fit.refined.pose, observation.frame->utime);
+    if (!tracked_before && !last_good_) ++hand_id_;
+    return;
+  }
+  std::array<bool, kSegmentCount> seen;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
+  motion_.update(fit.refined.pose, seen, *fit.prediction);
+}
+
+double HandTracker::interval_factor(double dt) const { return std::clamp(dt * params_.nominal_rate, 0.5, 4.0); }
+
+FusedPose HandTracker::sample(const HandObservation& observation, const Prediction& prediction) {
+  const PreparedObservation prepared = segment_tracker_.prepare(observation, prediction.primary());
+  const double factor = interval_factor(prediction.dt);
+  Proposals proposals = fusion_.first_proposals(prediction.primary(), factor);
+  const int levels = params_.fusion.levels;
+  for (int level = 0;; ++level) {
+    const SegmentSamples samples = segment_tracker_.sample(prepared, proposals, {seed_, frame_, level, levels});
+    const HandBelief belief = fusion_.fuse(samples, level);
+    if (level + 1 == levels) return fusion_.read_out(samples, belief, factor);
+    proposals = fusion_.next_proposals(samples, belief, level, factor);
+  }
+}
+
+RefinedPose HandTracker::refine_best_start(const HandObservation& observation, const Prediction& prediction) {
+  const HandPose* start = &prediction.primary();
+  RefinedPose best = refinement_.evaluate(observation, *start);
+  for (std::size_t i = 1; i < prediction.candidates.size(); ++i) {
+    const HandPose& pose = prediction.candidates[i].pose;
+    if (pose_distance(*profile_, pose, prediction.primary()) < kDistinct) continue;
+    const RefinedPose other = refinement_.evaluate(observation, pose);
+    if (other.score < best.score) {
+      best = other;
+      start = &pose;
+    }
+  }
+  return refinement_.refine(observation, *start, prediction.primary(), freedom(best), params_.refinement.iterations);
+}
+
+std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& observation) {
+  Fit fit;
+  fit.prediction = motion_.predict(observation, *surface_);
+  const bool refine = params_.refinement.enabled;
+  if (refine) fit.refined = refine_best_start(observation, *fit.prediction);
+  if (refine && !params_.sampling) {
+    fit.joint_gap = raw_gap(fit.refined.pose);
+    return fit;
+  }
+  const FusedPose fused = sample(observation, *fit.prediction);
+  fit.joint_gap = raw_gap(fused.pose);
+  RefinedPose sampled = refinement_.evaluate(observation, fused.pose);
+  if (!refine) {
+    fit.refined = sampled;
+    fit.refined.covariance = fused.covariance;
+    return fit;
+  }
+  // A good local fit must not be spoilt by a sampled one that only looks as good.
+  sampled = refinement_.refine(observation, fused.pose, fit.prediction->primary(), freedom(sampled),
+                               params_.refinement.iterations);
+  if (sampled.score < fit.refined.score * (1 - params_.sampling_advantage)) fit.refined = sampled;
+  return fit;
+}
+
+std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
+  const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
+  const auto starts = initialiser_.propose(observation, effort, seed_ + frame_, last_good_ ? &*last_good_ : nullptr);
+  std::optional<Fit> best;
+  const int count = std::min<int>(params_.search_refined, static_cast<int>(starts.size()));
+  for (int i = 0; i < count; ++i) {
+    const RefinedPose at_start = refinement_.evaluate(observation, starts[i].pose);
+    Fit fit;
+    fit.refined =
+        refinement_.refine(observation, starts[i].pose, starts[i].pose, freedom(at_start), params_.search_iterations);
+    fit.joint_gap = raw_gap(fit.refined.pose);
+    if (!best || fit.refined.score < best->refined.score) best = fit;
+  }
+  return best;
+}
+
+double HandTracker::raw_gap(const HandPose& pose) const {
+  double sum = 0;
+  for (int s = 1; s < kSegmentCount; ++s) sum += (joint_in_parent(*profile_, pose, s) - pose[s].t).norm();
+  return sum / (kSegmentCount - 1);
+}
+
+}  // namespace barehand

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "stages/fusion/fusion_params.h"
+#include "stages/prediction/initialiser.h"
+#include "stages/prediction/loss_detector.h"
+#include "stages/prediction/motion_prediction.h"
+#include "stages/refinement/refinement.h"
+#include "stages/segment_tracker/segment_tracker_params.h"
+
+namespace barehand {
+
+/// How the pieces of the tracker play together, and the parameters of each.
+struct TrackerParams {
+  std::string skin = "blended";
+  int skin_points = 100;
+  double skin_cell = 0.004;
+  bool sampling = true;
+  double sampling_advantage = 0.02;
+  double nominal_rate = 30;
+  double seen_fraction = 0.15;
+  int search_refined = 4;
+  int search_iterations = 12;
+  int full_search_every = 10;
+  double covariance_scale = 4;
+  double hold_growth = 0.1;
+  SegmentTrackerParams segment_tracker;
+  FusionParams fusion;
+  RefinementParams refinement;
+  PredictionParams prediction;
+  IcpParams icp;
+  LossParams loss;
+  InitialiserParams initialiser;
+};
+
+template <class V>
+void visit(V& v, TrackerParams& p) {
+  v("skin", p.skin, {"blended", "cylinders"},
+    "skin of the local trackers: smooth, or the paper's cylinders (Sec. 3.1)");
+  v("skin_points", p.skin_points, 10, 5000, "skin points per segment for the local trackers");
+  v("skin_cell", p.skin_cell, 0.001, 0.02, "m, size of the smooth skin's triangles");
+  v("sampling", p.sampling, "draw samples and fuse them by belief propagation (Sec. 4); false: refinement alone");
+  v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
+    "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
+  v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
+  v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
+  v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
+  v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
+  v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
+  v("covariance_scale", p.covariance_scale, 1e-3, 1e6,
+    "factor on the refinement's covariance: pixels are not independent");
+  v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
+  v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
+  v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");
+  v("refinement", p.refinement, "continuous refinement of the best hypothesis");
+  v("prediction", p.prediction, "motion from frame to frame (Sec. 4.4)");
+  v("icp", p.icp, "global motion (Sec. 4.4)");
+  v("loss", p.loss, "when a hand counts as tracked");
+  v("initialiser", p.initialiser, "start and restart from one observation");
+}
+
+}  // namespace barehand
