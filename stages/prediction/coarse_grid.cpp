@@ -68,7 +68,7 @@ Image<float> distance_to(const Image<PixelLabel>& label, const Predicate& is_tar
   return d;
 }
 
-void locate_hand(CoarseGrid& grid) {
+void locate_hand(ScoreGrid& grid) {
   const Image<float> inside = distance_to(grid.label, [](PixelLabel l) { return l != PixelLabel::hand; });
   float widest = -1;
   for (int j = 0; j < grid.label.height(); ++j) {
@@ -85,13 +85,13 @@ void locate_hand(CoarseGrid& grid) {
 
 }  // namespace
 
-CoarseGrid make_coarse_grid(const HandObservation& observation, double cell) {
+ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
   const double z = median_hand_depth(observation);
   if (!(z > 0)) return {};
   const Intrinsics& camera = observation.frame->camera;
   const int size = std::max(1, static_cast<int>(std::lround(cell * camera.fx / z)));
   const int w = (observation.label.width() + size - 1) / size, h = (observation.label.height() + size - 1) / size;
-  CoarseGrid grid;
+  ScoreGrid grid;
   grid.cell = size * z / camera.fx;
   // Cell centre i lies at pixel u0 + (i + 0.5) size - 0.5.
   grid.camera = {w,

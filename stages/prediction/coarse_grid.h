@@ -5,7 +5,7 @@
 namespace barehand {
 
 /// An observation reduced to square cells of a few millimetres, for quick scores of whole poses.
-struct CoarseGrid {
+struct ScoreGrid {
   Intrinsics camera;   ///< of the cells: cell (i, j) is pixel (i, j) of this camera
   double cell = 0;     ///< size of a cell at the hand's distance [m]
   Image<float> depth;  ///< mean z of the cell's label [m]; 0 = no measurement
@@ -22,6 +22,6 @@ struct CoarseGrid {
 };
 
 /// Cells of about `cell` [m] at the median distance of the hand. Empty when the observation has no hand pixels.
-CoarseGrid make_coarse_grid(const HandObservation& observation, double cell);
+ScoreGrid make_score_grid(const HandObservation& observation, double cell);
 
 }  // namespace barehand

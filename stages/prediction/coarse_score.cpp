@@ -49,7 +49,7 @@ void face(const CoarseSkin::Part& part, const Eigen::Vector3f& eye, float* __res
 
 }  // namespace
 
-CoarseScorer::CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params)
+CoarseScorer::CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params)
     : skin_(skin), params_(params), camera_(grid.camera), shrink_(kShrink * grid.cell), hand_cells_(grid.hand_cells) {
   camera_.width += 2 * kBorder, camera_.height += 2 * kBorder;
   camera_.cx += kBorder, camera_.cy += kBorder;
@@ -62,7 +62,7 @@ CoarseScorer::CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const
   visible_.resize(largest);
 }
 
-void CoarseScorer::prepare(const CoarseGrid& grid) {
+void CoarseScorer::prepare(const ScoreGrid& grid) {
   const std::size_t cells = static_cast<std::size_t>(camera_.width) * camera_.height;
   const std::size_t padded = (cells + kLanes - 1) / kLanes * kLanes;
   for (auto* values :
@@ -77,7 +77,7 @@ void CoarseScorer::prepare(const CoarseGrid& grid) {
   }
 }
 
-void CoarseScorer::prepare_cell(const CoarseGrid& grid, std::size_t from, std::size_t to) {
+void CoarseScorer::prepare_cell(const ScoreGrid& grid, std::size_t from, std::size_t to) {
   const float cap = static_cast<float>(params_.depth_cap);
   const float distance = std::min(grid.hand_distance[from], cap) / cap;
   const float background = static_cast<float>(params_.background) * distance;

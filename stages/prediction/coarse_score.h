@@ -38,7 +38,7 @@ void visit(V& v, CoarseScoreParams& p) {
 /// stay uncovered cost too. 0 = perfect; about 1 = as good as no model at all. Refers to the skin; one per thread.
 class CoarseScorer {
  public:
-  CoarseScorer(const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params);
+  CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params);
 
   /// Sum of the costs per hand cell; infinity when the grid is empty or the pose is not finite.
   double operator()(const HandPose& pose);
@@ -50,8 +50,8 @@ class CoarseScorer {
   struct CellCosts {
     std::vector<float> data, slope, front, behind, empty, forearm, bare;
   };
-  void prepare(const CoarseGrid& grid);
-  void prepare_cell(const CoarseGrid& grid, std::size_t from, std::size_t to);
+  void prepare(const ScoreGrid& grid);
+  void prepare_cell(const ScoreGrid& grid, std::size_t from, std::size_t to);
   void project(const CoarseSkin::Part& part, const SE3& T);
   void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
   double outside_cost(const CoarseSkin::Part& part) const;

@@ -62,8 +62,8 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
                                                  const HandPose* last_good) const {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
   const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
-  const CoarseGrid coarse = make_coarse_grid(observation, params_.coarse_cell);
-  const CoarseGrid fine = make_coarse_grid(observation, params_.fine_cell);
+  const ScoreGrid coarse = make_score_grid(observation, params_.coarse_cell);
+  const ScoreGrid fine = make_score_grid(observation, params_.fine_cell);
   if (coarse.empty() || fine.empty()) return {};
   PoseCost coarse_cost(*profile_, coarse, coarse_skin_, params_.score, params_.search.shape_prior);
   PoseCost fine_cost(*profile_, fine, fine_skin_, params_.score, params_.search.shape_prior);
@@ -94,7 +94,7 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   return result;
 }
 
-Initialiser::Trials Initialiser::template_trials(const CoarseGrid& grid, const SearchEffort& effort, double turn,
+Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const SearchEffort& effort, double turn,
                                                  PoseCost& cost) const {
   // With few shapes every second or third template is taken, so that open and closed hands both stay.
   const std::size_t stride = std::max<std::size_t>(1, shapes_.size() / effort.shapes);
@@ -118,7 +118,7 @@ Initialiser::Trials Initialiser::template_trials(const CoarseGrid& grid, const S
 /// Lays a hand over the data in two ways: visible skin on the centroid; palm on the widest place of the hand, which
 /// holds when fingers are hidden. The better one is kept.
 void Initialiser::add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape,
-                             const CoarseGrid& grid, PoseCost& cost) const {
+                             const ScoreGrid& grid, PoseCost& cost) const {
   ArticulatedPose by_centroid = shape, by_palm = shape;
   const Vector3d view = grid.centroid.normalized();
   const HandPose pose = posed(*profile_, shape);
@@ -130,7 +130,7 @@ void Initialiser::add_placed(Trials& trials, std::string_view name, const Articu
   trials.push_back({std::string(name), first.cost <= second.cost ? first : second});
 }
 
-void Initialiser::add_last_good(Trials& trials, const HandPose& last_good, const CoarseGrid& grid,
+void Initialiser::add_last_good(Trials& trials, const HandPose& last_good, const ScoreGrid& grid,
                                 PoseCost& cost) const {
   ArticulatedPose pose = articulated_from(*profile_, last_good, limits_);
   trials.push_back({"last", {pose, cost(pose)}});

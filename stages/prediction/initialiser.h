@@ -85,10 +85,10 @@ class Initialiser {
  private:
   struct Trial;
   using Trials = std::vector<Trial>;
-  Trials template_trials(const CoarseGrid& grid, const SearchEffort& effort, double turn, PoseCost& cost) const;
-  void add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape, const CoarseGrid& grid,
+  Trials template_trials(const ScoreGrid& grid, const SearchEffort& effort, double turn, PoseCost& cost) const;
+  void add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape, const ScoreGrid& grid,
                   PoseCost& cost) const;
-  void add_last_good(Trials& trials, const HandPose& last_good, const CoarseGrid& grid, PoseCost& cost) const;
+  void add_last_good(Trials& trials, const HandPose& last_good, const ScoreGrid& grid, PoseCost& cost) const;
   Trials most_promising(Trials trials, int count, double distinct) const;
   void align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud, PoseCost& cost) const;
 

@@ -35,7 +35,7 @@ struct ScoredPose {
 /// Cost of a pose in the search: coarse score plus the prior on hidden fingers.
 class PoseCost {
  public:
-  PoseCost(const HandProfile& profile, const CoarseGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& score,
+  PoseCost(const HandProfile& profile, const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& score,
            double shape_prior)
       : profile_(profile), scorer_(grid, skin, score), shape_prior_(shape_prior) {}
   double operator()(const ArticulatedPose& pose);
