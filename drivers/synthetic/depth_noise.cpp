@@ -1,0 +1,121 @@
+#include "drivers/synthetic/depth_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "drivers/synthetic/depth_loss.h"
+#include "drivers/synthetic/random_keys.h"
+#include "math/random.h"
+
+namespace barehand::synthetic {
+namespace {
+
+using Block = std::array<std::uint32_t, 4>;
+
+Block draw(std::uint64_t seed, std::uint32_t frame, std::uint32_t u, std::uint32_t v, Draw purpose) {
+  return Philox::block(seed, {u, v, frame, static_cast<std::uint32_t>(purpose)});
+}
+
+/// Depth between pixels: bilinear on a surface, the nearest pixel across an edge.
+float sample(const Image<float>& depth, float u, float v) {
+  const int u0 = std::clamp(static_cast<int>(std::floor(u)), 0, depth.width() - 2);
+  const int v0 = std::clamp(static_cast<int>(std::floor(v)), 0, depth.height() - 2);
+  const float a = std::clamp(u - static_cast<float>(u0), 0.0f, 1.0f);
+  const float b = std::clamp(v - static_cast<float>(v0), 0.0f, 1.0f);
+  const float *top = depth.row(v0) + u0, *low = depth.row(v0 + 1) + u0;
+  const auto [lo, hi] = std::minmax({top[0], top[1], low[0], low[1]});
+  if (lo <= 0 || hi - lo > 0.01f) return (b < 0.5f ? top : low)[a < 0.5f ? 0 : 1];
+  return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * low[0] + a * low[1]);
+}
+
+/// Lateral sigma in pixels: grows with the angle between ray and normal (Nguyen et al. 2012, Eq. 1).
+float lateral_sigma(const KinectNoise& noise, float cosine) {
+  const float angle = std::min(std::acos(cosine), 1.45f);
+  return static_cast<float>(noise.lateral) + 0.035f * angle / (static_cast<float>(std::numbers::pi / 2) - angle);
+}
+
+/// The same for all pixels of a ragged patch of about 6 x 6.
+float patch_uniform(std::uint64_t seed, std::uint32_t frame, float u, float v) {
+  const auto cell_u = static_cast<std::uint32_t>(static_cast<int>(std::floor(u / 6)) + 64);
+  const auto cell_v = static_cast<std::uint32_t>(static_cast<int>(std::floor(v / 6)) + 64);
+  return static_cast<float>(Philox::uniform(draw(seed, frame, cell_u, cell_v, Draw::holes)[0]));
+}
+
+/// Nearest and farthest surface among a pixel and its four neighbours.
+std::pair<float, float> depth_range(const Image<float>& depth, int u, int v) {
+  float lo = depth.at(u, v), hi = lo;
+  for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    if (!depth.contains(u + du, v + dv)) continue;
+    const float z = depth.at(u + du, v + dv);
+    if (z > 0) lo = std::min(lo, z), hi = std::max(hi, z);
+  }
+  return {lo, hi};
+}
+
+}  // namespace
+
+DepthNoise::DepthNoise() {
+  for (int i = 0; i < 4096; ++i) {
+    const double p = (i + 0.5) / 4096;
+    double lo = -5, hi = 5;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (lo + hi);
+      (0.5 * std::erfc(-middle / std::numbers::sqrt2) < p ? lo : hi) = middle;
+    }
+    quantiles_[i] = static_cast<float>(lo);
+  }
+}
+
+double kinect_axial_sigma(const KinectNoise& noise, double z) {
+  return noise.axial + noise.axial_growth * (z - 0.4) * (z - 0.4);
+}
+
+Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& view, std::span<const Material> materials,
+                                const KinectNoise& noise, std::uint64_t seed, std::uint32_t frame) const {
+  Image<float> spoilt(view.depth.width(), view.depth.height(), 0.0f);
+  std::vector<bool> lit;
+  for (int v = 0; v < view.depth.height(); ++v) {
+    lit_by_projector(camera, noise.baseline, view.depth.row(v), lit);
+    for (int u = 0; u < view.depth.width(); ++u) {
+      if (view.depth.at(u, v) <= 0 || !lit[u]) continue;
+      const Block bits =
+          draw(seed, frame, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), Draw::depth_noise);
+      const float n0 = normal(bits[0]), n1 = normal(bits[0] >> 16), n2 = normal(bits[1]);
+      if (Philox::uniform(bits[2]) < edge_loss(view.depth, u, v)) continue;
+      const float ragged = 1.5f * normal(bits[1] >> 16);
+      if (patch_uniform(seed, frame, static_cast<float>(u) + ragged, static_cast<float>(v) + 1.5f * normal(bits[3])) <
+          surface_loss(view, materials, u, v))
+        continue;
+      const float lateral = lateral_sigma(noise, view.cosine.at(u, v));
+      const float z = sample(view.depth, static_cast<float>(u) + lateral * n0, static_cast<float>(v) + lateral * n1);
+      if (z > 0) spoilt.at(u, v) = z + static_cast<float>(kinect_axial_sigma(noise, z)) * n2;
+    }
+  }
+  return spoilt;
+}
+
+Image<float> DepthNoise::tof(const RenderedView& view, const TofNoise& noise, std::uint64_t seed,
+                             std::uint32_t frame) const {
+  Image<float> spoilt(view.depth.width(), view.depth.height(), 0.0f);
+  for (int v = 0; v < view.depth.height(); ++v)
+    for (int u = 0; u < view.depth.width(); ++u) {
+      float z = view.depth.at(u, v);
+      if (z <= 0) continue;
+      const Block bits =
+          draw(seed, frame, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), Draw::depth_noise);
+      const auto [lo, hi] = depth_range(view.depth, u, v);
+      const bool flies = hi - lo > 0.015f && Philox::uniform(bits[1]) < noise.flying;
+      if (flies) z = lo + static_cast<float>(Philox::uniform(bits[2])) * (hi - lo);
+      const Rgb c = view.colour.at(u, v);
+      const float albedo =
+          std::max(0.05f, static_cast<float>(c.r + c.g + c.b) / 765.0f);   // infrared follows colour, about
+      const float returned = albedo * view.cosine.at(u, v) / (4 * z * z);  // 1 at 0.5 m, white, facing
+      if (returned < 0.004f) continue;                                     // too little light comes back
+      spoilt.at(u, v) = z + static_cast<float>(noise.axial) / std::sqrt(returned) * normal(bits[0]);
+    }
+  return spoilt;
+}
+
+}  // namespace barehand::synthetic

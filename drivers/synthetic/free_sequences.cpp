@@ -1,0 +1,70 @@
+#include "drivers/synthetic/stage_set.h"
+
+namespace barehand::synthetic {
+namespace {
+
+using Eigen::Vector3d;
+
+FreeSequence::Setting setting(double duration, std::vector<HandKey> keys, std::uint64_t seed) {
+  FreeSequence::Setting s;
+  s.duration = duration;
+  s.keys = std::move(keys);
+  s.seed = seed;
+  return s;
+}
+
+}  // namespace
+
+/// The paper's Fig. 6a: two fists, the first from joined, the second from spread fingers.
+std::unique_ptr<Sequence> make_fist(std::uint64_t seed) {
+  const Vector3d here(0.0, 0.08, 0.58), forward(0.01, 0.075, 0.57), aside(-0.015, 0.085, 0.585);
+  const Vector3d still(0.12, 0, 0.03), leaning(0.2, 0.15, -0.06), turned(0.05, -0.14, 0.08);
+  return std::make_unique<FreeSequence>(setting(6.4,
+                                                {{0.0, here, still, open_joined()},
+                                                 {0.4, here, still, open_joined()},
+                                                 {1.5, forward, leaning, fist()},
+                                                 {1.8, forward, leaning, fist()},
+                                                 {2.9, here, still, open_joined()},
+                                                 {3.2, here, still, open_joined()},
+                                                 {3.8, aside, turned, open_spread()},
+                                                 {4.0, aside, turned, open_spread()},
+                                                 {4.9, here, leaning, fist()},
+                                                 {5.1, here, leaning, fist()},
+                                                 {6.1, here, still, open_spread()}},
+                                                seed));
+}
+
+/// An open hand that turns slowly about the forearm and nods.
+std::unique_ptr<Sequence> make_open(std::uint64_t seed) {
+  const Vector3d here(0.0, 0.08, 0.6);
+  return std::make_unique<FreeSequence>(setting(6.0,
+                                                {{0.0, here, {0, 0, 0}, open_spread()},
+                                                 {0.5, here, {0, 0, 0}, open_spread()},
+                                                 {1.6, here, {0, 0.9, 0}, open_relaxed()},
+                                                 {3.4, here, {0, -0.9, 0}, open_spread()},
+                                                 {4.4, here, {0, 0, 0}, open_joined()},
+                                                 {5.1, here, {0.4, 0, 0.25}, open_joined()},
+                                                 {6.0, here, {0, 0, 0}, open_spread()}},
+                                                seed));
+}
+
+/// A hand that waves, leaves the view on the right and comes back.
+std::unique_ptr<Sequence> make_wave(std::uint64_t seed) {
+  const Vector3d here(-0.02, 0.08, 0.6), edge(0.2, 0.1, 0.6), away(0.62, 0.12, 0.6);
+  return std::make_unique<FreeSequence>(setting(8.0,
+                                                {{0.0, here, {0, 0, 0}, open_spread()},
+                                                 {0.4, here, {0, 0, 0}, open_spread()},
+                                                 {0.9, here, {0, 0, 0.4}, open_spread()},
+                                                 {1.4, here, {0, 0, -0.35}, open_spread()},
+                                                 {1.9, here, {0, 0, 0.4}, open_spread()},
+                                                 {2.4, here, {0, 0, 0}, open_relaxed()},
+                                                 {3.0, edge, {0, 0, 0.3}, open_relaxed()},
+                                                 {3.8, away, {0, 0, 0.5}, open_relaxed()},
+                                                 {4.8, away, {0, 0, 0.5}, open_relaxed()},
+                                                 {6.0, here, {0, 0, 0}, open_spread()},
+                                                 {6.6, here, {0, 0.5, 0}, open_spread()},
+                                                 {7.4, here, {0, 0, 0}, open_spread()}},
+                                                seed));
+}
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,39 @@
+#include "drivers/synthetic/joint_ranges.h"
+
+#include <numbers>
+
+namespace barehand::synthetic {
+namespace {
+
+constexpr std::array<const char*, kFingerCount> kFingers = {"thumb", "index", "middle", "ring", "little"};
+
+struct Range {
+  double lower, upper;  // degrees
+};
+
+JointDof dof(int finger, const char* joint, const Eigen::Vector3d& axis, Range range) {
+  constexpr double degree = std::numbers::pi / 180;
+  return {std::string(kFingers[finger]) + joint, axis, range.lower * degree, range.upper * degree};
+}
+
+std::vector<JointDof> thumb_dofs(int k, const Eigen::Vector3d& abduction, const Eigen::Vector3d& flexion) {
+  if (k == 0) return {dof(0, "_cmc_abd", abduction, {-25, 35}), dof(0, "_cmc_flex", flexion, {-20, 35})};
+  if (k == 1) return {dof(0, "_mcp_abd", abduction, {-8, 8}), dof(0, "_mcp_flex", flexion, {-10, 55})};
+  return {dof(0, "_ip_flex", flexion, {-10, 80})};
+}
+
+}  // namespace
+
+std::vector<JointDof> joint_dofs(int segment, Handedness handedness) {
+  if (segment == kPalm) return {};
+  const int finger = finger_of(segment), k = (segment - 1) % 3;
+  // Turning about +y moves a right hand's finger to the thumb's side, a left hand's to the little finger's.
+  const double side = (handedness == Handedness::right ? 1 : -1) * (finger <= 2 ? 1 : -1);
+  const Eigen::Vector3d abduction = side * Eigen::Vector3d::UnitY(), flexion = -Eigen::Vector3d::UnitX();
+  if (finger == 0) return thumb_dofs(k, abduction, flexion);
+  if (k == 0) return {dof(finger, "_mcp_abd", abduction, {-18, 18}), dof(finger, "_mcp_flex", flexion, {-20, 90})};
+  if (k == 1) return {dof(finger, "_pip_flex", flexion, {0, 105})};
+  return {dof(finger, "_dip_flex", flexion, {-5, 75})};
+}
+
+}  // namespace barehand::synthetic

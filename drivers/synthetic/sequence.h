@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "drivers/synthetic/hand_mesh.h"
+#include "drivers/synthetic/scene_geometry.h"
+#include "drivers/synthetic/skeleton.h"
+
+namespace barehand::synthetic {
+
+/// The hand that sequences are made for: always a right one (a left hand is simulated in a mirror).
+struct HandRig {
+  HandMesh mesh;
+  HandProfile profile;  ///< measured on it
+};
+
+/// A thing beside the hand, with its surface in its own frame.
+struct SceneObject {
+  std::string name;
+  TriangleMesh mesh;
+  Material material;
+};
+
+/// Where everything is at one time. Camera frame.
+struct SceneState {
+  SkeletonPose hand;
+  std::vector<SE3> T_camera_object;                 ///< one for every object of the sequence
+  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< where the forearm leads to
+};
+
+/// A motion of a hand and things: a pure function of time.
+class Sequence {
+ public:
+  virtual ~Sequence() = default;
+  virtual double duration() const = 0;  ///< [s]
+  virtual const std::vector<SceneObject>& objects() const = 0;
+  virtual SceneState at(double time) const = 0;
+};
+
+/// What a user can ask for.
+struct SequenceInfo {
+  std::string name, description;
+  int frames = 0;  ///< at `fps`
+  double fps = 30;
+};
+const std::vector<SequenceInfo>& sequence_list();
+
+/// Error if there is no such sequence, naming those that exist.
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed);
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "drivers/synthetic/depth_noise.h"
+#include "drivers/synthetic/hand_shape.h"
+#include "drivers/synthetic/sequence.h"
+#include "drivers/synthetic/skinning.h"
+#include "io/result_table.h"
+#include "math/frame.h"
+
+namespace barehand::synthetic {
+
+/// What to simulate.
+struct SimulatorParams {
+  std::string sequence = "fist";  ///< a name of sequence_list()
+  std::string noise = "none";
+  int seed = 1;
+  double fps = 0;
+  int frames = 0;
+  double speed = 1;
+  std::string hand = "right";
+  std::string sleeve = "blue";
+  int width = 640, height = 480;
+  double focal = 0;
+  HandShape shape;
+};
+template <class V>
+void visit(V& v, SimulatorParams& p) {
+  v("noise", p.noise, {"none", "kinect", "tof"}, "sensor whose noise is simulated");
+  v("seed", p.seed, 0, 1000000000, "of motion and noise");
+  v("fps", p.fps, 0.0, 1000.0, "frames per second, 0 = the sequence's own");
+  v("frames", p.frames, 0, 10000000, "end after this many, 0 = the whole sequence");
+  v("speed", p.speed, 0.05, 20.0, "factor on the speed of the motion");
+  v("hand", p.hand, {"right", "left"}, "which hand; a left one is seen in a mirror");
+  v("sleeve", p.sleeve, {"blue", "skin", "none"}, "what the forearm wears; none = no forearm");
+  v("width", p.width, 64, 4096, "pixels");
+  v("height", p.height, 48, 4096, "pixels");
+  v("focal", p.focal, 0.0, 10000.0, "focal length [px], 0 = 525 at 640 pixels width and in proportion");
+  visit(v, p.shape);
+}
+
+/// One simulated measurement and what is true of it.
+struct SimulatedFrame {
+  FramePtr frame;
+  HandPose pose;                    ///< T_camera_segment
+  std::optional<TableFrame> truth;  ///< absent while no part of the hand is in the picture
+};
+
+/// Renders a sequence: an animated hand mesh with things, a table and a sleeve, before a range camera. Frame i is a
+/// pure function of the parameters and i. Not for use by several threads at once.
+class Simulator {
+ public:
+  static constexpr double kDepthUnit = 0.0001;            ///< m per count
+  static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< of frame 0
+
+  /// Errors: hand mesh not fetched or unfit, unknown sequence. `mesh_folder`: see hand_mesh_folder().
+  static Result<Simulator> create(const SimulatorParams& params, const std::string& mesh_folder = {});
+
+  SimulatedFrame render(std::int64_t number);
+
+  std::int64_t frame_count() const { return frame_count_; }
+  double fps() const { return fps_; }
+  const Intrinsics& camera() const { return rasteriser_.camera(); }
+  /// As measured on the simulated hand at rest.
+  const HandProfile& profile() const { return profile_; }
+  const SimulatorParams& params() const { return params_; }
+
+ private:
+  Simulator(const SimulatorParams& params, const Intrinsics& camera);
+  void build_scene(const SceneState& state, const HandPose& pose);
+  std::vector<Material> materials() const;
+  Image<float> spoil(const RenderedView& view, std::int64_t number) const;
+  std::optional<TableFrame> truth_of(const RenderedView& view, const HandPose& pose, std::int64_t number) const;
+
+  SimulatorParams params_;
+  std::int64_t frame_count_ = 0;
+  double fps_ = 30;
+  HandProfile profile_;
+  std::unique_ptr<HandRig> rig_;  // right-handed; its address is known to the sequence
+  std::unique_ptr<Skinner> skinner_;
+  std::unique_ptr<Sequence> sequence_;
+  DepthNoise noise_;
+  Rasteriser rasteriser_;
+  SceneGeometry scene_;  // the hand's triangles come first
+  TriangleMesh skin_;
+};
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+#include "drivers/synthetic/simulator.h"
+
+namespace barehand::synthetic {
+
+/// What stands after "sim:".
+struct SyntheticSpec {
+  SimulatorParams simulator;
+  bool live = false;
+  bool loop = false;
+  std::string hands;
+};
+template <class V>
+void visit(V& v, SyntheticSpec& p) {
+  visit(v, p.simulator);
+  v("live", p.live, "frames come at their rate by the clock, as from a sensor; what is late is left out");
+  v("loop", p.loop, "starts again at the end");
+  v("hands", p.hands, "folder with left.glb and right.glb, empty = where deploy/fetch_hand_mesh.sh puts them");
+}
+
+/// Reads "NAME" or "NAME,key=value,key=value", for example "fist,noise=kinect,seed=3,fps=60". Errors name the key:
+/// unknown sequence or key, no value, a value that is no number, out of range or not among the choices, a key twice.
+Result<SyntheticSpec> parse_synthetic_spec(const std::string& text);
+
+/// Every key with its range and meaning, one a line.
+std::string synthetic_spec_help();
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "drivers/synthetic/hand_mesh_file.h"
+#include "drivers/synthetic/measured_profile.h"
+#include "drivers/synthetic/sequence.h"
+
+namespace barehand::synthetic {
+
+/// The fetched hand mesh; a test without it fails and says what to run.
+class HandTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const Handedness side : {Handedness::right, Handedness::left}) {
+      const auto path = find_hand_mesh(side);
+      ASSERT_TRUE(path.has_value()) << path.error().message();
+      const auto mesh = load_hand_mesh(*path, side);
+      ASSERT_TRUE(mesh.has_value()) << mesh.error().message();
+      (side == Handedness::right ? right_ : left_) = *mesh;
+    }
+  }
+  HandRig rig() const { return {right_, measure_profile(right_)}; }
+
+  HandMesh right_, left_;
+};
+
+}  // namespace barehand::synthetic
