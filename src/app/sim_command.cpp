@@ -1,0 +1,97 @@
+#include "app/sim_command.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "app/sim_run.h"
+#include "drivers/synthetic/synthetic_spec.h"
+
+namespace barehand {
+namespace {
+
+struct SimArguments {
+  std::string name, out, noise, seed, frames, fps, hand;
+  std::vector<std::string> set;
+  bool list = false;
+};
+
+std::string spec_of(const SimArguments& a) {
+  std::string spec = a.name;
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) spec += std::string(",") + key + "=" + value;
+  };
+  add("noise", a.noise);
+  add("seed", a.seed);
+  add("frames", a.frames);
+  add("fps", a.fps);
+  add("hand", a.hand);
+  for (const std::string& pair : a.set) spec += "," + pair;
+  return spec;
+}
+
+void print_list() {
+  for (const synthetic::SequenceInfo& s : synthetic::sequence_list())
+    std::printf("%-14s %3d frames at %2.0f Hz  %s\n", s.name.c_str(), s.frames, s.fps, s.description.c_str());
+  std::printf("\nkeys of --set and of track --source sim:NAME,key=value,...\n%s",
+              synthetic::synthetic_spec_help().c_str());
+}
+
+/// A line that is rewritten on a terminal, a line at every tenth of the work elsewhere.
+bool print_progress(std::int64_t done, std::int64_t all) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const std::int64_t step = std::max<std::int64_t>(1, all / 10);
+  if (terminal)
+    std::fprintf(stderr, "\r%lld of %lld frames", static_cast<long long>(done), static_cast<long long>(all));
+  if (terminal && done == all) std::fputc('\n', stderr);
+  if (!terminal && (done % step == 0 || done == all))
+    std::fprintf(stderr, "%lld of %lld frames\n", static_cast<long long>(done), static_cast<long long>(all));
+  return true;
+}
+
+int fail_with(const Error& error, int code) {
+  std::fprintf(stderr, "barehand sim: %s\n", error.message().c_str());
+  return code;
+}
+
+int run(const SimArguments& a) {
+  if (a.list) {
+    print_list();
+    return 0;
+  }
+  if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, 2);
+  if (a.out.empty())
+    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, 2);
+  std::int64_t done = 0;
+  const auto frames = run_sim({spec_of(a), a.out}, [&](std::int64_t now, std::int64_t all) {
+    done = now;
+    return print_progress(now, all);
+  });
+  if (!frames) return fail_with(frames.error(), done > 0 ? 1 : 2);
+  std::printf("%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_sim_command(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<SimArguments>();
+  CLI::App* sim = app.add_subcommand("sim", "Render a synthetic sequence of a hand with ground truth");
+  sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
+  sim->add_option("--out", a->out, "folder to make, or FILE.lcmlog");
+  sim->add_option("--noise", a->noise, "none, kinect or tof");
+  sim->add_option("--seed", a->seed, "of motion and noise");
+  sim->add_option("--frames", a->frames, "end after this many frames");
+  sim->add_option("--fps", a->fps, "frames per second, other than the sequence's own");
+  sim->add_option("--hand", a->hand, "right or left");
+  sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
+  sim->add_flag("--list", a->list, "name the sequences and keys");
+  sim->footer(
+      "FILE.lcmlog gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it. Ctrl-C: what is written so "
+      "far is a complete recording.");
+  sim->callback([a, &exit_code] { exit_code = run(*a); });
+}
+
+}  // namespace barehand

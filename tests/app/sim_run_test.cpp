@@ -1,0 +1,93 @@
+#include "app/sim_run.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "drivers/lcm/lcm_log_source.h"
+#include "io/hand_json.h"
+#include "io/pose_json.h"
+#include "io/recording.h"
+#include "io/result_table.h"
+
+namespace barehand {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SimRun : public testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(folder_), fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  Result<std::int64_t> run(const std::string& spec, const std::string& out) {
+    return run_sim({spec, out}, [](std::int64_t, std::int64_t) { return true; });
+  }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  std::string folder_ = testing::TempDir() + "sim_run_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(SimRun, WritesARecordingWithTruthProfileAndStart) {
+  const auto frames = run("fist,frames=3,width=160,height=120", path("fist"));
+  ASSERT_TRUE(frames.has_value()) << frames.error().message();
+  EXPECT_EQ(*frames, 3);
+  const auto recording = open_recording(path("fist"));
+  ASSERT_TRUE(recording.has_value()) << recording.error().message();
+  EXPECT_EQ(recording->entries.size(), 3u);
+  EXPECT_EQ(recording->fps, 25);
+  EXPECT_EQ(recording->depth_unit, 0.0001);
+  const auto truth = read_table(path("fist/truth.csv"));
+  ASSERT_TRUE(truth.has_value()) << truth.error().message();
+  ASSERT_EQ(truth->frames.size(), 3u);
+  EXPECT_NEAR(truth->frames[1].timestamp, 1e-6 * recording->entries[1].utime, 1e-6);
+  const auto profile = load_profile(path("fist/hand.json"));
+  ASSERT_TRUE(profile.has_value()) << profile.error().message();
+  const auto pose = load_pose(path("fist/start_pose.json"), *profile);
+  ASSERT_TRUE(pose.has_value()) << pose.error().message();
+  EXPECT_LT(((*pose)[kPalm].t - truth->frames[0].rows[kPalm].proximal).norm(), 1e-5);
+}
+
+TEST_F(SimRun, WritesTheSameDepthIntoALog) {
+  ASSERT_TRUE(run("open,frames=2,width=160,height=120", path("a")).has_value());
+  const auto logged = run("open,frames=2,width=160,height=120", path("b.lcmlog"));
+  ASSERT_TRUE(logged.has_value()) << logged.error().message();
+  const auto recording = open_recording(path("a"));
+  ASSERT_TRUE(recording.has_value());
+  const auto from_folder = read_frame(*recording, 1);
+  auto log = LcmLogSource::open(path("b.lcmlog"), {});
+  ASSERT_TRUE(log.has_value()) << log.error().message();
+  (void)(*log)->next(std::chrono::milliseconds(0));
+  const SourceEvent event = (*log)->next(std::chrono::milliseconds(0));
+  const auto* frame = std::get_if<FramePtr>(&event);
+  ASSERT_TRUE(frame);
+  ASSERT_TRUE(from_folder.has_value());
+  EXPECT_EQ((*frame)->utime, (*from_folder)->utime);
+  EXPECT_TRUE(std::equal((*frame)->depth.data(), (*frame)->depth.data() + (*frame)->depth.size(),
+                         (*from_folder)->depth.data()));
+  EXPECT_TRUE(fs::exists(path("b.truth.csv")));
+  EXPECT_TRUE(fs::exists(path("b.hand.json")));
+}
+
+TEST_F(SimRun, OverwritesNothing) {
+  ASSERT_TRUE(run("open,frames=1,width=80,height=60", path("a")).has_value());
+  const auto again = run("open,frames=1,width=80,height=60", path("a"));
+  ASSERT_FALSE(again.has_value());
+  EXPECT_THAT(again.error().message(), testing::HasSubstr("already holds a recording"));
+}
+
+TEST_F(SimRun, StopsWhenToldAndLeavesACompleteRecording) {
+  const auto frames =
+      run_sim({"open,width=80,height=60", path("a")}, [](std::int64_t done, std::int64_t) { return done < 2; });
+  ASSERT_TRUE(frames.has_value());
+  EXPECT_EQ(*frames, 2);
+  EXPECT_EQ(open_recording(path("a"))->entries.size(), 2u);
+}
+
+TEST_F(SimRun, RefusesWhatIsNoRecording) {
+  EXPECT_FALSE(run("fist,live=true", path("a")).has_value());
+  EXPECT_FALSE(run("dance", path("a")).has_value());
+  EXPECT_FALSE(fs::exists(path("a")));
+}
+
+}  // namespace
+}  // namespace barehand
