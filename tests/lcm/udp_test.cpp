@@ -1,0 +1,83 @@
+// Real UDP on the loopback interface; started by with_multicast.sh.
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "barehand/command_t.hpp"
+#include "drivers/lcm/frame_codec.h"
+#include "drivers/lcm/layouts.h"
+#include "drivers/lcm/lcm_live_source.h"
+#include "test_frames.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::chrono::milliseconds kLong(20'000);  // never waited for when all is well
+
+/// A port of its own for each process, so that tests that run side by side do not hear each other.
+std::string url() { return "udpm://239.255.76.67:" + std::to_string(20'000 + ::getpid() % 40'000) + "?ttl=0"; }
+
+std::unique_ptr<LcmBus> connect() {
+  auto bus = LcmBus::open(url());
+  if (!bus) throw std::runtime_error(bus.error().message());
+  return std::move(*bus);
+}
+
+std::vector<std::uint8_t> frame_bytes(const RgbdFrame& frame, const FrameEncoding& encoding = {}) {
+  return encode_message(encode_frame(frame, encoding).value());
+}
+
+TEST(Udp, AFrameCrossesTheNetwork) {
+  auto sender = connect();
+  auto source = LcmLiveSource::open(url()).value();
+  ASSERT_TRUE(sender->send("RGBD_FRAME", frame_bytes(test_frame(1)), 0));
+  const SourceEvent event = source->next(kLong);
+  ASSERT_TRUE(std::holds_alternative<FramePtr>(event));
+  expect_same_frame(*std::get<FramePtr>(event), test_frame(1));
+}
+
+TEST(Udp, LargeFramesArriveInFragments) {
+  auto sender = connect();
+  auto source = LcmLiveSource::open(url()).value();
+  for (std::int64_t number = 1; number <= 5; ++number) {
+    const auto bytes = frame_bytes(test_frame(number, 640, 480));
+    ASSERT_GT(bytes.size(), 100'000u);
+    ASSERT_TRUE(sender->send("RGBD_FRAME", bytes, 0));
+    const SourceEvent event = source->next(kLong);
+    ASSERT_TRUE(std::holds_alternative<FramePtr>(event)) << number;
+    EXPECT_EQ(std::get<FramePtr>(event)->number, number);
+  }
+  EXPECT_EQ(source->counts().lost, 0);
+}
+
+TEST(Udp, AForeignMessageIsSkippedAndTheNextFrameArrives) {
+  auto sender = connect();
+  auto source = LcmLiveSource::open(url()).value();
+  ASSERT_TRUE(sender->send("RGBD_FRAME", encode_message(command_t{}), 0));
+  EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source->next(kLong)));
+  ASSERT_TRUE(sender->send("RGBD_FRAME", frame_bytes(test_frame(2)), 0));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(kLong)));
+}
+
+/// Subscribes and never handles a message: its queue and its socket fill up and stay full.
+class DeafSubscriber {
+ public:
+  DeafSubscriber() : bus_(connect()) { bus_->lcm().subscribe("HAND_STATE", &DeafSubscriber::ignore, this); }
+
+ private:
+  void ignore(const lcm::ReceiveBuffer*, const std::string&) {}
+  std::unique_ptr<LcmBus> bus_;
+};
+
+TEST(Udp, ASubscriberThatNeverReadsDoesNotStallThePublisher) {
+  const DeafSubscriber deaf;
+  auto sender = connect();
+  auto source = LcmLiveSource::open(url(), {.channel = "HAND_STATE"}).value();
+  const std::vector<std::uint8_t> state(60'000, 1);
+  // Far more than every buffer of the deaf one holds; a sender that waited for it would never get here.
+  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(sender->send("HAND_STATE", state, 0));
+  while (source->counts().received == 0) std::this_thread::yield();
+}
+
+}  // namespace
+}  // namespace barehand
