@@ -1,0 +1,62 @@
+#include "drivers/lcm/command.h"
+
+#include <cmath>
+
+#include "drivers/lcm/layouts.h"
+
+namespace barehand {
+namespace {
+
+Result<HandPose> pose_of(const command_t& message) {
+  HandPose pose;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto& p = message.position[s];
+    const auto& q = message.orientation[s];  // (w, x, y, z)
+    const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
+    pose[s].t = Eigen::Vector3d(p[0], p[1], p[2]);
+    const bool valid = pose[s].t.allFinite() && std::isfinite(turn.norm()) && turn.norm() > 1e-6;
+    if (!valid) return fail("the pose of " + std::string(kSegmentNames[s]) + " is no rigid motion", "command");
+    pose[s].R = turn.normalized().toRotationMatrix();
+  }
+  return pose;
+}
+
+}  // namespace
+
+Result<Command> decode_command(WireBytes bytes) {
+  const auto message = decode_message<command_t>(bytes);
+  if (!message) return tl::unexpected(message.error());
+  if (message->command < command_t::RESET || message->command > command_t::SET_PROFILE) {
+    return fail("unknown command " + std::to_string(message->command), "command");
+  }
+  Command command;
+  command.kind = static_cast<Command::Kind>(message->command);
+  command.utime = message->utime;
+  command.sensor = message->sensor;
+  if (message->hand_id != command_t::ANY_HAND) command.hand_id = message->hand_id;
+  if (command.kind == Command::Kind::set_profile && message->profile.empty()) {
+    return fail("the hand profile is empty", "command");
+  }
+  command.profile = message->profile;
+  if (command.kind == Command::Kind::initialise) {
+    auto pose = pose_of(*message);
+    if (!pose) return tl::unexpected(pose.error());
+    command.pose = *pose;
+  }
+  return command;
+}
+
+CommandInbox::CommandInbox(std::shared_ptr<LcmBus> bus, const std::string& channels)
+    : listener_(std::move(bus), channels, [this](const std::string&, WireBytes message) {
+        Result<Command> command = decode_command(message);
+        const std::lock_guard lock(mutex_);
+        if (waiting_.size() == kCapacity) waiting_.erase(waiting_.begin());
+        waiting_.push_back(std::move(command));
+      }) {}
+
+std::vector<Result<Command>> CommandInbox::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(waiting_, {});
+}
+
+}  // namespace barehand

@@ -1,0 +1,107 @@
+#include "app/copy_frames.h"
+
+#include <chrono>
+#include <ostream>
+
+#include "core/repeat_filter.h"
+
+namespace barehand {
+namespace {
+
+class Copy {
+ public:
+  Copy(FrameSource& source, FrameWriter& writer, const CopyOptions& options, const Clock& clock, std::ostream& report)
+      : source_(source), writer_(writer), options_(options), clock_(clock), report_(report) {}
+
+  CopyResult run(const std::atomic<bool>& stop) {
+    start_us_ = shown_us_ = clock_.steady_us();
+    while (!finished()) {
+      if (stop) {
+        result_.stopped = true;
+        break;
+      }
+      if (!handle(source_.next(std::chrono::milliseconds(50)))) break;
+    }
+    if (line_open_) report_ << "\n";
+    return std::move(result_);
+  }
+
+ private:
+  bool finished() const {
+    const bool enough = options_.frames > 0 && result_.written >= options_.frames;
+    const bool long_enough = options_.seconds > 0 && seconds_since(start_us_) >= options_.seconds;
+    return enough || long_enough;
+  }
+  double seconds_since(std::int64_t time_us) const { return 1e-6 * static_cast<double>(clock_.steady_us() - time_us); }
+
+  /// False: the copy is over.
+  bool handle(const SourceEvent& event) {
+    if (const auto* frame = std::get_if<FramePtr>(&event)) return store(**frame);
+    if (const auto* skipped = std::get_if<SkippedFrame>(&event)) return skip(skipped->error);
+    if (const auto* failed = std::get_if<SourceFailed>(&event)) return end_with(failed->error);
+    if (std::holds_alternative<Timeout>(event)) return wait();
+    return false;
+  }
+
+  bool store(const RgbdFrame& frame) {
+    if (auto written = writer_.write(frame); !written) return end_with(written.error());
+    ++result_.written;
+    show();
+    return true;
+  }
+
+  bool skip(const Error& error) {
+    ++result_.skipped;
+    if (filter_.admit("skipped")) say("skipped: " + error.message());
+    return true;
+  }
+
+  bool wait() {
+    if (result_.written == 0 && seconds_since(shown_us_) >= 3) {
+      say("waiting for frames from " + source_.name());
+      shown_us_ = clock_.steady_us();
+    }
+    return true;
+  }
+
+  bool end_with(const Error& error) {
+    result_.error = error;
+    return false;
+  }
+
+  void show() {
+    if (seconds_since(shown_us_) < (options_.terminal ? 0.2 : 5.0)) return;
+    shown_us_ = clock_.steady_us();
+    std::string text = std::to_string(result_.written);
+    if (options_.expected) text += " of " + std::to_string(*options_.expected);
+    text += " frames";
+    if (result_.skipped > 0) text += ", " + std::to_string(result_.skipped) + " skipped";
+    report_ << (options_.terminal ? "\r\x1b[K" : "") << text << (options_.terminal ? "" : "\n") << std::flush;
+    line_open_ = options_.terminal;
+  }
+
+  void say(const std::string& text) {
+    if (line_open_) report_ << "\n";
+    line_open_ = false;
+    report_ << text << "\n" << std::flush;
+  }
+
+  FrameSource& source_;
+  FrameWriter& writer_;
+  const CopyOptions& options_;
+  const Clock& clock_;
+  std::ostream& report_;
+  RepeatFilter filter_{clock_, 1'000'000};
+  CopyResult result_;
+  std::int64_t start_us_ = 0, shown_us_ = 0;
+  bool line_open_ = false;
+};
+
+}  // namespace
+
+CopyResult copy_frames(FrameSource& source, FrameWriter& writer, const CopyOptions& options,
+                       const std::atomic<bool>& stop, const Clock& clock, std::ostream& report) {
+  return Copy(source, writer, options, clock, report).run(stop);
+}
+
+}  // namespace barehand

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+
+#include "app/frame_writer.h"
+#include "core/clock.h"
+#include "math/source.h"
+
+namespace barehand {
+
+struct CopyOptions {
+  std::int64_t frames = 0;                    ///< stop after this many; 0 = all
+  double seconds = 0;                         ///< stop after this time; 0 = no limit
+  std::optional<std::int64_t> expected = {};  ///< how many will come, where that is known: for progress
+  bool terminal = false;                      ///< progress rewrites one line
+};
+
+struct CopyResult {
+  std::int64_t written = 0;
+  std::int64_t skipped = 0;    ///< unreadable at the source
+  std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
+  bool stopped = false;        ///< by `stop`
+};
+
+/// Copies frames from a source to a writer until the source ends, a limit is reached or `stop` becomes true. Says on
+/// `report` how far it is, and what was skipped (each kind of trouble once in a while, the count always).
+CopyResult copy_frames(FrameSource& source, FrameWriter& writer, const CopyOptions& options,
+                       const std::atomic<bool>& stop, const Clock& clock, std::ostream& report);
+
+}  // namespace barehand

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/error.h"
+#include "drivers/lcm/frame_codec.h"
+#include "math/frame.h"
+
+namespace barehand {
+
+/// Where recorded or converted frames go.
+class FrameWriter {
+ public:
+  virtual ~FrameWriter() = default;
+  /// What was written before stays readable whatever happens in this call; a full disk is an error.
+  virtual Result<void> write(const RgbdFrame& frame) = 0;
+  /// "LCM log /data/a.lcmlog", for messages.
+  virtual std::string name() const = 0;
+};
+
+struct FrameWriterOptions {
+  FrameEncoding encoding = {};         ///< of a log; of a folder only colour, which is never raw there
+  std::string channel = "RGBD_FRAME";  ///< of a log
+  bool overwrite = false;              ///< of a log; a folder with a recording is never overwritten
+};
+
+/// A recording folder, or an LCM log if `path` ends in .lcmlog, .lcm or .log. Errors: it exists, it cannot be made, or
+/// it ends in .oni, which is not written.
+Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
+
+}  // namespace barehand

@@ -1,0 +1,146 @@
+#include "app/copy_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "drivers/folder/folder_source.h"
+#include "drivers/lcm/lcm_log_source.h"
+#include "tests/lcm/test_frames.h"
+
+namespace barehand {
+namespace {
+
+/// Plays what it is given.
+class ListSource : public FrameSource {
+ public:
+  explicit ListSource(std::vector<SourceEvent> events) : events_(std::move(events)) {}
+  SourceEvent next(std::chrono::milliseconds) override {
+    return next_ < events_.size() ? events_[next_++] : SourceEvent(EndOfStream{});
+  }
+  bool live() const override { return false; }
+  std::string name() const override { return "list"; }
+
+ private:
+  std::vector<SourceEvent> events_;
+  std::size_t next_ = 0;
+};
+
+SourceEvent frame_event(int number) { return std::make_shared<const RgbdFrame>(test_frame(number)); }
+
+class CopyFrames : public testing::Test {
+ protected:
+  CopyResult copy(FrameSource& source, FrameWriter& writer, const CopyOptions& options = {}) {
+    return copy_frames(source, writer, options, stop_, clock_, report_);
+  }
+  std::unique_ptr<FrameWriter> writer(const std::string& name) { return open_frame_writer(folder_ / name, {}).value(); }
+  TemporaryFolder folder_;
+  std::atomic<bool> stop_ = false;
+  ManualClock clock_;
+  std::ostringstream report_;
+};
+
+/// Takes so many frames, then the disk is full.
+class FullDisk : public FrameWriter {
+ public:
+  explicit FullDisk(int frames) : left_(frames) {}
+  Result<void> write(const RgbdFrame&) override {
+    if (left_-- > 0) return {};
+    return fail("No space left on device");
+  }
+  std::string name() const override { return "full disk"; }
+
+ private:
+  int left_;
+};
+
+TEST_F(CopyFrames, FolderToLogToFolderKeepsEveryPixel) {
+  ListSource source({frame_event(0), frame_event(1), frame_event(2)});
+  EXPECT_EQ(copy(source, *writer("a")).written, 3);
+  auto folder = FolderSource::open(folder_ / "a").value();
+  EXPECT_EQ(copy(*folder, *writer("b.lcmlog")).written, 3);
+  auto log = LcmLogSource::open(folder_ / "b.lcmlog").value();
+  EXPECT_EQ(copy(*log, *writer("c")).written, 3);
+  auto last = FolderSource::open(folder_ / "c").value();
+  for (int number = 0; number < 3; ++number) {
+    RgbdFrame expected = test_frame(number);
+    expected.sensor = "";  // a folder has no place for it
+    const SourceEvent event = last->next(std::chrono::milliseconds(0));
+    expect_same_frame(*std::get<FramePtr>(event), expected);
+  }
+}
+
+TEST_F(CopyFrames, SkippedFramesAreCountedAndReported) {
+  ListSource source({frame_event(0), SkippedFrame{{"damaged", "frame 1", ""}}, frame_event(2)});
+  const CopyResult result = copy(source, *writer("a.lcmlog"));
+  EXPECT_EQ(result.written, 2);
+  EXPECT_EQ(result.skipped, 1);
+  EXPECT_NE(report_.str().find("frame 1: damaged"), std::string::npos) << report_.str();
+}
+
+TEST_F(CopyFrames, AFullDiskEndsTheCopyWithAnError) {
+  ListSource source({frame_event(0), frame_event(1), frame_event(2)});
+  FullDisk disk(1);
+  const CopyResult result = copy(source, disk);
+  ASSERT_TRUE(result.error);
+  EXPECT_EQ(result.written, 1);
+}
+
+TEST_F(CopyFrames, AFailingSourceKeepsWhatWasWritten) {
+  ListSource source({frame_event(0), SourceFailed{{"unplugged", "", ""}}, frame_event(2)});
+  const CopyResult result = copy(source, *writer("a.lcmlog"));
+  ASSERT_TRUE(result.error);
+  EXPECT_EQ(result.error->what, "unplugged");
+  EXPECT_EQ(LcmLogSource::open(folder_ / "a.lcmlog").value()->remaining(), 1);
+}
+
+TEST_F(CopyFrames, StopsAtOnceWhenTold) {
+  stop_ = true;
+  ListSource source({frame_event(0)});
+  const CopyResult result = copy(source, *writer("a.lcmlog"));
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(result.written, 0);
+}
+
+TEST_F(CopyFrames, TakesAsManyFramesAsAskedFor) {
+  ListSource source({frame_event(0), frame_event(1), frame_event(2)});
+  EXPECT_EQ(copy(source, *writer("a.lcmlog"), {.frames = 2}).written, 2);
+}
+
+TEST_F(CopyFrames, SaysHowFarItIs) {
+  class Ticking : public ManualClock {
+   public:
+    std::int64_t steady_us() const override { return ticks_ += 10'000'000; }
+
+   private:
+    mutable std::int64_t ticks_ = 0;
+  } ticking;
+  ListSource source({frame_event(0), frame_event(1)});
+  copy_frames(source, *writer("a.lcmlog"), {.expected = 2}, stop_, ticking, report_);
+  EXPECT_NE(report_.str().find("2 of 2 frames"), std::string::npos) << report_.str();
+}
+
+TEST_F(CopyFrames, ColourCanBeLeftOut) {
+  for (const char* name : {"a", "b.lcmlog"}) {
+    ListSource source({frame_event(0)});
+    auto writer = open_frame_writer(folder_ / name, {.encoding = {.colour = ColourEncoding::none}}).value();
+    EXPECT_EQ(copy(source, *writer).written, 1);
+  }
+  const SourceEvent folder = FolderSource::open(folder_ / "a").value()->next(std::chrono::milliseconds(0));
+  const SourceEvent log = LcmLogSource::open(folder_ / "b.lcmlog").value()->next(std::chrono::milliseconds(0));
+  EXPECT_TRUE(std::get<FramePtr>(folder)->colour.empty());
+  EXPECT_TRUE(std::get<FramePtr>(log)->colour.empty());
+}
+
+TEST_F(CopyFrames, OniFilesAndExistingLogsAreRefused) {
+  const auto oni = open_frame_writer(folder_ / "a.oni", {});
+  ASSERT_FALSE(oni);
+  EXPECT_NE(oni.error().message().find(".oni"), std::string::npos);
+  writer("a.lcmlog");
+  EXPECT_FALSE(open_frame_writer(folder_ / "a.lcmlog", {}));
+  EXPECT_TRUE(open_frame_writer(folder_ / "a.lcmlog", {.overwrite = true}));
+}
+
+}  // namespace
+}  // namespace barehand
