@@ -36,12 +36,27 @@ float lateral_sigma(const KinectNoise& noise, float cosine) {
   return static_cast<float>(noise.lateral) + 0.035f * angle / (static_cast<float>(std::numbers::pi / 2) - angle);
 }
 
-/// The same for all pixels of a ragged patch of about 6 x 6.
-float patch_uniform(std::uint64_t seed, std::uint32_t frame, float u, float v) {
-  const auto cell_u = static_cast<std::uint32_t>(static_cast<int>(std::floor(u / 6)) + 64);
-  const auto cell_v = static_cast<std::uint32_t>(static_cast<int>(std::floor(v / 6)) + 64);
-  return static_cast<float>(Philox::uniform(draw(seed, frame, cell_u, cell_v, Draw::holes)[0]));
-}
+/// One number for all pixels of a patch of 6 x 6, in [0, 1).
+class Patches {
+ public:
+  Patches(int width, int height, std::uint64_t seed, std::uint32_t frame)
+      : numbers_(width / kSize + 2 * kBorder, height / kSize + 2 * kBorder) {
+    for (int v = 0; v < numbers_.height(); ++v)
+      for (int u = 0; u < numbers_.width(); ++u) {
+        const Block bits = draw(seed, frame, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), Draw::holes);
+        numbers_.at(u, v) = static_cast<float>(Philox::uniform(bits[0]));
+      }
+  }
+  /// Of the patch at a place up to some pixels outside the image.
+  float at(float u, float v) const {
+    return numbers_.at(kBorder + static_cast<int>(std::floor(u / kSize)),
+                       kBorder + static_cast<int>(std::floor(v / kSize)));
+  }
+
+ private:
+  static constexpr int kSize = 6, kBorder = 3;
+  Image<float> numbers_;
+};
 
 /// Nearest and farthest surface among a pixel and its four neighbours.
 std::pair<float, float> depth_range(const Image<float>& depth, int u, int v) {
@@ -75,6 +90,7 @@ double kinect_axial_sigma(const KinectNoise& noise, double z) {
 Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& view, std::span<const Material> materials,
                                 const KinectNoise& noise, std::uint64_t seed, std::uint32_t frame) const {
   Image<float> spoilt(view.depth.width(), view.depth.height(), 0.0f);
+  const Patches patches(view.depth.width(), view.depth.height(), seed, frame);
   std::vector<bool> lit;
   for (int v = 0; v < view.depth.height(); ++v) {
     lit_by_projector(camera, noise.baseline, view.depth.row(v), lit);
@@ -84,10 +100,10 @@ Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& vi
           draw(seed, frame, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), Draw::depth_noise);
       const float n0 = normal(bits[0]), n1 = normal(bits[0] >> 16), n2 = normal(bits[1]);
       if (Philox::uniform(bits[2]) < edge_loss(view.depth, u, v)) continue;
-      const float ragged = 1.5f * normal(bits[1] >> 16);
-      if (patch_uniform(seed, frame, static_cast<float>(u) + ragged, static_cast<float>(v) + 1.5f * normal(bits[3])) <
-          surface_loss(view, materials, u, v))
-        continue;
+      // A jitter of the place makes the patches ragged.
+      const float u_patch = static_cast<float>(u) + 1.5f * normal(bits[1] >> 16);
+      const float v_patch = static_cast<float>(v) + 1.5f * normal(bits[3]);
+      if (patches.at(u_patch, v_patch) < surface_loss(view, materials, u, v)) continue;
       const float lateral = lateral_sigma(noise, view.cosine.at(u, v));
       const float z = sample(view.depth, static_cast<float>(u) + lateral * n0, static_cast<float>(v) + lateral * n1);
       if (z > 0) spoilt.at(u, v) = z + static_cast<float>(kinect_axial_sigma(noise, z)) * n2;
