@@ -11,6 +11,7 @@ constexpr int kBlock = 4;             // cells per side of a block of the first 
 constexpr float kRing = 0.035f;       // m around the silhouette that should be empty
 constexpr float kOutside = -0.6f;     // weight of a candidate there
 constexpr float kBlur = 0.008f;       // m over which the weight falls from inside to outside
+constexpr float kHidden = 0.5f;       // worth of a place where something nearer could hide the hand
 constexpr float kLeastScore = 0.3f;   // of a perfect overlap
 constexpr float kMotionCost = 0.15f;  // of a perfect overlap, for the largest motion allowed
 
@@ -78,17 +79,25 @@ Silhouette draw(const PredictedHand& hand, const Intrinsics& camera) {
   return out;
 }
 
-float overlap(const Silhouette& shape, const Image<float>& data, int du, int dv) {
-  const int u0 = std::max(0, -(shape.u0 + du)), u1 = std::min(shape.weight.width(), data.width() - shape.u0 - du);
-  const int v0 = std::max(0, -(shape.v0 + dv)), v1 = std::min(shape.weight.height(), data.height() - shape.v0 - dv);
+/// What the silhouette is laid over: cells that may be hand, and cells where a hand may be hidden.
+struct Scene {
+  Image<float> hand;      ///< share of a cell that may be hand
+  Image<float> possible;  ///< the same, plus kHidden where something nearer could hide it
+};
+
+float overlap(const Silhouette& shape, const Scene& scene, int du, int dv) {
+  const int width = scene.hand.width(), height = scene.hand.height();
+  const int u0 = std::max(0, -(shape.u0 + du)), u1 = std::min(shape.weight.width(), width - shape.u0 - du);
+  const int v0 = std::max(0, -(shape.v0 + dv)), v1 = std::min(shape.weight.height(), height - shape.v0 - dv);
   float sum[8] = {};  // eight partial sums: the order of additions is fixed and vectorises
   for (int v = v0; v < v1; ++v) {
     const float* w = shape.weight.row(v);
-    const float* d = data.row(v + shape.v0 + dv) + shape.u0 + du;
+    const float* hand = scene.hand.row(v + shape.v0 + dv) + shape.u0 + du;
+    const float* possible = scene.possible.row(v + shape.v0 + dv) + shape.u0 + du;
     int u = u0;
     for (; u + 8 <= u1; u += 8)
-      for (int k = 0; k < 8; ++k) sum[k] += w[u + k] * d[u + k];
-    for (; u < u1; ++u) sum[0] += w[u] * d[u];
+      for (int k = 0; k < 8; ++k) sum[k] += w[u + k] * (w[u + k] > 0 ? possible[u + k] : hand[u + k]);
+    for (; u < u1; ++u) sum[0] += w[u] * (w[u] > 0 ? possible[u] : hand[u]);
   }
   return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
@@ -99,12 +108,12 @@ struct Shift {
 };
 
 /// Best shift within +-range around (du, dv); short motions win ties.
-Shift search(const Silhouette& shape, const Image<float>& data, int du, int dv, int range, float free_range) {
+Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, float free_range) {
   Shift best;
   for (int y = dv - range; y <= dv + range; ++y)
     for (int x = du - range; x <= du + range; ++x) {
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
-      const float score = overlap(shape, data, x, y) / shape.total - kMotionCost * motion;
+      const float score = overlap(shape, scene, x, y) / shape.total - kMotionCost * motion;
       if (score > best.score) best = {x, y, score};
     }
   return best;
@@ -127,26 +136,29 @@ std::optional<Eigen::Vector3f> align_translation(const PredictedHand& hand, cons
   if (!(z0 > 0.05f)) return std::nullopt;
   // Towards the camera a hand moves less than across, and what is far from its depth is something else.
   const float depth_gate = 0.10f + 0.4f * static_cast<float>(reach);
-  Image<float> data(mask.width(), mask.height());
-  for (std::size_t i = 0; i < data.size(); ++i) data[i] = mask[i] && std::abs(grid.z[i] - z0) < depth_gate ? 1.f : 0.f;
-
+  Scene scene{Image<float>(mask.width(), mask.height()), Image<float>(mask.width(), mask.height())};
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const float z = grid.z[i];
+    scene.hand[i] = mask[i] && std::abs(z - z0) < depth_gate ? 1.f : 0.f;
+    scene.possible[i] = scene.hand[i] > 0 ? 1.f : z > 0 && z < z0 ? kHidden : 0.f;
+  }
+  const Scene blocks{blocks_of(scene.hand), blocks_of(scene.possible)};
   const double s = kBlock, half = (s - 1) / 2;
-  const Image<float> blocks = blocks_of(data);
-  const Intrinsics block_camera{blocks.width(), blocks.height(),        camera.fx / s,
-                                camera.fy / s,  (camera.cx - half) / s, (camera.cy - half) / s};
+  const Intrinsics block_camera{blocks.hand.width(), blocks.hand.height(),   camera.fx / s,
+                                camera.fy / s,       (camera.cx - half) / s, (camera.cy - half) / s};
   const Silhouette rough = draw(hand, block_camera), fine = draw(hand, camera);
   if (rough.total <= 0 || fine.total <= 0) return std::nullopt;
   const float range = std::min(static_cast<float>(reach * camera.fx) / z0, static_cast<float>(camera.width));
   const int block_range = static_cast<int>(std::ceil(range / kBlock));
   const Shift block = search(rough, blocks, 0, 0, block_range, range / kBlock);
-  const Shift cell = search(fine, data, block.du * kBlock, block.dv * kBlock, kBlock, range);
+  const Shift cell = search(fine, scene, block.du * kBlock, block.dv * kBlock, kBlock, range);
   if (cell.score < kLeastScore) return std::nullopt;
 
   std::vector<float> steps;
   for (int v = 0; v < fine.weight.height(); ++v)
     for (int u = 0; u < fine.weight.width(); ++u) {
       const int x = u + fine.u0 + cell.du, y = v + fine.v0 + cell.dv;
-      if (fine.weight.at(u, v) > 0.5f && data.contains(x, y) && data.at(x, y) > 0)
+      if (fine.weight.at(u, v) > 0.5f && scene.hand.contains(x, y) && scene.hand.at(x, y) > 0)
         steps.push_back(grid.z.at(x, y) - fine.z.at(u, v));
     }
   if (steps.empty()) return std::nullopt;

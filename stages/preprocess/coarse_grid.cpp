@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kCellsAcross = 160;  // fingers at arm's length are still two cells wide
 constexpr int kGreyTolerance = 6;  // channels of a grey image differ by less (compression)
+constexpr float kClearOdds = 2.f;  // of one pixel: the rest of its cell need not be asked
 constexpr double kFewestTinted = 0.01;
 
 struct Sample {
@@ -62,9 +63,14 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
       grid.z.at(c, r) = static_cast<float>(median.depth * frame.depth_unit);
       if (!colour) continue;
       grid.colour.at(c, r) = frame.colour.at(median.u, median.v);
-      float sum = 0;
-      for (int k = 0; k < count; ++k) sum += skin.log_odds(frame.colour.at(samples[k].u, samples[k].v));
-      grid.odds.at(c, r) = sum / count;
+      float odds = skin.log_odds(grid.colour.at(c, r));
+      if (std::abs(odds) < kClearOdds) {
+        float mean = 0;
+        for (int k = 0; k < count; ++k) mean += skin.log_odds(frame.colour.at(samples[k].u, samples[k].v));
+        mean /= static_cast<float>(count);
+        odds = std::abs(mean) < std::abs(odds) ? mean : odds;  // a border through the cell must not sway it
+      }
+      grid.odds.at(c, r) = odds;
       ++seen;
       tints += tinted(grid.colour.at(c, r));
     }

@@ -14,7 +14,7 @@ struct CoarseGrid {
   Intrinsics camera;      ///< of the cells: cell (c, r) is a pixel of this camera
   Image<float> z;         ///< median of the cell's measurements [m]; 0 = none in the working range
   Image<Rgb> colour;      ///< of the pixel that measured z; black = none
-  Image<float> odds;      ///< mean log odds of skin over the cell; 0 = no evidence
+  Image<float> odds;      ///< log odds of skin of that pixel or mean of the cell, the weaker; 0 = no evidence
   bool coloured = false;  ///< false: no colour, or a grey image: depth alone decides
 
   Eigen::Vector3f point(int c, int r) const {

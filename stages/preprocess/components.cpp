@@ -6,8 +6,6 @@
 namespace barehand {
 namespace {
 
-enum Evidence : std::uint8_t { kNone = 0, kSkin = 1, kOther = 2, kOpen = 3 };
-
 bool joined(const CoarseGrid& grid, float a, float b) {
   return std::abs(a - b) < same_surface_step(std::min(a, b), static_cast<float>(grid.camera.fx));
 }
@@ -64,26 +62,20 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
   }
 }
 
-void skin_cells(const CoarseGrid& grid, float threshold, std::vector<std::int32_t>& queue, Image<std::uint8_t>& mask) {
-  const int width = grid.z.width(), height = grid.z.height();
-  mask.reset(width, height, kNone);
-  queue.clear();
-  for (std::size_t i = 0; i < mask.size(); ++i) {
+void CandidateFinder::find(const CoarseGrid& grid, const PreprocessParams& params, Image<std::uint8_t>& mask) {
+  const float skin = static_cast<float>(params.skin_odds), other = -static_cast<float>(params.other_odds);
+  evidence_.reset(grid.z.width(), grid.z.height(), Evidence::none);
+  for (std::size_t i = 0; i < evidence_.size(); ++i) {
     if (grid.z[i] <= 0) continue;
-    mask[i] = !grid.coloured || grid.odds[i] > threshold ? kSkin : grid.odds[i] < -threshold ? kOther : kOpen;
-    if (grid.coloured && mask[i] != kOpen) queue.push_back(static_cast<std::int32_t>(i));
+    evidence_[i] = !grid.coloured || grid.odds[i] > skin ? Evidence::hand
+                   : grid.odds[i] < other                ? Evidence::other
+                                                         : Evidence::open;
   }
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const int u = queue[head] % width, v = queue[head] / width;
-    const int nu[4] = {u - 1, u + 1, u, u}, nv[4] = {v, v, v - 1, v + 1};
-    for (int k = 0; k < 4; ++k) {
-      if (!mask.contains(nu[k], nv[k]) || mask.at(nu[k], nv[k]) != kOpen) continue;
-      if (!joined(grid, grid.z.at(u, v), grid.z.at(nu[k], nv[k]))) continue;
-      mask.at(nu[k], nv[k]) = mask.at(u, v);
-      queue.push_back(static_cast<std::int32_t>(mask.index(nu[k], nv[k])));
-    }
-  }
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] == kSkin;
+  if (grid.coloured)
+    flood_.run(evidence_, grid.colour,
+               [&](std::int32_t i, std::int32_t j) { return joined(grid, grid.z[i], grid.z[j]); });
+  mask.reset(grid.z.width(), grid.z.height());
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = evidence_[i] == Evidence::hand;
 }
 
 }  // namespace barehand

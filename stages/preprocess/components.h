@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stages/preprocess/coarse_grid.h"
+#include "stages/preprocess/flood.h"
 
 namespace barehand {
 
@@ -23,8 +24,15 @@ struct Components {
 /// Splits the cells of `mask` (non-zero, with depth) into components. Reuses the allocations of `out`.
 void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Components& out);
 
-/// Which cells may be skin: by their own colour where it is clear, else by the clear cell they are joined to through
-/// neighbours without a depth step (dark, overexposed or missing colour). Everything measured if there is no colour.
-void skin_cells(const CoarseGrid& grid, float threshold, std::vector<std::int32_t>& queue, Image<std::uint8_t>& mask);
+/// Finds the cells that may be skin: by their own colour where it is clear, else by the clear cells they are joined to
+/// without a depth step (dark, overexposed, pale or missing colour). Without colour: everything measured.
+class CandidateFinder {
+ public:
+  void find(const CoarseGrid& grid, const PreprocessParams& params, Image<std::uint8_t>& mask);
+
+ private:
+  Image<Evidence> evidence_;
+  Flood flood_;
+};
 
 }  // namespace barehand

@@ -9,12 +9,13 @@ namespace barehand {
 namespace {
 
 // A line one pixel wide along a silhouette has two companions; a corner of a real surface has three.
-constexpr int kFewestCompanions = 3;
+constexpr float kFewestCompanions = 3;
 
 }  // namespace
 
 void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params, const Region& region,
                          Image<float>& depth, Image<std::uint8_t>& edge) {
+  companions_.resize(region.width);
   raw_.reset(region.width + 2, region.height + 2);
   depth.reset(region.width, region.height);
   edge.reset(region.width, region.height);
@@ -34,14 +35,16 @@ void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params,
     const float* below = raw_.row(v + 2) + 1;
     float* out = depth.row(v);
     std::uint8_t* border = edge.row(v);
-    for (int u = 0; u < region.width; ++u) {
+    float* companions = companions_.data();
+    for (int u = 0; u < region.width; ++u) {  // floats throughout: it vectorises
       const float z = own[u], step = same_surface_step(z, fx);
-      const auto same = [z, step](float other) { return static_cast<int>(std::abs(other - z) < step); };
-      const int companions = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +
-                             same(own[u + 1]) + same(below[u - 1]) + same(below[u]) + same(below[u + 1]);
-      out[u] = companions < kFewestCompanions ? 0.f : z;
-      border[u] = companions < 8 ? 255 : 0;
+      const auto same = [z, step](float other) { return std::abs(other - z) < step ? 1.f : 0.f; };
+      const float count = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +
+                          same(own[u + 1]) + same(below[u - 1]) + same(below[u]) + same(below[u + 1]);
+      companions[u] = count;
+      out[u] = count < kFewestCompanions ? 0.f : z;
     }
+    for (int u = 0; u < region.width; ++u) border[u] = companions[u] < 8.f ? 255 : 0;
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "math/frame.h"
 #include "stages/preprocess/params.h"
 
@@ -19,7 +21,8 @@ class DepthCleaner {
              Image<std::uint8_t>& edge);
 
  private:
-  Image<float> raw_;  // with a border of one empty pixel
+  Image<float> raw_;               // with a border of one empty pixel
+  std::vector<float> companions_;  // of the current row
 };
 
 }  // namespace barehand

@@ -13,6 +13,7 @@ struct CoarseHand {
   bool found = false;
   Image<std::uint8_t> cells;                ///< 1 = hand
   std::optional<PredictedHand> prediction;  ///< the hint, moved to where the hand is now; none if it did not help
+  Image<float> distance;                    ///< [m] from candidates to the prediction's skin; infinite far away
   std::optional<WristPlane> wrist;          ///< what lies behind is forearm
 };
 
@@ -24,14 +25,15 @@ class HandSearch {
   const CoarseHand& find(const CoarseGrid& grid, const HandEstimate* hint, double hint_age);
 
  private:
+  std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
   bool follow(const CoarseGrid& grid, const HandEstimate& hint, double hint_age);
   bool start(const CoarseGrid& grid);
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid) const;
 
   PreprocessParams params_;
-  Image<std::uint8_t> candidates_;
-  std::vector<std::int32_t> queue_;
+  Image<std::uint8_t> candidates_, movable_;
+  CandidateFinder finder_;
   Components surfaces_;
   CoarseHand hand_;
 };

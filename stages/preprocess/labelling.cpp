@@ -7,8 +7,6 @@
 namespace barehand {
 namespace {
 
-enum Evidence : std::uint8_t { kMissing = 0, kHand = 1, kOther = 2, kOpen = 3 };
-
 constexpr double kSpeckArea = 3e-5;  // m^2: less than half a fingertip
 constexpr float kInFront = 0.005f;   // m before the nearest hand pixel
 
@@ -33,40 +31,25 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
     }
 }
 
-void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
-  odds_.create(region.height, region.width, CV_32F);
+void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, int step, const Region& region) {
+  own_odds_.create(region.height, region.width, CV_32F);
   present_.create(region.height, region.width, CV_32F);
+  colours_.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
-    float* odds = odds_.ptr<float>(v);
+    std::copy_n(colour, region.width, colours_.row(v));
+    const float* nearest = lowest_.row(std::min((v + region.v0) / step, lowest_.height() - 1));
+    float* odds = own_odds_.ptr<float>(v);
     float* present = present_.ptr<float>(v);
     for (int u = 0; u < region.width; ++u) {
-      odds[u] = skin.log_odds(colour[u]);
+      const bool beside_hand = nearest[std::min((u + region.u0) / step, lowest_.width() - 1)] < INFINITY;
+      odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
       present[u] = odds[u] != 0.f ? 1.f : 0.f;
     }
   }
-  if (params_.skew_px == 0) return;
   const cv::Size window(2 * params_.skew_px + 1, 2 * params_.skew_px + 1);
-  cv::boxFilter(odds_, odds_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(own_odds_, odds_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
   cv::boxFilter(present_, present_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
-}
-
-void HandMask::flood(const RgbdFrame& frame, const Region& region, const Image<float>& depth) {
-  const float fx = static_cast<float>(frame.camera.fx);
-  for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::int32_t i = queue_[head];
-    const int u = i % region.width, v = i / region.width;
-    const auto visit = [&](int nu, int nv) {
-      if (!evidence_.contains(nu, nv) || evidence_.at(nu, nv) != kOpen) return;
-      if (!joined(depth[i], depth.at(nu, nv), fx)) return;
-      evidence_.at(nu, nv) = evidence_[i];
-      queue_.push_back(static_cast<std::int32_t>(evidence_.index(nu, nv)));
-    };
-    visit(u - 1, v);
-    visit(u + 1, v);
-    visit(u, v - 1);
-    visit(u, v + 1);
-  }
 }
 
 void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask) {
@@ -88,51 +71,54 @@ void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, 
   }
 }
 
+bool HandMask::supported(const CoarseGrid& grid, const Region& region, int u, int v, float z) const {
+  const int c = std::min((u + region.u0) / grid.step, grid.z.width() - 1);
+  const int r = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
+  return z > lowest_.at(c, r) && z < highest_.at(c, r);
+}
+
+Evidence HandMask::judge(bool possible, int u, int v) const {
+  if (edges_.at<std::uint8_t>(v, u)) return Evidence::open;
+  if (!possible) return Evidence::other;
+  const float present = present_.at<float>(v, u), own = own_odds_.at<float>(v, u);
+  if (present < 0.5f || own == 0.f) return Evidence::open;
+  const float mean = odds_.at<float>(v, u) / present;
+  // Beside a colour border the mean alone would take a strip of one side for the other.
+  if (mean > static_cast<float>(params_.skin_odds) && own > 0) return Evidence::hand;
+  const float other = -static_cast<float>(params_.other_odds);
+  return mean < other && own < other ? Evidence::other : Evidence::open;
+}
+
 void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                        const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
                        Image<std::uint8_t>& mask) {
   support(grid, hand);
   if (grid.coloured) {
-    colour_evidence(frame, skin, region);
+    colour_evidence(frame, skin, grid.step, region);
     const cv::Mat edges(region.height, region.width, CV_8U, const_cast<std::uint8_t*>(edge.data()));
     const int side = 2 * params_.skew_px + 1;
     cv::dilate(edges, edges_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
   }
-  const float threshold = static_cast<float>(params_.skin_odds);
-  evidence_.reset(region.width, region.height, kMissing);
-  queue_.clear();
-  const auto supported = [&](int u, int v) {
-    const int c = std::min((u + region.u0) / grid.step, grid.z.width() - 1);
-    const int r = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
-    const float z = depth.at(u, v);
-    return z > lowest_.at(c, r) && z < highest_.at(c, r);
-  };
+  evidence_.reset(region.width, region.height, Evidence::none);
   for (int v = 0; v < region.height; ++v)
     for (int u = 0; u < region.width; ++u) {
-      if (depth.at(u, v) <= 0) continue;
-      std::uint8_t& own = evidence_.at(u, v);
-      if (!grid.coloured) {
-        own = supported(u, v) ? kHand : kOther;
-        continue;
-      }
-      const float present = present_.at<float>(v, u);
-      const float odds = present > 0.5f ? odds_.at<float>(v, u) / present : 0.f;
-      if (edges_.at<std::uint8_t>(v, u) || std::abs(odds) < threshold)
-        own = kOpen;
-      else
-        own = odds > 0 && supported(u, v) ? kHand : kOther;
-      if (own != kOpen) queue_.push_back(static_cast<std::int32_t>(evidence_.index(u, v)));
+      const float z = depth.at(u, v);
+      if (z <= 0) continue;
+      const bool possible = supported(grid, region, u, v, z);
+      evidence_.at(u, v) = grid.coloured ? judge(possible, u, v) : (possible ? Evidence::hand : Evidence::other);
     }
-  flood(frame, region, depth);
-
+  if (grid.coloured) {
+    const float fx = static_cast<float>(frame.camera.fx);
+    flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
+  }
   mask.reset(region.width, region.height);
   const Intrinsics& camera = frame.camera;
   for (int v = 0; v < region.height; ++v)
     for (int u = 0; u < region.width; ++u) {
-      const std::uint8_t own = evidence_.at(u, v);
-      if (own != kHand && own != kOpen) continue;
-      if (!supported(u, v) || (own == kOpen && odds_.at<float>(v, u) < 0)) continue;
+      const Evidence own = evidence_.at(u, v);
+      if (own != Evidence::hand && own != Evidence::open) continue;
       const float z = depth.at(u, v);
+      if (!supported(grid, region, u, v, z) || (own == Evidence::open && odds_.at<float>(v, u) < 0)) continue;
       const Eigen::Vector3f p(static_cast<float>((u + region.u0 - camera.cx) / camera.fx) * z,
                               static_cast<float>((v + region.v0 - camera.cy) / camera.fy) * z, z);
       mask.at(u, v) = !hand.wrist || hand.wrist->behind(p) <= 0;

@@ -21,15 +21,17 @@ class HandMask {
 
  private:
   void support(const CoarseGrid& grid, const CoarseHand& hand);
-  void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
-  void flood(const RgbdFrame& frame, const Region& region, const Image<float>& depth);
+  void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, int step, const Region& region);
+  bool supported(const CoarseGrid& grid, const Region& region, int u, int v, float z) const;
+  Evidence judge(bool possible, int u, int v) const;
   void remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask);
 
   PreprocessParams params_;
   Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
-  cv::Mat odds_, present_, edges_, labels_, stats_, centroids_;
-  Image<std::uint8_t> evidence_;
-  std::vector<std::int32_t> queue_;
+  cv::Mat own_odds_, odds_, present_, edges_, labels_, stats_, centroids_;
+  Image<Rgb> colours_;  // of the region
+  Image<Evidence> evidence_;
+  Flood flood_;
   std::vector<std::uint8_t> keep_;
 };
 

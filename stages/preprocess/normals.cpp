@@ -1,6 +1,7 @@
 #include "stages/preprocess/normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "stages/preprocess/coarse_grid.h"
@@ -12,63 +13,84 @@ constexpr int kFewestSamples = 6;
 constexpr float kSteepest = 1.2f;      // slope up to which samples away from the centre count as the same surface
 constexpr float kLeastFacing = 0.05f;  // cosine to the view ray; beyond it the fit is made of noise
 
-/// Slope of the fitted plane in metres per pixel, around the depth z of its centre pixel.
-bool fit_slope(const Image<std::uint8_t>& mask, const Image<float>& depth, int u, int v, int spacing, float gate,
-               float slopes[2]) {
-  const float z = depth.at(u, v);
-  float n = 0, su = 0, sv = 0, suu = 0, suv = 0, svv = 0, sz = 0, suz = 0, svz = 0;
-  for (int j = -2; j <= 2; ++j) {
-    const int y = v + j * spacing;
-    if (y < 0 || y >= depth.height()) continue;
-    const std::uint8_t* hand = mask.row(y);
-    const float* row = depth.row(y);
+constexpr int kLanes = 8;         // neighbouring pixels fitted together
+constexpr int kMostSpacing = 12;  // pixels between samples
+constexpr int kPad = 2 * kMostSpacing;
+constexpr float kNoHand = -1e3f;  // depth that no gate lets pass
+
+using Lanes = std::array<float, kLanes>;
+
+/// Slopes in metres per sample of the planes around kLanes pixels in a row; `z` points to the first in an image with
+/// `stride` floats a row. `valid` = 1 where enough samples agree.
+void fit_slopes(const float* z, int stride, int spacing, float gate, Lanes& slope_u, Lanes& slope_v, Lanes& valid) {
+  Lanes n{}, su{}, sv{}, suu{}, suv{}, svv{}, sz{}, suz{}, svz{};
+  for (int j = -2; j <= 2; ++j)
     for (int i = -2; i <= 2; ++i) {
-      const int x = u + i * spacing;
-      if (x < 0 || x >= depth.width()) continue;
-      const float dz = row[x] - z;
-      const float w = hand[x] && std::abs(dz) < gate ? 1.f : 0.f;
-      const float wi = w * static_cast<float>(i), wj = w * static_cast<float>(j);
-      n += w;
-      su += wi;
-      sv += wj;
-      suu += wi * static_cast<float>(i);
-      suv += wi * static_cast<float>(j);
-      svv += wj * static_cast<float>(j);
-      sz += w * dz;
-      suz += wi * dz;
-      svz += wj * dz;
+      const float* sample = z + j * spacing * stride + i * spacing;
+      const float fi = static_cast<float>(i), fj = static_cast<float>(j);
+      for (int k = 0; k < kLanes; ++k) {
+        const float dz = sample[k] - z[k];
+        const float w = std::abs(dz) < gate ? 1.f : 0.f, wz = w > 0 ? dz : 0.f;
+        n[k] += w;
+        su[k] += fi * w;
+        sv[k] += fj * w;
+        suu[k] += fi * fi * w;
+        suv[k] += fi * fj * w;
+        svv[k] += fj * fj * w;
+        sz[k] += wz;
+        suz[k] += fi * wz;
+        svz[k] += fj * wz;
+      }
     }
+  for (int k = 0; k < kLanes; ++k) {
+    const float m = 1.f / std::max(n[k], 1.f);
+    const float cuu = suu[k] - su[k] * su[k] * m, cuv = suv[k] - su[k] * sv[k] * m, cvv = svv[k] - sv[k] * sv[k] * m;
+    const float cuz = suz[k] - su[k] * sz[k] * m, cvz = svz[k] - sv[k] * sz[k] * m;
+    const float det = cuu * cvv - cuv * cuv;
+    valid[k] = n[k] >= kFewestSamples && det >= 1.f ? 1.f : 0.f;  // det = 0: samples on a line
+    const float inverse = 1.f / std::max(det, 1.f);
+    slope_u[k] = (cuz * cvv - cvz * cuv) * inverse;
+    slope_v[k] = (cvz * cuu - cuz * cuv) * inverse;
   }
-  if (n < kFewestSamples) return false;
-  const float cuu = suu - su * su / n, cuv = suv - su * sv / n, cvv = svv - sv * sv / n;
-  const float cuz = suz - su * sz / n, cvz = svz - sv * sz / n;
-  const float det = cuu * cvv - cuv * cuv;
-  if (det < 1.f) return false;  // samples on a line
-  slopes[0] = (cuz * cvv - cvz * cuv) / (det * static_cast<float>(spacing));
-  slopes[1] = (cvz * cuu - cuz * cuv) / (det * static_cast<float>(spacing));
-  return true;
+}
+
+/// Unit normal of the surface z(u, v) at ray (x, y, 1) with slopes per pixel times focal length; zero if it is seen
+/// edge-on. Tangents crossed, divided by z.
+Eigen::Vector3f normal_of(float x, float y, float z, float a, float b) {
+  const Eigen::Vector3f normal = Eigen::Vector3f(a, b, -(z + a * x + b * y)).normalized();
+  const bool faces = normal.dot(Eigen::Vector3f(x, y, 1.f).normalized()) < -kLeastFacing;
+  return faces ? normal : Eigen::Vector3f(Eigen::Vector3f::Zero());
 }
 
 }  // namespace
 
-void fit_normals(const Image<std::uint8_t>& mask, double radius, HandObservation& out) {
+void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObservation& out) {
   const Intrinsics& camera = out.frame->camera;
+  const int width = mask.width(), height = mask.height();
+  out.normal.reset(width, height, Eigen::Vector3f::Zero());
+  padded_.reset(width + 2 * kPad + kLanes, height + 2 * kPad, kNoHand);
+  for (const std::int32_t i : out.hand_pixels) padded_.at(i % width + kPad, i / width + kPad) = out.depth[i];
   const float fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
-  out.normal.reset(mask.width(), mask.height(), Eigen::Vector3f::Zero());
-  for (const std::int32_t index : out.hand_pixels) {
-    const int u = index % mask.width(), v = index / mask.width();
-    const float z = out.depth[index];
-    const int spacing = std::max(1, static_cast<int>(std::lround(radius * camera.fx / z / 2)));
-    const float gate = same_surface_step(z, fx) + kSteepest * static_cast<float>(2 * spacing) * z / fx;
-    float slopes[2];
-    if (!fit_slope(mask, out.depth, u, v, spacing, gate, slopes)) continue;
-    // Surface z(u, v) with point z * (x, y, 1): tangents crossed, divided by z.
-    const float x = static_cast<float>((u + out.u0 - camera.cx) / camera.fx);
-    const float y = static_cast<float>((v + out.v0 - camera.cy) / camera.fy);
-    const float a = slopes[0] * fx, b = slopes[1] * fy;
-    const Eigen::Vector3f normal(a, b, -(z + a * x + b * y));
-    const Eigen::Vector3f unit = normal.normalized();
-    if (unit.dot(Eigen::Vector3f(x, y, 1.f).normalized()) < -kLeastFacing) out.normal[index] = unit;
+  Lanes slope_u, slope_v, valid;
+  for (int v = 0; v < height; ++v) {
+    const std::uint8_t* hand = mask.row(v);
+    for (int u = 0; u < width; ++u) {
+      if (!hand[u]) continue;
+      const float* z = padded_.row(v + kPad) + u + kPad;
+      const int spacing =
+          std::clamp(static_cast<int>(static_cast<float>(radius) * fx / *z / 2 + 0.5f), 1, kMostSpacing);
+      const float gate = same_surface_step(*z, fx) + kSteepest * static_cast<float>(2 * spacing) * *z / fx;
+      fit_slopes(z, padded_.width(), spacing, gate, slope_u, slope_v, valid);
+      const float y = static_cast<float>((v + out.v0 - camera.cy) / camera.fy);
+      const int lanes = std::min(kLanes, width - u);
+      for (int k = 0; k < lanes; ++k) {
+        if (!hand[u + k] || valid[k] == 0) continue;
+        const float x = static_cast<float>((u + k + out.u0 - camera.cx) / camera.fx);
+        const float per_pixel = 1.f / static_cast<float>(spacing);
+        out.normal.at(u + k, v) = normal_of(x, y, z[k], slope_u[k] * fx * per_pixel, slope_v[k] * fy * per_pixel);
+      }
+      u += lanes - 1;
+    }
   }
 }
 

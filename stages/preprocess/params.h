@@ -8,7 +8,7 @@ struct PreprocessParams {
   double max_depth = 1.5;
   bool use_colour = true;
   double min_hand_area = 0.0012;
-  double max_hand_area = 0.08;
+  double max_hand_area = 0.055;
   double max_speed = 3.0;
   double hand_reach = 0.08;
   double wrist_margin = 0.015;
@@ -16,6 +16,7 @@ struct PreprocessParams {
   int margin_px = 48;
   int skew_px = 2;
   double skin_odds = 0.4;
+  double other_odds = 1.4;
   double learning_rate = 0.08;
   double learned_share = 0.85;
   double normal_radius = 0.004;
@@ -38,6 +39,7 @@ void visit(V& v, PreprocessParams& p) {
   v("margin_px", p.margin_px, 40, 400, "pixels around the hand in which the maps are computed");
   v("skew_px", p.skew_px, 0, 10, "pixels beside depth edges whose colour may belong to the neighbouring surface");
   v("skin_odds", p.skin_odds, 0.0, 5.0, "log odds of skin colour beyond which a pixel's own colour decides");
+  v("other_odds", p.other_odds, 0.0, 5.0, "log odds against skin beyond which a pixel's own colour decides");
   v("learning_rate", p.learning_rate, 0.0, 1.0,
     "share of one frame in the learned skin colour; 0 keeps the generic one");
   v("learned_share", p.learned_share, 0.0, 0.99, "weight of the learned against the generic skin colour");

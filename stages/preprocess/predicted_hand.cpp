@@ -9,13 +9,6 @@ namespace {
 constexpr int kPalmRays = 4;
 constexpr float kPalmRadius = 0.013f;  // half the thickness of a palm; neighbouring rays close the gaps
 
-float distance_sq(const Capsule& c, const Eigen::Vector3f& p) {
-  const Eigen::Vector3f axis = c.b - c.a;
-  const float length_sq = axis.squaredNorm();
-  const float t = length_sq > 0 ? std::clamp((p - c.a).dot(axis) / length_sq, 0.f, 1.f) : 0.f;
-  return (p - c.a - t * axis).squaredNorm();
-}
-
 }  // namespace
 
 std::optional<PredictedHand> PredictedHand::from(const HandEstimate* hint) {
@@ -35,13 +28,35 @@ std::optional<PredictedHand> PredictedHand::from(const HandEstimate* hint) {
     hand.capsules_[kPalmRays + s - 1] = {T.t.cast<float>(), (T * profile.distal).cast<float>(),
                                          static_cast<float>(0.5 * (profile.radius[0] + profile.radius[1]))};
   }
+  hand.arrange();
   return hand;
 }
 
+void PredictedHand::arrange() {
+  for (int k = 0; k < kLanes; ++k) {
+    const Capsule& c = capsules_[std::min(k, kRods - 1)];
+    const Eigen::Vector3f d = c.b - c.a;
+    rods_.ax[k] = c.a.x(), rods_.ay[k] = c.a.y(), rods_.az[k] = c.a.z();
+    rods_.dx[k] = d.x(), rods_.dy[k] = d.y(), rods_.dz[k] = d.z();
+    rods_.inverse_length_sq[k] = 1.f / std::max(d.squaredNorm(), 1e-8f);
+    rods_.radius[k] = c.radius;
+  }
+}
+
 float PredictedHand::distance(const Eigen::Vector3f& p) const {
-  float best = INFINITY;
-  for (const Capsule& c : capsules_) best = std::min(best, std::sqrt(distance_sq(c, p)) - c.radius);
-  return best;
+  const float px = p.x(), py = p.y(), pz = p.z();
+  std::array<float, kLanes> d;
+  for (int k = 0; k < kLanes; ++k) {
+    const float x = px - rods_.ax[k], y = py - rods_.ay[k], z = pz - rods_.az[k];
+    float t = (x * rods_.dx[k] + y * rods_.dy[k] + z * rods_.dz[k]) * rods_.inverse_length_sq[k];
+    t = t < 0.f ? 0.f : t;
+    t = t > 1.f ? 1.f : t;
+    const float ex = x - t * rods_.dx[k], ey = y - t * rods_.dy[k], ez = z - t * rods_.dz[k];
+    d[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - rods_.radius[k];
+  }
+  for (int half = kLanes / 2; half >= 3; half /= 2)
+    for (int k = 0; k < half; ++k) d[k] = d[k] < d[k + half] ? d[k] : d[k + half];
+  return std::min({d[0], d[1], d[2]});
 }
 
 void PredictedHand::translate(const Eigen::Vector3f& by) {
@@ -50,6 +65,7 @@ void PredictedHand::translate(const Eigen::Vector3f& by) {
     c.b += by;
   }
   wrist_ += by;
+  arrange();
 }
 
 }  // namespace barehand

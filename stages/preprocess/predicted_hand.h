@@ -18,6 +18,8 @@ struct Capsule {
 /// where the hand may be and where its wrist ends, not its exact skin.
 class PredictedHand {
  public:
+  static constexpr int kRods = 19;
+
   /// None if the estimate has no pose or no profile.
   static std::optional<PredictedHand> from(const HandEstimate* hint);
 
@@ -26,13 +28,19 @@ class PredictedHand {
   /// How far [m] a point lies behind the wrist joint along the forearm; negative on the hand's side.
   float behind_wrist(const Eigen::Vector3f& p) const { return (p - wrist_).dot(arm_axis_); }
   Eigen::Vector3f centre() const { return 0.5f * (capsules_[1].a + capsules_[1].b); }
-  const std::array<Capsule, 19>& capsules() const { return capsules_; }
+  const std::array<Capsule, kRods>& capsules() const { return capsules_; }
   const Eigen::Vector3f& wrist() const { return wrist_; }
   const Eigen::Vector3f& arm_axis() const { return arm_axis_; }
   void translate(const Eigen::Vector3f& by);
 
  private:
-  std::array<Capsule, 19> capsules_;  // 4 rays of the palm, 15 phalanges
+  void arrange();
+
+  std::array<Capsule, kRods> capsules_;  // 4 rays of the palm, 15 phalanges
+  static constexpr int kLanes = 24;      // the same rods for SIMD, padded by repeating the last
+  struct Rods {
+    std::array<float, kLanes> ax, ay, az, dx, dy, dz, inverse_length_sq, radius;
+  } rods_{};
   Eigen::Vector3f wrist_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f arm_axis_ = Eigen::Vector3f::UnitZ();  // from the fingers towards the elbow
 };

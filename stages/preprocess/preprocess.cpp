@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/preprocess/normals.h"
-
 namespace barehand {
 namespace {
 
@@ -83,7 +81,7 @@ void Preprocessor::describe_hand(HandObservation& out) {
   }
   transform_.compute(mask_, out.nearest_hand);
   label_pixels(camera, mask_, params_.object_reach, out);
-  fit_normals(mask_, params_.normal_radius, out);
+  normals_.fit(mask_, params_.normal_radius, out);
   out.noise = measure_noise(mask_, out.depth, params_.noise_floor);
   thin_cloud(params_.cloud_points, out);
 }
@@ -130,7 +128,7 @@ void Preprocessor::learn_skin() {
       const bool near = (p - hand.centre()).squaredNorm() < kSurroundings * kSurroundings;
       const bool skin_like = grid_.odds.at(c, r) > 0;
       if (hand_->cells.at(c, r)) {
-        if (near && hand.distance(p) < kSurelySkin) skin_colours_.push_back(colour);
+        if (hand_->distance.at(c, r) < kSurelySkin) skin_colours_.push_back(colour);
       } else if (skin_like && (!near || hand.behind_wrist(p) > 0)) {
         continue;  // a face, the other hand, the own forearm: skin all the same
       } else if ((c + r) % 2 == 0 && (!near || hand.distance(p) > kSurelyOther)) {

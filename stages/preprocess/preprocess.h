@@ -6,6 +6,7 @@
 #include "stages/preprocess/distance_transform.h"
 #include "stages/preprocess/hand_search.h"
 #include "stages/preprocess/labelling.h"
+#include "stages/preprocess/normals.h"
 #include "stages/preprocess/observation_pool.h"
 #include "stages/preprocess/params.h"
 
@@ -35,6 +36,7 @@ class Preprocessor {
   HandMask masker_;
   DepthCleaner cleaner_;
   NearestPixelTransform transform_;
+  NormalFitter normals_;
   ObservationPool pool_;
   CoarseGrid grid_;
   const CoarseHand* hand_ = nullptr;  // of the current frame, owned by search_

@@ -6,9 +6,6 @@
 namespace barehand {
 namespace {
 
-constexpr int kFraction = 64;               // fixed-point steps per bin
-constexpr double kRedStart = -0.6;          // log R/G of the first bin's lower edge
-constexpr double kBlueStart = -1.5;         // log B/G
 constexpr std::size_t kFewestColours = 30;  // fewer pixels say nothing about a distribution
 constexpr float kOddsLimit = 4.f;           // no single pixel may outvote its whole neighbourhood
 
@@ -40,14 +37,6 @@ SkinModel::SkinModel(double rate, double share) : rate_(rate), share_(share) {
       prior_other_[b * kBins + r] = static_cast<float>(other_density(red, blue) * kBinWidth * kBinWidth);
     }
   rebuild();
-}
-
-int SkinModel::bin(Rgb c) const {
-  constexpr int kRedOffset = static_cast<int>(-kRedStart / kBinWidth * kFraction + 0.5);
-  constexpr int kBlueOffset = static_cast<int>(-kBlueStart / kBinWidth * kFraction + 0.5);
-  const int red = (log_[c.r] - log_[c.g] + kRedOffset) / kFraction;
-  const int blue = (log_[c.b] - log_[c.g] + kBlueOffset) / kFraction;
-  return std::clamp(blue, 0, kBins - 1) * kBins + std::clamp(red, 0, kBins - 1);
 }
 
 void SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -31,7 +32,16 @@ class SkinModel {
   static constexpr int kOverexposed = 250;
   using Histogram = std::array<float, kBins * kBins>;
 
-  int bin(Rgb c) const;
+  static constexpr int kFraction = 64;        // fixed-point steps per bin
+  static constexpr double kRedStart = -0.6;   // log R/G of the first bin's lower edge
+  static constexpr double kBlueStart = -1.5;  // log B/G
+  int bin(Rgb c) const {
+    constexpr int kRedOffset = static_cast<int>(-kRedStart / kBinWidth * kFraction + 0.5);
+    constexpr int kBlueOffset = static_cast<int>(-kBlueStart / kBinWidth * kFraction + 0.5);
+    const int red = (log_[c.r] - log_[c.g] + kRedOffset) / kFraction;
+    const int blue = (log_[c.b] - log_[c.g] + kBlueOffset) / kFraction;
+    return std::clamp(blue, 0, kBins - 1) * kBins + std::clamp(red, 0, kBins - 1);
+  }
   static void add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
                   const SkinModel& model);
   void rebuild();

@@ -49,21 +49,21 @@ struct Sphere {
   }
 };
 
-TEST(FitNormals, MatchASphere) {
+TEST(NormalFitter, MatchASphere) {
   Sphere sphere(0);
-  fit_normals(sphere.mask, 0.004, sphere.observation);
+  NormalFitter().fit(sphere.mask, 0.004, sphere.observation);
   EXPECT_LT(sphere.mean_error_deg(), 0.5);
 }
 
-TEST(FitNormals, SmoothKinectClassNoise) {
+TEST(NormalFitter, SmoothKinectClassNoise) {
   Sphere sphere(0.0012);
-  fit_normals(sphere.mask, 0.004, sphere.observation);
+  NormalFitter().fit(sphere.mask, 0.004, sphere.observation);
   EXPECT_LT(sphere.mean_error_deg(), 10);
 }
 
-TEST(FitNormals, PointTowardsTheCamera) {
+TEST(NormalFitter, PointTowardsTheCamera) {
   Sphere sphere(0.0012);
-  fit_normals(sphere.mask, 0.004, sphere.observation);
+  NormalFitter().fit(sphere.mask, 0.004, sphere.observation);
   for (const std::int32_t i : sphere.observation.hand_pixels) {
     const Eigen::Vector3f n = sphere.observation.normal[i];
     if (n.isZero()) continue;
@@ -72,14 +72,16 @@ TEST(FitNormals, PointTowardsTheCamera) {
   }
 }
 
-TEST(FitNormals, IgnoreWhatLiesBeyondADepthEdge) {
+TEST(NormalFitter, IgnoreWhatLiesBeyondADepthEdge) {
   Sphere sphere(0);
+  sphere.observation.hand_pixels.clear();
   for (std::size_t i = 0; i < sphere.mask.size(); ++i) {
+    sphere.observation.hand_pixels.push_back(static_cast<std::int32_t>(i));
     const int u = static_cast<int>(i) % 220;
     sphere.observation.depth[i] = u < 110 ? 0.45f : 0.6f;
     sphere.mask[i] = 1;
   }
-  fit_normals(sphere.mask, 0.004, sphere.observation);
+  NormalFitter().fit(sphere.mask, 0.004, sphere.observation);
   for (const std::int32_t i : sphere.observation.hand_pixels) ASSERT_LT(sphere.observation.normal[i].z(), -0.999f);
 }
 

@@ -107,6 +107,26 @@ TEST(Preprocess, ColourSkewedByTwoPixelsLeavesTheSilhouetteToDepth) {
   EXPECT_NEAR(observe(scene)->hand_pixels.size(), truth->hand_pixels.size(), 0.01 * truth->hand_pixels.size());
 }
 
+TEST(Preprocess, GreyishSkinInShadowJoinsTheSkinAndNotTheSleeve) {
+  const Rgb shadow{132, 115, 119};
+  const auto o = observe(PaintedScene()
+                             .hand(kX, kY, kZ, Rgb{145, 112, 108})
+                             .forearm(kX, kY, kZ, test::kBlue)
+                             .patch(kX - 0.04, kY - 0.03, kX + 0.04, kY, kZ, shadow));
+  EXPECT_EQ(label_at(*o, kX, kY - 0.008, kZ), PixelLabel::hand);
+  EXPECT_EQ(label_at(*o, kX, kY + 0.015, kZ), PixelLabel::object);
+}
+
+TEST(Preprocess, WithoutColourAPlateBeforeTheFingersIsNeitherHandNorDragsItAlong) {
+  const HandEstimate hint = painted_hand_estimate(kX, kY, kZ);
+  PaintedScene scene;
+  scene.hand(kX, kY, kZ).forearm(kX, kY, kZ, test::kSkin).patch(-0.3, -1, 0.3, -0.03, 0.42, test::kGreen).no_colour();
+  const auto o = observe(scene, &hint);
+  EXPECT_EQ(label_at(*o, 0, -0.06, 0.42), PixelLabel::object);
+  EXPECT_EQ(label_at(*o, kX, kY - 0.01, kZ), PixelLabel::hand);
+  EXPECT_EQ(label_at(*o, kX, kY + 0.04, kZ), PixelLabel::object);
+}
+
 TEST(Preprocess, GreyImageCountsAsNoColour) {
   const auto o = observe(PaintedScene(1.2f, test::kGrey).hand(kX, kY, kZ, Rgb{150, 150, 150}));
   EXPECT_TRUE(o->hand_present);
