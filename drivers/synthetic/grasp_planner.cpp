@@ -38,7 +38,7 @@ SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& 
   SE3 T = T_palm_thing;
   for (int i = 0; i < 60; ++i) {  // the distance never overestimates, so these steps do not pass the contact
     const auto gap = clearance(angles, T, thing);
-    const double missing = kContact - std::min(gap[kPalm], gap[segment_of(0, 0)]);
+    const double missing = kContact - *std::min_element(gap.begin(), gap.end());
     if (std::abs(missing) < 1e-5) break;
     T.t += missing * direction;
   }

@@ -59,10 +59,10 @@ GraspPlan plan_mug() {
   plan.objects = {{"mug", make_mug(size), {{182, 48, 40}, 0.6}}};
   plan.distance = cylinder_distance(size.radius, size.height / 2);
   plan.T_world_thing = {R_world_thing, {0.02, 0.03, size.height / 2}};
-  plan.T_palm_thing = {R_world_palm.transpose() * R_world_thing, {-0.004, -0.12, -0.085}};
+  plan.T_palm_thing = {R_world_palm.transpose() * R_world_thing, {-0.012, -0.12, -0.085}};
   plan.towards_palm_out = -Vector3d::UnitY();
-  plan.open = preshape(30, 14, 14, 8);
-  plan.closed = closed_shape(33);
+  plan.open = preshape(2, 14, 14, 8);
+  plan.closed = closed_shape(14);
   return plan;
 }
 

@@ -25,7 +25,7 @@ TriangleMesh make_tube(std::span<const Eigen::Vector3d> path, std::span<const do
 
 /// A mug about its centre, axis along z, handle towards +x.
 struct MugSize {
-  double radius = 0.040, height = 0.095, wall = 0.004;
+  double radius = 0.040, height = 0.110, wall = 0.004;
 };
 TriangleMesh make_mug(const MugSize& size);
 
