@@ -23,17 +23,26 @@ struct ObservedCloud::Index {
 
 namespace {
 
+struct Pixel {
+  int u, v;
+};
+/// Where the point lies in the maps of the region of interest; may be outside. Needs z > 0.
+Pixel pixel_of(const HandObservation& observation, const Eigen::Vector3d& p) {
+  const Eigen::Vector2d uv = observation.frame->camera.project(p);
+  return {static_cast<int>(std::lround(uv.x())) - observation.u0,
+          static_cast<int>(std::lround(uv.y())) - observation.v0};
+}
+
 /// Normal of the pixel in which the point lies; a measured normal always faces the camera.
 Eigen::Vector3f normal_at(const HandObservation& observation, const Eigen::Vector3f& p) {
-  const Eigen::Vector2d uv = observation.frame->camera.project(p.cast<double>());
-  const int u = static_cast<int>(std::lround(uv.x())) - observation.u0;
-  const int v = static_cast<int>(std::lround(uv.y())) - observation.v0;
+  const auto [u, v] = pixel_of(observation, p.cast<double>());
   return observation.normal.contains(u, v) ? observation.normal.at(u, v) : Eigen::Vector3f::Zero();
 }
 
 }  // namespace
 
-ObservedCloud::ObservedCloud(const HandObservation& observation) : index_(std::make_unique<Index>()) {
+ObservedCloud::ObservedCloud(const HandObservation& observation)
+    : observation_(&observation), index_(std::make_unique<Index>()) {
   index_->points = observation.cloud;
   std::erase_if(index_->points, [](const Eigen::Vector3f& p) { return !(p.z() > 0) || !p.allFinite(); });
   index_->normals.reserve(index_->points.size());
@@ -65,6 +74,14 @@ std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p) const {
   result.init(&best, &distance_sq);
   index_->tree->findNeighbors(result, query, nanoflann::SearchParams());
   return best;
+}
+
+bool ObservedCloud::hidden(const Eigen::Vector3d& p) const {
+  if (!(p.z() > 0)) return false;
+  const auto [u, v] = pixel_of(*observation_, p);
+  if (!observation_->label.contains(u, v) || observation_->label.at(u, v) != PixelLabel::object) return false;
+  const float z = observation_->depth.at(u, v);
+  return z > 0 && z < p.z();
 }
 
 }  // namespace barehand

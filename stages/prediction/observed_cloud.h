@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-/// The hand points of one frame with their normals, indexed for nearest-neighbour search.
+/// The hand points of one frame with their normals, indexed for nearest-neighbour search. Refers to the observation,
+/// which must outlive it.
 class ObservedCloud {
  public:
   explicit ObservedCloud(const HandObservation& observation);
@@ -24,9 +25,12 @@ class ObservedCloud {
   Eigen::Vector3d centroid() const;
   /// Index of the point nearest to `p`. The cloud is not empty.
   std::size_t nearest(const Eigen::Vector3d& p) const;
+  /// An object is seen in front of `p`: nothing can be said about a surface there.
+  bool hidden(const Eigen::Vector3d& p) const;
 
  private:
   struct Index;
+  const HandObservation* observation_;
   std::unique_ptr<Index> index_;
 };
 

@@ -1,14 +1,20 @@
 #include "stages/prediction/rigid_icp.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace barehand {
 
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr std::size_t kCoarseStride = 2;  // of the model points in the first half of the iterations
+constexpr double kHiddenCost = 0.3;  // of a model point behind an object, relative to an outlier's: hiding does not pay
 
 /// Geman-McClure: rho(r) = r^2 / (1 + r^2 / s^2), bounded by s^2; its weight is rho' / (2 r).
 double robust_weight(double r_sq, double scale) {
@@ -30,12 +36,14 @@ class Registration {
   Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const IcpParams& params)
       : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)) {}
 
-  SE3 run(const SE3& start) const {
-    SE3 T_camera_pivot = start * SE3{Eigen::Matrix3d::Identity(), pivot_};
+  /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point.
+  SE3 run(const SE3& motion, int begin, int end, std::size_t stride) const {
+    SE3 T_camera_pivot = motion * SE3{Eigen::Matrix3d::Identity(), pivot_};
     const double ratio = params_.scale_end / params_.scale_start;
-    for (int i = 0; i < params_.iterations; ++i) {
+    for (int i = begin; i < end; ++i) {
       const double progress = params_.iterations > 1 ? i / (params_.iterations - 1.0) : 1.0;
-      T_camera_pivot = step(T_camera_pivot, params_.scale_start * std::pow(ratio, progress));
+      T_camera_pivot = step(T_camera_pivot, params_.scale_start * std::pow(ratio, progress),
+                            std::pow(params_.point_weight, progress), stride);
     }
     T_camera_pivot.R = orthonormalised(T_camera_pivot.R);
     return T_camera_pivot * SE3{Eigen::Matrix3d::Identity(), -pivot_};
@@ -44,23 +52,28 @@ class Registration {
   struct Fit {
     double cost = 0, rms = 0, inliers = 0;
   };
-  /// How well a motion explains the cloud: robust mean of squared nearest distances.
+  /// How well a motion explains the cloud: robust mean of squared nearest distances over what is not hidden.
   Fit fit(const SE3& motion) const {
     const double scale = 2 * params_.scale_end;
     Fit fit;
     double sum_sq = 0;
-    int matched = 0;
+    int matched = 0, counted = 0;
     for (const OrientedPoint& q : model_) {
-      const IcpPair pair = match(motion, q.p - pivot_, q, motion * q.p);
-      const double distance_sq = (motion * q.p - pair.data).squaredNorm();
-      const double plane = pair.normal.dot(motion * q.p - pair.data);
+      const Vector3d moved = motion * q.p;
+      if (cloud_.hidden(moved)) {
+        fit.cost += kHiddenCost * scale * scale;
+        continue;
+      }
+      ++counted;
+      const IcpPair pair = match(motion, q.p - pivot_, q, moved);
+      const double distance_sq = (moved - pair.data).squaredNorm(), plane = pair.normal.dot(moved - pair.data);
       fit.cost += robust_cost(distance_sq, scale);
       if (distance_sq > scale * scale) continue;
       sum_sq += plane * plane;
       ++matched;
     }
     fit.cost /= static_cast<double>(model_.size());
-    fit.inliers = static_cast<double>(matched) / static_cast<double>(model_.size());
+    fit.inliers = counted > 0 ? static_cast<double>(matched) / counted : 0;
     fit.rms = matched > 0 ? std::sqrt(sum_sq / matched) : 0;
     return fit;
   }
@@ -73,15 +86,17 @@ class Registration {
     return {in_pivot, cloud_.point(i), data_normal.dot(model_normal) > 0.5 ? data_normal : model_normal};
   }
 
-  SE3 step(const SE3& T, double scale) const {
+  SE3 step(const SE3& T, double scale, double point_weight, std::size_t stride) const {
     Matrix6d H = Matrix6d::Zero();
     Vector6d b = Vector6d::Zero();
-    for (const OrientedPoint& q : model_) {
-      const Vector3d in_pivot = q.p - pivot_;
-      const IcpPair pair = match(T, in_pivot, q, T * in_pivot);
+    for (std::size_t k = 0; k < model_.size(); k += stride) {
+      const OrientedPoint& q = model_[k];
+      const Vector3d in_pivot = q.p - pivot_, moved = T * in_pivot;
+      if (cloud_.hidden(moved)) continue;
+      const IcpPair pair = match(T, in_pivot, q, moved);
       const IcpResidual r = icp_residual(T, pair);
       const Eigen::Vector4d w = robust_weight(r.value.tail<3>().squaredNorm(), scale) *
-                                Eigen::Vector4d(1, params_.point_weight, params_.point_weight, params_.point_weight);
+                                Eigen::Vector4d(1, point_weight, point_weight, point_weight);
       H += r.jacobian.transpose() * w.asDiagonal() * r.jacobian;
       b += r.jacobian.transpose() * w.cwiseProduct(r.value);
     }
@@ -97,6 +112,10 @@ class Registration {
   const IcpParams& params_;
   Vector3d pivot_;
 };
+
+bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
+  return (a * pivot - b * pivot).norm() < 0.002 && log_so3(a.R.transpose() * b.R).norm() < 0.03;
+}
 
 bool believable(const SE3& motion, const Vector3d& pivot, double dt, const IcpParams& params) {
   const double shift = (motion * pivot - pivot).norm();
@@ -124,10 +143,19 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   const Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
   const std::array<SE3, 3> starts = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
+  // Far from the goal few points suffice; starts that met by then go on as one.
+  const int coarse = params.iterations / 2;
+  std::vector<SE3> motions;
+  for (const SE3& start : starts) {
+    const SE3 motion = registration.run(start, 0, coarse, kCoarseStride);
+    const bool met = std::any_of(motions.begin(), motions.end(),
+                                 [&](const SE3& other) { return nearly_equal(motion, other, pivot); });
+    if (!met) motions.push_back(motion);
+  }
   IcpResult best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (const SE3& start : starts) {
-    const SE3 motion = registration.run(start);
+  for (const SE3& coarse_motion : motions) {
+    const SE3 motion = registration.run(coarse_motion, coarse, params.iterations, 1);
     if (!believable(motion, pivot, dt, params)) continue;
     const auto fit = registration.fit(motion);
     if (fit.cost >= best_cost) continue;

@@ -11,12 +11,12 @@ namespace barehand {
 struct IcpParams {
   bool enabled = true;
   int model_points = 300;         ///< visible surface points that take part
-  int iterations = 12;            ///< per start
+  int iterations = 30;            ///< per start
   double scale_start = 0.030;     ///< [m] Geman-McClure scale of the first iteration
   double scale_end = 0.004;       ///< [m] and of the last
-  double point_weight = 0.1;      ///< weight of the point-to-point distance beside the point-to-plane one
+  double point_weight = 0.03;     ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
   int min_points = 100;           ///< fewer observed points: hold
-  double min_inliers = 0.5;       ///< fraction of model points that must match for the result to be reliable
+  double min_inliers = 0.5;       ///< fraction of unhidden model points that must match to be reliable
   double max_speed = 4.0;         ///< [m/s] faster motion is not believed
   double max_angular_speed = 20;  ///< [rad/s]
   double slack = 0.03;            ///< [m] allowed whatever the frame interval; rotations: slack / 0.1 m
@@ -29,9 +29,10 @@ void visit(V& v, IcpParams& p) {
   v("iterations", p.iterations, 1, 200, "per start");
   v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
   v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
-  v("point_weight", p.point_weight, 0.0, 10.0, "point-to-point beside point-to-plane distance");
+  v("point_weight", p.point_weight, 1e-6, 1.0,
+    "weight of point-to-point beside point-to-plane in the last iteration; 1 in the first");
   v("min_points", p.min_points, 3, 1000000, "fewer observed points: the pose is held");
-  v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of model points that must match");
+  v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of unhidden model points that must match");
   v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion is not believed");
   v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion is not believed");
   v("slack", p.slack, 0.0, 1.0, "m, motion allowed whatever the frame interval (rotation: slack / 0.1 m)");
@@ -41,7 +42,7 @@ void visit(V& v, IcpParams& p) {
 struct IcpResult {
   SE3 motion;
   double rms = 0;         ///< [m] point-to-plane, over the matching points
-  double inliers = 0;     ///< fraction of model points that match
+  double inliers = 0;     ///< fraction of unhidden model points that match
   bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
 };
 

@@ -1,0 +1,112 @@
+#include "stages/prediction/initialiser.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "point_world.h"
+#include "stages/prediction/motion_prediction.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::uint64_t kSeed = 7;
+
+class InitialiserTest : public testing::Test {
+ protected:
+  void SetUp() override { use(test::adult_hand()); }
+  void use(std::shared_ptr<const HandProfile> profile) {
+    ASSERT_TRUE(profile);
+    profile_ = profile;
+    limits_ = widened_limits(*profile, 0.1);
+    initialiser_ = std::make_unique<Initialiser>(profile, make_cylinder_surface(*profile, 600), InitialiserParams{});
+  }
+  /// The middle of the hand near the optical axis at 0.4 m.
+  HandPose shape(std::size_t index, double roll, double in_plane) const {
+    ArticulatedPose pose;
+    pose.angles = shape_templates(*profile_, limits_)[index].angles;
+    // Not exactly a template: neither shape nor orientation.
+    pose.angles[segment_of(1, 0)].flexion += 0.1;
+    pose.angles[segment_of(3, 1)].flexion += 0.15;
+    const Eigen::Matrix3d R = palm_orientation(roll + 0.1, 0.15, in_plane);
+    pose.T_camera_palm = {R, Eigen::Vector3d(0.01, 0.01, 0.4) - R * Eigen::Vector3d(0, 0, -0.09)};
+    return posed(*profile_, pose);
+  }
+  double error_of_best(const HandPose& truth) const {
+    const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::full, kSeed);
+    return starts.empty() ? 1.0 : test::mean_error(*profile_, starts.front().pose, truth);
+  }
+
+  std::shared_ptr<const HandProfile> profile_;
+  std::array<JointLimits, kSegmentCount> limits_;
+  std::unique_ptr<Initialiser> initialiser_;
+};
+
+TEST_F(InitialiserTest, FindsAnOpenHandAtAnyInPlaneRotation) {
+  for (const double roll : {0.0, kPi}) {
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_LT(error_of_best(shape(1, roll, 2 * kPi * k / 6 + 0.2)), 0.02) << "roll " << roll << ", rotation " << k;
+    }
+  }
+}
+
+TEST_F(InitialiserTest, FindsAHalfOpenHand) { EXPECT_LT(error_of_best(shape(2, 0.0, 1.0)), 0.025); }
+
+TEST_F(InitialiserTest, FindsALeftHand) {
+  use(test::adult_hand("left"));
+  EXPECT_LT(error_of_best(shape(1, 0.0, 0.5)), 0.02);
+}
+
+TEST_F(InitialiserTest, RanksByCostAndReturnsDistinctPoses) {
+  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(shape(1, 0, 0)), Effort::full, kSeed);
+  ASSERT_GE(starts.size(), 2u);
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    EXPECT_LE(starts[i - 1].cost, starts[i].cost);
+    for (std::size_t k = 0; k < i; ++k) EXPECT_GE(pose_distance(*profile_, starts[i].pose, starts[k].pose), 0.012);
+  }
+}
+
+TEST_F(InitialiserTest, TheSameSeedGivesTheSamePoses) {
+  const auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0.7));
+  const auto a = initialiser_->propose(*observation, Effort::quick, kSeed);
+  const auto b = initialiser_->propose(*observation, Effort::quick, kSeed);
+  const auto other = initialiser_->propose(*observation, Effort::quick, kSeed + 1);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
+  }
+  ASSERT_FALSE(other.empty());
+  EXPECT_NE(a[0].cost, other[0].cost);
+}
+
+TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
+  const HandPose truth = shape(5, 0.8, 0.4);
+  const HandPose last = moved({exp_so3({0, 0, 0.7}), {0.02, -0.03, 0.02}}, truth);
+  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, &last);
+  ASSERT_FALSE(starts.empty());
+  EXPECT_EQ(starts.front().name, "last");
+  EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.02);
+}
+
+TEST_F(InitialiserTest, ProposesNothingWithoutAHand) {
+  auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0));
+  observation->hand_pixels.resize(50);
+  EXPECT_TRUE(initialiser_->propose(*observation, Effort::full, kSeed).empty());
+}
+
+TEST_F(InitialiserTest, ResultsObeyTheWidenedLimits) {
+  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(shape(4, 0, 0)), Effort::quick, kSeed);
+  const auto limits = widened_limits(*profile_, InitialiserParams{}.widening + 1e-6);
+  for (const StartCandidate& start : starts) {
+    for (int s = 1; s < kSegmentCount; ++s) {
+      const JointAngles angles = joint_angles(*profile_, start.pose, s);
+      EXPECT_GE(angles.flexion, limits[s].flexion_lo) << kSegmentNames[s];
+      EXPECT_LE(angles.flexion, limits[s].flexion_hi) << kSegmentNames[s];
+      EXPECT_LT(std::abs(angles.twist), 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace barehand
