@@ -40,7 +40,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       refinement_(params_.refinement, profile_, make_skin(params_, *profile_)),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
-      initialiser_(profile_, *surface_, params_.initialiser) {}
+      initialiser_(profile_, params_.initialiser) {}
 
 void HandTracker::reset() {
   loss_.reset();

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "hand/hand_pose.h"
-#include "stages/prediction/coarse_grid.h"
 #include "stages/prediction/coarse_skin.h"
+#include "stages/prediction/score_grid.h"
 
 namespace barehand {
 
 /// Weights of the quick score of a whole pose; each is the cost of one cell.
 struct CoarseScoreParams {
-  double depth_cap = 0.025;    ///< [m] depth differences and image distances count up to this
+  double depth_cap = 0.05;     ///< [m] depth differences and image distances count up to this
   double background = 1.2;     ///< model where the background is seen, at the cap
   double unknown = 0.4;        ///< model where nothing is measured and no hand is near
   double hidden = 0.15;        ///< model behind an object: allowed, but seen hands are better

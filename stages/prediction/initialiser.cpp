@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hand/skin.h"
+
 namespace barehand {
 
 namespace {
@@ -11,7 +13,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::array<double, 3> kPitches = {0, 0.6, -0.6};
+constexpr double kMaxPitch = 0.9;    // [rad]
+constexpr double kSkinCell = 0.004;  // [m]
+constexpr int kSkinPoints = 600;     // per segment: dense enough for the palm at the fine cell
 constexpr int kLastGoodTurns = 8;
 
 /// Mean of the points that face a camera looking along `view`, weighted by the area they show.
@@ -48,15 +52,14 @@ double pose_distance(const HandProfile& profile, const HandPose& a, const HandPo
   return sum / kSegmentCount;
 }
 
-Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const HandSurface& surface,
-                         const InitialiserParams& params)
+Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params)
     : profile_(std::move(profile)),
-      surface_(surface),
+      surface_(surface_points(make_blended_skin(*profile_, kSkinCell), *profile_, kSkinPoints)),
       params_(params),
       limits_(widened_limits(*profile_, params.widening)),
       shapes_(shape_templates(*profile_, limits_)),
-      coarse_skin_(make_coarse_skin(*profile_, surface, params.coarse_cell)),
-      fine_skin_(make_coarse_skin(*profile_, surface, params.fine_cell)) {}
+      coarse_skin_(make_coarse_skin(*profile_, surface_, params.coarse_cell)),
+      fine_skin_(make_coarse_skin(*profile_, surface_, params.fine_cell)) {}
 
 std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
                                                  const HandPose* last_good) const {
@@ -101,7 +104,8 @@ Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const Se
   Trials trials;
   for (std::size_t i = 0; i < shapes_.size(); i += stride) {
     for (int r = 0; r < effort.rolls; ++r) {
-      for (const double pitch : kPitches) {
+      for (int p = 0; p < effort.pitches; ++p) {
+        const double pitch = effort.pitches > 1 ? kMaxPitch * (2.0 * p / (effort.pitches - 1) - 1) : 0.0;
         for (int k = 0; k < effort.in_plane; ++k) {
           ArticulatedPose pose;
           pose.angles = shapes_[i].angles;
@@ -117,8 +121,8 @@ Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const Se
 
 /// Lays a hand over the data in two ways: visible skin on the centroid; palm on the widest place of the hand, which
 /// holds when fingers are hidden. The better one is kept.
-void Initialiser::add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape,
-                             const ScoreGrid& grid, PoseCost& cost) const {
+void Initialiser::add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape, const ScoreGrid& grid,
+                             PoseCost& cost) const {
   ArticulatedPose by_centroid = shape, by_palm = shape;
   const Vector3d view = grid.centroid.normalized();
   const HandPose pose = posed(*profile_, shape);

@@ -13,6 +13,7 @@ namespace barehand {
 struct SearchEffort {
   int in_plane = 16;             ///< in-plane rotations of every template
   int rolls = 8;                 ///< rotations about the finger axis, among them palm and back to the camera
+  int pitches = 3;               ///< leanings of the fingers towards the camera and away
   int shapes = 6;                ///< number of shape templates, from open to fist
   int first_survivors = 24;      ///< templates improved on the coarse grid
   int first_evaluations = 120;   ///< trials for each
@@ -24,6 +25,7 @@ template <class V>
 void visit(V& v, SearchEffort& p) {
   v("in_plane", p.in_plane, 1, 360, "in-plane rotations of every template");
   v("rolls", p.rolls, 1, 360, "rotations about the finger axis, among them palm and back to the camera");
+  v("pitches", p.pitches, 1, 90, "leanings of the fingers towards the camera and away");
   v("shapes", p.shapes, 1, 6, "number of shape templates, from open to fist");
   v("first_survivors", p.first_survivors, 1, 10000, "templates improved on the coarse grid");
   v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of them");
@@ -39,7 +41,7 @@ struct InitialiserParams {
   int results = 6;             ///< start poses returned at most
   double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
   SearchEffort full;
-  SearchEffort quick{8, 4, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost
+  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost
   CoarseScoreParams score;
   PoseSearchParams search;
   IcpParams icp;
@@ -74,7 +76,7 @@ enum class Effort { quick, full };
 /// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result.
 class Initialiser {
  public:
-  Initialiser(std::shared_ptr<const HandProfile> profile, const HandSurface& surface, const InitialiserParams& params);
+  Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params);
 
   /// Ranked, best first; empty when the observation shows too little of a hand. `last_good`: pose before a loss, tried
   /// where it was and at the hand's centroid in several in-plane rotations. The quick search turns its template

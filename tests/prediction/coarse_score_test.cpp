@@ -18,7 +18,7 @@ class CoarseScore : public testing::Test {
     skin_ = make_coarse_skin(*profile_, make_cylinder_surface(*profile_, 600), 0.005);
     truth_ = forward_kinematics(*profile_, {palm_orientation(0.1, 0.1, 0.3), {0.02, 0.06, 0.4}}, {});
     observation_ = test::PointWorld(*profile_, test::PointWorld::Arm::none).observe(truth_);
-    grid_ = make_coarse_grid(*observation_, 0.005);
+    grid_ = make_score_grid(*observation_, 0.005);
     params_.no_forearm = 0;  // the drawn hand has no arm
   }
   double score(const HandPose& pose) const { return CoarseScorer(grid_, skin_, params_)(pose); }
@@ -28,7 +28,7 @@ class CoarseScore : public testing::Test {
   CoarseSkin skin_;
   HandPose truth_;
   std::shared_ptr<HandObservation> observation_;
-  CoarseGrid grid_;
+  ScoreGrid grid_;
   CoarseScoreParams params_;
 };
 
@@ -58,7 +58,7 @@ TEST_F(CoarseScore, HiddenByAnObjectIsCheaperThanBeforeTheBackground) {
   const HandPose away = shifted({0.1, 0, 0});
   const double on_background = score(away);
   test::PointWorld::occlude(*observation_, 190, 0.3f);
-  grid_ = make_coarse_grid(*observation_, 0.005);
+  grid_ = make_score_grid(*observation_, 0.005);
   EXPECT_LT(score(away), 0.8 * on_background);
 }
 
@@ -67,7 +67,7 @@ TEST_F(CoarseScore, AForearmInTheAirCostsAndASleeveDoesNot) {
   params_.no_forearm = 1;
   EXPECT_GT(score(truth_), without + 0.1);
   observation_ = test::PointWorld(*profile_).observe(truth_);
-  grid_ = make_coarse_grid(*observation_, 0.005);
+  grid_ = make_score_grid(*observation_, 0.005);
   EXPECT_LT(score(truth_), without + 0.05);
 }
 
@@ -77,7 +77,7 @@ TEST_F(CoarseScore, NothingSeenOrNotFiniteIsInfinite) {
   HandPose broken = truth_;
   broken[3].t.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isinf(score(broken)));
-  EXPECT_TRUE(std::isinf(CoarseScorer(CoarseGrid{}, skin_, params_)(truth_)));
+  EXPECT_TRUE(std::isinf(CoarseScorer(ScoreGrid{}, skin_, params_)(truth_)));
 }
 
 TEST_F(CoarseScore, GridFindsTheHand) {

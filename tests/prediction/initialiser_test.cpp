@@ -20,7 +20,7 @@ class InitialiserTest : public testing::Test {
     ASSERT_TRUE(profile);
     profile_ = profile;
     limits_ = widened_limits(*profile, 0.1);
-    initialiser_ = std::make_unique<Initialiser>(profile, make_cylinder_surface(*profile, 600), InitialiserParams{});
+    initialiser_ = std::make_unique<Initialiser>(profile, InitialiserParams{});
   }
   /// The middle of the hand near the optical axis at 0.4 m.
   HandPose shape(std::size_t index, double roll, double in_plane) const {

@@ -1,4 +1,4 @@
-#include "stages/prediction/coarse_grid.h"
+#include "stages/prediction/score_grid.h"
 
 #include <algorithm>
 #include <array>
