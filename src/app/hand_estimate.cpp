@@ -31,7 +31,7 @@ HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const 
     const RefinedPose& refined = fit->refined;
     out->score = refined.score;
     out->joint_gap = fit->joint_gap;
-    const double dt = last_tracked_ ? (out->utime - last_tracked_->utime) * kMicro : 0;
+    const double dt = last_tracked_ ? std::abs(out->utime - last_tracked_->utime) * kMicro : 0;
     for (int s = 0; s < kSegmentCount; ++s) {
       SegmentState& state = out->segments[s];
       state.T_camera_segment = refined.pose[s];
@@ -45,7 +45,7 @@ HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const 
     }
     last_tracked_ = out;
   } else if (last_tracked_ && (out->status == TrackStatus::holding || out->status == TrackStatus::lost)) {
-    fill_held(*out, (out->utime - last_tracked_->utime) * kMicro);
+    fill_held(*out, std::abs(out->utime - last_tracked_->utime) * kMicro);
   }
   return out;
 }

@@ -59,35 +59,45 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
     ++hand_id_;
     requested_start_.reset();
   }
-  const bool tracked_before = motion_.has_pose();
-  const int pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
-  std::optional<Fit> fit;
-  if (pixels >= params_.loss.min_hand_pixels) fit = tracked_before ? follow(observation) : search(observation);
-
   TrackEvidence evidence;
-  evidence.dt = last_utime_ ? std::max(0.0, (utime - last_utime_) * kMicro) : 0.0;
-  evidence.hand_pixels = pixels;
-  if (fit) evidence.score = fit->refined.score;
+  // A recording played backwards has falling stamps: what counts is the time between frames.
+  evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * kMicro : 0.0;
+  evidence.hand_pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
   evidence.noise = observation.noise;
   evidence.hand_length = profile_->hand_length();
   last_utime_ = utime;
-  const TrackStatus status = loss_.update(evidence);
 
+  std::optional<Fit> fit;
+  if (evidence.hand_pixels >= params_.loss.min_hand_pixels) fit = explain(observation, loss_.bad_threshold(evidence));
+  if (fit) evidence.score = fit->refined.score;
+  const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
-    remember(observation, *fit, tracked_before);
+    remember(observation, *fit);
     if (fit->refined.score < loss_.good_threshold(evidence)) last_good_ = fit->refined.pose;
-  } else if (status == TrackStatus::lost || status == TrackStatus::searching) {
+  } else if (status == TrackStatus::searching) {
     motion_.forget();
-    if (status == TrackStatus::searching) last_good_.reset();
+    last_good_.reset();
   }
   return estimate(observation, fit);
 }
 
-void HandTracker::remember(const HandObservation& observation, const Fit& fit, bool tracked_before) {
-  search_frames_ = 0;
+std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& observation, double bad_score) {
+  std::optional<Fit> fit;
+  if (motion_.has_pose()) fit = follow(observation);
+  if (fit && fit->refined.score < bad_score) {
+    search_frames_ = 0;
+    return fit;
+  }
+  // Nothing to follow, or following fails: the hand may be anywhere.
+  std::optional<Fit> found = search(observation);
+  if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
+  return fit;
+}
+
+void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   if (!fit.prediction) {
+    if (!motion_.has_pose()) ++hand_id_;
     motion_.restart(fit.refined.pose, observation.frame->utime);
-    if (!tracked_before && !last_good_) ++hand_id_;
     return;
   }
   std::array<bool, kSegmentCount> seen;

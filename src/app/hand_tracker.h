@@ -34,11 +34,13 @@ class HandTracker {
     double joint_gap = 0;
     std::optional<Prediction> prediction;  ///< none: found by a search
   };
+  /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
+  std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
-  void remember(const HandObservation& observation, const Fit& fit, bool tracked_before);
+  void remember(const HandObservation& observation, const Fit& fit);
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_held(HandEstimate& out, double held_s) const;
   double interval_factor(double dt) const;

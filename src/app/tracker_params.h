@@ -19,6 +19,7 @@ struct TrackerParams {
   double skin_cell = 0.004;
   bool sampling = true;
   double sampling_advantage = 0.02;
+  double search_advantage = 0.1;
   double nominal_rate = 30;
   double seen_fraction = 0.15;
   int search_refined = 4;
@@ -44,6 +45,8 @@ void visit(V& v, TrackerParams& p) {
   v("sampling", p.sampling, "draw samples and fuse them by belief propagation (Sec. 4); false: refinement alone");
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
+  v("search_advantage", p.search_advantage, 0.0, 1.0,
+    "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
   v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");

@@ -8,8 +8,8 @@ namespace barehand {
 
 /// When a hand counts as tracked. The global score is the mean mismatch of model and data [m].
 struct LossParams {
-  double lost_score = 0.004;       ///< above it a frame is bad; for a hand of kReferenceHandLength and no noise
-  double recovered_score = 0.003;  ///< below it a frame is good; between the two, nothing changes (hysteresis)
+  double lost_score = 0.005;       ///< above it a frame is bad; for a hand of kReferenceHandLength and no noise
+  double recovered_score = 0.004;  ///< below it a frame is good; between the two, nothing changes (hysteresis)
   double noise_factor = 1.0;       ///< sensor noise added in quadrature to both thresholds, in standard deviations
   int bad_frames = 4;              ///< consecutive bad frames until the hand is lost
   int good_frames = 1;             ///< consecutive good frames until a searched hand is tracked

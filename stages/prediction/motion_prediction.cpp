@@ -81,7 +81,7 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   assert(has_pose_);
   Prediction result;
   result.utime = observation.frame->utime;
-  result.dt = std::max(0.0, static_cast<double>(observation.frame->utime - utime_) * 1e-6);
+  result.dt = std::abs(static_cast<double>(observation.frame->utime - utime_) * 1e-6);
   const StartPose held{"held", pose_};
   const ObservedCloud cloud(observation);
   if (static_cast<int>(cloud.size()) < icp_params_.min_points) {

@@ -67,7 +67,7 @@ class MotionModel {
   void forget() { has_pose_ = false; }
 
   /// Candidates for an observation. Needs has_pose(). With few hand points the pose is held: one candidate `held`.
-  /// A non-positive interval (equal or backward stamps) is treated as a standstill.
+  /// Equal stamps are a standstill; a recording played backwards has falling stamps and moves all the same.
   Prediction predict(const HandObservation& observation, const HandSurface& surface) const;
 
   /// Per second, relative to the global motion: of the origin, then angular, camera frame.
