@@ -35,7 +35,9 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
 RunResult Pipeline::run() {
   options_.threaded ? run_threaded() : run_inline();
   finish_sinks();
-  RunResult result{health(), std::nullopt, stop_};
+  RunResult result{health(), std::nullopt, {}, stopped()};
+  for (const auto& monitor : sink_monitors_)
+    if (monitor->health().failed > 0) result.incomplete.push_back(monitor->name());
   std::unique_lock lock(mutex_);
   result.error = error_;
   return result;
@@ -84,7 +86,7 @@ HandEstimatePtr Pipeline::take_hint() {
 }
 
 Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
-  if (stop_ || ending_) return Capture::end;
+  if (stopped() || ending_) return Capture::end;
   SourceEvent event;
   try {
     event = stages_.source.next(patience);

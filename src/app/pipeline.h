@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "app/sink.h"
@@ -35,13 +36,15 @@ struct PipelineOptions {
   bool threaded = true;                    ///< false: everything on the calling thread
   int max_failures_in_a_row = 30;          ///< of one stage; then the run ends
   std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
+  std::stop_token stop;                    ///< as request_stop(), for whoever lives longer than the pipeline
   std::chrono::milliseconds patience{50};  ///< how long one call of a live source may wait; bounds the time to stop
 };
 
 struct RunResult {
   PipelineHealth health;
-  std::optional<Error> error;  ///< what ended the run early, or left an output incomplete
-  bool stopped = false;        ///< by request_stop()
+  std::optional<Error> error;           ///< what ended the run early, or kept a sink from finishing
+  std::vector<std::string> incomplete;  ///< names of the sinks that missed frames
+  bool stopped = false;                 ///< by request_stop() or the stop token
 };
 
 /// Runs frames through source -> [door] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on a thread
@@ -69,6 +72,7 @@ class Pipeline {
   };
   enum class Capture { frame, nothing, end };
 
+  bool stopped() const { return stop_ || options_.stop.stop_requested(); }
   Capture capture(std::chrono::milliseconds patience);
   Capture waited(std::chrono::milliseconds patience);
   void run_inline();

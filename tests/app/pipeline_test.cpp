@@ -167,6 +167,17 @@ TEST_P(PipelineLifecycle, StopDrainsWhatIsInFlightAndFlushes) {
   expect_balanced(result.health);
 }
 
+TEST_P(PipelineLifecycle, StopTokenStopsBeforeTheFirstFrame) {
+  std::stop_source stop;
+  stop.request_stop();
+  world_.options.stop = stop.get_token();
+  ScriptedSource endless(false, frames_then_end(1 << 30));
+  const RunResult result = world_.run(endless);
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(result.health.captured, 0);
+  EXPECT_EQ(world_.sink.finished, 1);
+}
+
 TEST_P(PipelineLifecycle, ThrowingStageCostsItsFrameOnly) {
   ScriptedSource source(false, frames_then_end(9));
   world_.before_track = [](const FramePtr& f) -> Result<void> {
@@ -176,6 +187,7 @@ TEST_P(PipelineLifecycle, ThrowingStageCostsItsFrameOnly) {
   };
   const RunResult result = world_.run(source);
   EXPECT_FALSE(result.error);
+  EXPECT_TRUE(result.incomplete.empty());
   EXPECT_THAT(world_.sink.numbers, ElementsAre(0, 1, 2, 3, 6, 7, 8));
   EXPECT_EQ(result.health.stages[1].failed, 2);
   EXPECT_EQ(result.health.failed, 2);
@@ -217,6 +229,7 @@ TEST_P(PipelineLifecycle, FailingSinkCountsTheFrameAndEndsARunThatCannotWrite) {
   const RunResult result = world_.run(endless);
   ASSERT_TRUE(result.error);
   EXPECT_THAT(result.error->message(), HasSubstr("disk full"));
+  EXPECT_THAT(result.incomplete, ElementsAre("recorder"));
   EXPECT_EQ(result.health.published, 4);
   EXPECT_GE(result.health.failed, 3);
   EXPECT_EQ(world_.sink.finished, 1);

@@ -1,0 +1,112 @@
+#include "app/doctor_checks.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include "app/config.h"
+#include "app/data_files.h"
+#include "core/parallel.h"
+#include "io/hand_json.h"
+
+namespace barehand {
+namespace {
+
+using Level = Finding::Level;
+
+Finding check_config(const std::string& name) {
+  const std::string subject = "configuration " + name;
+  const auto path = find_data_file("configs/" + name);
+  if (!path) return {Level::problem, subject, path.error().what, path.error().remedy};
+  const auto config = load_config<Config>(*path);
+  if (!config) return {Level::problem, subject, config.error().message(), "see barehand track --print-config"};
+  return {Level::ok, subject, *path, ""};
+}
+
+Finding check_profile(const std::string& name) {
+  const std::string subject = "hand profile " + name;
+  const auto path = find_data_file("configs/hands/" + name);
+  if (!path) return {Level::problem, subject, path.error().what, path.error().remedy};
+  const auto profile = load_profile(*path);
+  if (!profile) return {Level::problem, subject, profile.error().message(), "restore the shipped file"};
+  return {Level::ok, subject, *path, ""};
+}
+
+Finding check_library(const char* file, const std::string& subject, const std::string& use, const std::string& remedy) {
+  void* handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+  if (!handle) return {Level::note, subject, "absent; only needed for " + use, remedy};
+  dlclose(handle);
+  return {Level::ok, subject, std::string(file) + " is there", ""};
+}
+
+}  // namespace
+
+std::vector<Finding> examine(const std::string& lcm_url) {
+  std::vector<Finding> findings{check_processor()};
+  for (Finding& finding : check_files()) findings.push_back(std::move(finding));
+  findings.push_back(check_multicast_route());
+  findings.push_back(check_receive_buffer());
+  findings.push_back(check_lcm(lcm_url));
+  for (Finding& finding : check_libraries()) findings.push_back(std::move(finding));
+  return findings;
+}
+
+Finding check_processor() {
+  std::string sets;
+  if (__builtin_cpu_supports("avx2")) sets += " AVX2";
+  if (__builtin_cpu_supports("fma")) sets += " FMA";
+  if (__builtin_cpu_supports("avx512f")) sets += " AVX-512";
+  const int cores = available_cores();
+  const std::string text =
+      std::to_string(cores) + (cores == 1 ? " core," : " cores,") + (sets.empty() ? " no vector instructions" : sets);
+  if (cores < 2) return {Level::warning, "processor", text, "two cores are needed to track at the rate of a sensor"};
+  return {Level::ok, "processor", text, ""};
+}
+
+std::vector<Finding> check_files() {
+  return {check_config("default.yaml"), check_config("paper.yaml"), check_config("accurate.yaml"),
+          check_profile("adult_right.json"), check_profile("adult_left.json")};
+}
+
+Finding check_receive_buffer(const std::string& rmem_max_file) {
+  constexpr long kWanted = 2 << 20;
+  long bytes = 0;
+  if (!(std::ifstream(rmem_max_file) >> bytes))
+    return {Level::note, "receive buffer", "the kernel does not tell its size (" + rmem_max_file + ")", ""};
+  const std::string text = std::to_string(bytes) + " bytes for a UDP socket";
+  if (bytes < kWanted)
+    return {Level::warning, "receive buffer", text + ": large depth images from the network are lost",
+            "sudo sysctl -w net.core.rmem_max=" + std::to_string(kWanted)};
+  return {Level::ok, "receive buffer", text, ""};
+}
+
+Finding check_multicast_route(const std::string& route_file) {
+  std::ifstream routes(route_file);
+  std::string line;
+  std::getline(routes, line);  // column names
+  while (std::getline(routes, line)) {
+    std::string interface;
+    std::uint32_t destination = 0, gateway = 0, mask = 0;
+    std::array<std::string, 4> skipped;
+    std::istringstream fields(line);
+    fields >> interface >> std::hex >> destination >> gateway;
+    for (auto& field : skipped) fields >> field;
+    fields >> mask;
+    // Little-endian words; 239.255.76.67 is LCM's own address, a default route (mask 0) covers it as well.
+    const std::uint32_t lcm_address = 239u | 255u << 8 | 76u << 16 | 67u << 24;
+    if (fields && (lcm_address & mask) == destination)
+      return {Level::ok, "multicast route", "through " + interface, ""};
+  }
+  return {Level::problem, "multicast route", "there is none: LCM cannot send over UDP",
+          "sudo ip link set lo up; sudo ip route add 224.0.0.0/4 dev lo"};
+}
+
+std::vector<Finding> check_libraries() {
+  return {check_library("libEGL.so.1", "EGL", "rendering on a GPU", "sudo apt-get install libegl1 libgl1-mesa-dri"),
+          check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0"),
+          check_library("libOpenNI2.so.0", "OpenNI2", "OpenNI sensors", "sudo apt-get install libopenni2-0")};
+}
+
+}  // namespace barehand

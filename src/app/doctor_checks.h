@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace barehand {
+
+/// What one look at the machine showed.
+struct Finding {
+  enum class Level {
+    ok,
+    note,     ///< something optional is absent
+    warning,  ///< works, but badly
+    problem,  ///< tracking or publishing will fail
+  };
+  Level level = Level::ok;
+  std::string subject, text;
+  std::string remedy;  ///< "": nothing to do
+};
+
+/// All checks, in the order in which to mend what they find.
+std::vector<Finding> examine(const std::string& lcm_url);
+
+Finding check_processor();
+std::vector<Finding> check_files();
+/// `rmem_max_file`: where the kernel tells the largest receive buffer.
+Finding check_receive_buffer(const std::string& rmem_max_file = "/proc/sys/net/core/rmem_max");
+/// Routes as in /proc/net/route.
+Finding check_multicast_route(const std::string& route_file = "/proc/net/route");
+/// Sends messages of a frame's size to itself.
+Finding check_lcm(const std::string& lcm_url);
+/// Libraries that only some sources or back ends want.
+std::vector<Finding> check_libraries();
+
+}  // namespace barehand

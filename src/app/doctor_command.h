@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace barehand {
+
+/// Adds `barehand doctor`: says what is missing and how to mend it. `exit_code`: 0, or 1 if something that tracking
+/// needs is broken; hints and warnings do not count.
+void add_doctor_command(CLI::App& app, int& exit_code);
+
+}  // namespace barehand

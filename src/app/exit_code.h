@@ -1,0 +1,13 @@
+#pragma once
+
+namespace barehand {
+
+/// What the `barehand` command returns to the shell.
+enum ExitCode : int {
+  kExitOk = 0,             ///< done; also a daemon that was told to stop (SIGTERM)
+  kExitFailure = 1,        ///< something went wrong while running; what was written until then is kept
+  kExitUsage = 2,          ///< wrong arguments, configuration or input file; nothing was started
+  kExitInterrupted = 130,  ///< Ctrl-C; what was written until then is complete and flushed
+};
+
+}  // namespace barehand

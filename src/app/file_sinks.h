@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "app/sink.h"
+#include "io/overlay.h"
+#include "io/result_table.h"
+
+namespace barehand {
+
+/// --result: the table of formats.md.
+class ResultTableSink : public Sink {
+ public:
+  static Result<std::unique_ptr<Sink>> create(const std::string& path);
+  std::string name() const override { return "result table"; }
+  Result<void> consume(const TrackedFrame& tracked) override { return writer_.write(*tracked.estimate); }
+
+ private:
+  explicit ResultTableSink(TableWriter writer) : writer_(std::move(writer)) {}
+  TableWriter writer_;
+};
+
+/// --overlay: the tracked hand drawn over the images.
+class OverlaySink : public Sink {
+ public:
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps);
+  std::string name() const override { return "overlay"; }
+  Result<void> consume(const TrackedFrame& tracked) override {
+    return writer_.write(*tracked.frame, *tracked.estimate);
+  }
+  Result<void> finish() override { return writer_.finish(); }
+
+ private:
+  explicit OverlaySink(OverlayWriter writer) : writer_(std::move(writer)) {}
+  OverlayWriter writer_;
+};
+
+}  // namespace barehand

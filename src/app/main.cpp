@@ -1,0 +1,25 @@
+#include <CLI/CLI.hpp>
+
+#include "app/doctor_command.h"
+#include "app/eval_command.h"
+#include "app/exit_code.h"
+#include "app/track_command.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Tracks a bare hand that holds things and publishes glove-like hand states over LCM.", "barehand");
+  app.set_version_flag("--version", BAREHAND_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 failed while running, 2 wrong arguments or configuration, 130 interrupted.\n"
+      "barehand COMMAND --help says more.");
+  int exit_code = barehand::kExitOk;
+  barehand::add_track_command(app, exit_code);
+  barehand::add_eval_command(app, exit_code);
+  barehand::add_doctor_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? barehand::kExitOk : barehand::kExitUsage;
+  }
+  return exit_code;
+}

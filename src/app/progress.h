@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+
+#include "app/sink.h"
+#include "core/clock.h"
+
+namespace barehand {
+
+/// Frames by track status.
+struct StatusCounts {
+  std::array<std::int64_t, 4> frames{};  ///< indexed by TrackStatus
+  std::int64_t of(TrackStatus status) const { return frames[static_cast<int>(status)]; }
+};
+
+std::string_view to_string(TrackStatus status);
+
+/// Says how a run is going: one line that is rewritten on a terminal, now and then a line elsewhere.
+class ProgressSink : public Sink {
+ public:
+  struct Options {
+    bool terminal = false;
+    std::optional<std::int64_t> frames;  ///< how many will come, where that is known
+  };
+  ProgressSink(std::ostream& out, Options options, const Clock& clock);
+
+  std::string name() const override { return "progress"; }
+  Result<void> consume(const TrackedFrame& tracked) override;
+  Result<void> finish() override;
+  const StatusCounts& counts() const { return counts_; }
+
+ private:
+  void print(const HandEstimate& estimate, std::int64_t now_us);
+
+  std::ostream& out_;
+  const Options options_;
+  const Clock& clock_;
+  StatusCounts counts_;
+  std::int64_t done_ = 0, last_done_ = 0;
+  std::int64_t last_us_;
+  bool line_open_ = false;
+};
+
+}  // namespace barehand

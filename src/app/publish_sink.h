@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/sink.h"
+#include "core/clock.h"
+#include "core/statistics.h"
+#include "io/lcm_bus.h"
+#include "io/lcm_log_writer.h"
+#include "stages/publish/publisher.h"
+
+namespace barehand {
+
+/// Sends the states of every frame, and the health now and then, to the bus.
+class BusSink : public Sink {
+ public:
+  struct Health {
+    std::function<PipelineHealth()> take;  ///< since the last call
+    std::int64_t period_us = 1'000'000;
+    std::string source;
+  };
+  /// `bus` and `clock` outlive the sink. Errors: a channel prefix that is too long.
+  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                              Health health, const Clock& clock);
+  std::string name() const override { return "publish"; }
+  Result<void> consume(const TrackedFrame& tracked) override;
+
+ private:
+  BusSink(const PublishParams& params, Publisher publisher, Health health, const Clock& clock);
+  Result<void> send_health_when_due();
+
+  HandMessageMaker maker_;
+  Publisher publisher_;
+  Health health_;
+  const Clock& clock_;
+  std::int64_t next_health_us_;
+};
+
+/// --states-log: the states alone, so that equal runs write equal bytes.
+class StatesLogSink : public Sink {
+ public:
+  /// An existing file is replaced.
+  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
+                                              const std::string& path);
+  std::string name() const override { return "states log"; }
+  Result<void> consume(const TrackedFrame& tracked) override;
+
+ private:
+  StatesLogSink(const PublishParams& params, std::unique_ptr<LcmLogWriter> log, Publisher publisher);
+
+  HandMessageMaker maker_;
+  std::unique_ptr<LcmLogWriter> log_;
+  Publisher publisher_;
+};
+
+}  // namespace barehand

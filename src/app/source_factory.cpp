@@ -1,0 +1,75 @@
+#include "app/source_factory.h"
+
+#include <filesystem>
+
+#include "drivers/folder/folder_source.h"
+#include "drivers/lcm/lcm_live_source.h"
+#include "drivers/lcm/lcm_log_source.h"
+#include "io/hand_json.h"
+
+namespace barehand {
+namespace {
+
+constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, sim:NAME";
+
+Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
+  auto source = FolderSource::open(directory, {request.start, request.step});
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.frames = (*source)->remaining();
+  const std::string hand = directory + "/hand.json";
+  if (std::filesystem::exists(hand)) {
+    open.hand = [hand] { return load_profile(hand); };
+    open.hand_name = hand;
+  }
+  if (const double fps = (*source)->recording().fps; fps > 0) open.fps = fps;
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_log(const std::string& path, const SourceRequest& request) {
+  LcmLogOptions options;
+  options.channel = request.channel;
+  options.start = request.start;
+  options.step = request.step;
+  options.foreign = request.foreign;
+  auto source = LcmLogSource::open(path, options);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.frames = (*source)->remaining();
+  if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
+    open.warning = path + ": " + std::to_string(bytes) + " bytes are damaged or cut off; every whole event is played";
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_live(const SourceRequest& request) {
+  LcmLiveOptions options;
+  if (!request.channel.empty()) options.channel = request.channel;
+  options.foreign = request.foreign;
+  auto source = LcmLiveSource::open(request.lcm_url, options);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.source = std::move(*source);
+  return open;
+}
+
+}  // namespace
+
+Result<OpenSource> open_source(const SourceRequest& request) {
+  const auto colon = request.spec.find(':');
+  const std::string kind = request.spec.substr(0, colon);
+  const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
+  if (request.step == 0) return fail("a step of 0 never gets anywhere", "--step", "give 1, 2, ... or -1, -2, ...");
+  const bool recording = kind == "folder" || kind == "log";
+  if (!recording && (request.start || request.step != 1))
+    return fail("--start and --step are for recordings", request.spec, "leave them out");
+  if (kind == "lcm" && colon == std::string::npos) return open_live(request);
+  if (recording && argument.empty())
+    return fail("the source names no file", request.spec, std::string("give ") + kKinds);
+  if (kind == "folder") return open_folder(argument, request);
+  if (kind == "log") return open_log(argument, request);
+  return fail("unknown source", request.spec, std::string("give ") + kKinds);
+}
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "drivers/lcm/foreign_frames.h"
+#include "hand/profile.h"
+#include "math/source.h"
+
+namespace barehand {
+
+/// What `--source` and its neighbours say.
+struct SourceRequest {
+  std::string spec;                   ///< folder:DIR | log:FILE | lcm | sim:NAME
+  std::optional<std::int64_t> start;  ///< first frame of a recording
+  std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
+  std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
+  std::string channel;                ///< glob of LCM channels with frames; "": the driver's default
+  ForeignCamera foreign;              ///< intrinsics of frames that come without
+  std::uint64_t seed = 1;             ///< of the simulator
+};
+
+struct OpenSource {
+  std::unique_ptr<FrameSource> source;
+  /// Reads the profile of the very hand that is seen; empty: the source knows none.
+  std::function<Result<HandProfile>()> hand;
+  std::string hand_name;               ///< where that profile comes from, for messages
+  double fps = 30;                     ///< nominal rate at which frames come
+  std::optional<std::int64_t> frames;  ///< how many will come, where that is known
+  std::optional<std::string> warning;  ///< what the user should know of a source that opened all the same
+};
+
+/// Errors: an unknown kind of source, and whatever the driver says (no such file, no frames, no multicast route, ...).
+Result<OpenSource> open_source(const SourceRequest& request);
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#include "app/track_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/track_options.h"
+#include "app/track_run.h"
+#include "core/parallel.h"
+
+namespace barehand {
+
+void add_track_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<TrackOptions>();
+  TrackOptions& o = *options;
+  o.threads = available_cores();
+  CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
+  track->add_option("--source", o.source, "folder:DIR | log:FILE | lcm | sim:NAME");
+  track
+      ->add_option("--config", o.config,
+                   "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
+      ->capture_default_str();
+  track->add_option("--hand", o.hand, "hand.json; default: the recording's own, else the shipped mean adult hand");
+  track->add_option("--start", o.start, "first frame of a recording; backwards, play goes from there down to 0");
+  track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
+  track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
+  track->add_option("--result", o.result, "write the table of segment poses (CSV)");
+  track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
+  track->add_option("--overlay", o.overlay, "draw the tracked hand over the images: into a folder, or a file.mp4");
+  track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
+  track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
+  track->add_option("--seed", o.seed, "of the random numbers, instead of the configuration's");
+  track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
+  track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
+  track->add_flag("--health", o.health, "print the state of the pipeline every health period");
+  track->add_flag("--print-config", o.print_config, "print the configuration in force, complete, and stop");
+  track->footer("Ctrl-C ends the run; what was tracked until then is written completely.");
+  track->callback([options, &exit_code] { exit_code = run_track(*options); });
+}
+
+}  // namespace barehand

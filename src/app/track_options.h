@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace barehand {
+
+/// The arguments of `barehand track`.
+struct TrackOptions {
+  std::string source;
+  std::string config = "default.yaml";
+  std::string hand;  ///< "": the recording's own, or the shipped adult hand
+  std::optional<std::int64_t> start;
+  std::int64_t step = 1;
+  std::string init = "auto";
+  std::string result, states_log, overlay;  ///< "": not written
+  std::string lcm_url;
+  std::optional<std::int64_t> seed;  ///< instead of the configuration's
+  int threads = 1;
+  bool single_threaded = false;  ///< --inline
+  bool no_publish = false;
+  bool print_config = false;
+  bool health = false;
+};
+
+}  // namespace barehand

@@ -1,0 +1,237 @@
+#include "app/track_run.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+#include <stop_token>
+
+#include "app/config.h"
+#include "app/data_files.h"
+#include "app/exit_code.h"
+#include "app/file_sinks.h"
+#include "app/health_sink.h"
+#include "app/interrupt.h"
+#include "app/pipeline.h"
+#include "app/progress.h"
+#include "app/publish_sink.h"
+#include "app/source_factory.h"
+#include "app/summary.h"
+#include "app/track_stages.h"
+#include "core/parallel.h"
+#include "io/hand_json.h"
+#include "io/pose_json.h"
+
+namespace barehand {
+namespace {
+
+struct Failure {
+  Error error;
+  int exit_code;
+};
+using Step = tl::expected<void, Failure>;
+
+tl::unexpected<Failure> usage(const Error& error) { return tl::unexpected(Failure{error, kExitUsage}); }
+tl::unexpected<Failure> failure(const Error& error) { return tl::unexpected(Failure{error, kExitFailure}); }
+
+/// One run, put together step by step: all input is checked before the first output file is touched.
+class TrackRun {
+ public:
+  explicit TrackRun(const TrackOptions& options)
+      : options_(options), log_(make_logger(), clock_), interrupt_([this] { stop_.request_stop(); }) {}
+
+  Step prepare(const Config& config);
+  int run();
+
+ private:
+  Step open_input();
+  Step choose_hand();
+  Step use_hand(Result<HandProfile> profile, const std::string& name);
+  Step choose_start();
+  Step make_stages();
+  Step open_outputs();
+  Step open_bus();
+  Step add(Result<std::unique_ptr<Sink>> sink);
+  int conclude(const RunResult& result, double seconds);
+
+  const TrackOptions& options_;
+  SystemClock clock_;
+  RepeatLog log_;
+  std::stop_source stop_;
+  InterruptWatcher interrupt_;  // before anything that starts threads
+  Config config_;
+  std::unique_ptr<Workers> workers_;
+  OpenSource input_;
+  std::shared_ptr<const HandProfile> profile_;
+  std::optional<HandPose> initial_;
+  TrackStages stages_;
+  std::unique_ptr<LcmBus> bus_;
+  std::vector<std::unique_ptr<Sink>> sinks_;
+  ProgressSink* progress_ = nullptr;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+Step TrackRun::prepare(const Config& config) {
+  config_ = config;
+  auto workers = make_workers(options_.threads);
+  if (!workers) return usage(workers.error());
+  workers_ = std::move(*workers);
+  return open_input()
+      .and_then([&] { return choose_hand(); })
+      .and_then([&] { return choose_start(); })
+      .and_then([&] { return make_stages(); })
+      .and_then([&] { return open_outputs(); });
+}
+
+Step TrackRun::open_input() {
+  SourceRequest request;
+  request.spec = options_.source;
+  request.start = options_.start;
+  request.step = options_.step;
+  request.lcm_url = options_.lcm_url;
+  request.channel = config_.run.frame_channel;
+  request.foreign = config_.foreign_camera;
+  request.seed = static_cast<std::uint64_t>(config_.run.seed);
+  auto input = open_source(request);
+  if (!input) return options_.source == "lcm" ? failure(input.error()) : usage(input.error());
+  input_ = std::move(*input);
+  if (input_.warning) log_.logger().warn(*input_.warning);
+  return {};
+}
+
+Step TrackRun::choose_hand() {
+  if (options_.hand.empty() && input_.hand) return use_hand(input_.hand(), input_.hand_name);
+  if (!options_.hand.empty()) return use_hand(load_profile(options_.hand), options_.hand);
+  const auto shipped = find_data_file("configs/hands/adult_right.json");
+  if (!shipped) return failure(shipped.error());
+  return use_hand(load_profile(*shipped), *shipped);
+}
+
+Step TrackRun::use_hand(Result<HandProfile> profile, const std::string& name) {
+  if (!profile) return usage(profile.error());
+  log_.logger().info("hand profile: {}", name);
+  profile_ = std::make_shared<const HandProfile>(std::move(*profile));
+  return {};
+}
+
+Step TrackRun::choose_start() {
+  if (options_.init == "auto") return {};
+  auto pose = load_pose(options_.init, *profile_);
+  if (!pose) return usage(pose.error());
+  initial_ = *pose;
+  return {};
+}
+
+Step TrackRun::make_stages() {
+  auto stages = make_track_stages(config_, profile_, initial_, *workers_);
+  if (!stages) return failure(stages.error());
+  stages_ = std::move(*stages);
+  return {};
+}
+
+Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
+  if (!sink) return failure(sink.error());
+  sinks_.push_back(std::move(*sink));
+  return {};
+}
+
+Step TrackRun::open_outputs() {
+  Step ok;
+  const std::string& prefix = config_.run.channel_prefix;
+  if (!options_.no_publish) ok = open_bus();
+  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result));
+  if (ok && !options_.states_log.empty()) ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log));
+  if (ok && !options_.overlay.empty())
+    ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step))));
+  if (!ok) return ok;
+  if (options_.health)
+    sinks_.push_back(std::make_unique<HealthSink>(
+        std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
+        clock_));
+  auto progress = std::make_unique<ProgressSink>(
+      std::cerr, ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames}, clock_);
+  progress_ = progress.get();
+  sinks_.push_back(std::move(progress));
+  return {};
+}
+
+Step TrackRun::open_bus() {
+  auto bus = LcmBus::open(options_.lcm_url);
+  if (!bus) {
+    bus.error().remedy += "; --no-publish tracks without publishing";
+    return failure(bus.error());
+  }
+  bus_ = std::move(*bus);
+  BusSink::Health health{[this] { return pipeline_->take_interval_health(); },
+                         static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
+  return add(BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_));
+}
+
+int TrackRun::run() {
+  PipelineStages stages{*input_.source, stages_.preprocess, stages_.track, {}};
+  for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
+  PipelineOptions options;
+  options.threaded = !options_.single_threaded;
+  options.max_failures_in_a_row = config_.run.max_failures_in_a_row;
+  options.stop = stop_.get_token();
+  log_.logger().info("tracking {}, {} threads{}", input_.source->name(), workers_->threads(),
+                     options.threaded ? "" : ", stages inline");
+  pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
+  const std::int64_t start = clock_.steady_us();
+  const RunResult result = pipeline_->run();
+  return conclude(result, static_cast<double>(clock_.steady_us() - start) * 1e-6);
+}
+
+int TrackRun::conclude(const RunResult& result, double seconds) {
+  std::cout << summary(result.health, progress_->counts(), seconds) << std::flush;
+  int exit_code = kExitOk;
+  if (result.stopped) {
+    const bool by_user = interrupt_.signal() == SIGINT;
+    log_.logger().info("stopped by {}; everything tracked until then is written", by_user ? "Ctrl-C" : "SIGTERM");
+    if (by_user) exit_code = kExitInterrupted;
+  }
+  for (const std::string& sink : result.incomplete) {
+    log_.logger().error("{}: frames are missing", sink);
+    exit_code = kExitFailure;
+  }
+  if (result.error) {
+    log_.logger().error(result.error->message());
+    exit_code = kExitFailure;
+  }
+  return exit_code;
+}
+
+/// "builtin" needs no file: the values in the code, to write a new file from when keys were added.
+Result<Config> read_configuration(const std::string& name) {
+  if (name == "builtin") return Config{};
+  return find_config(name).and_then([](const std::string& path) { return load_config<Config>(path); });
+}
+
+Result<Config> configuration(const TrackOptions& options) {
+  auto config = read_configuration(options.config);
+  if (config && options.seed) config->run.seed = *options.seed;
+  return config;
+}
+
+int tell(const Failure& failure) {
+  std::cerr << "barehand track: " << failure.error.message() << std::endl;
+  return failure.exit_code;
+}
+
+}  // namespace
+
+int run_track(const TrackOptions& options) {
+  const auto config = configuration(options);
+  if (!config) return tell({config.error(), kExitUsage});
+  if (options.print_config) {
+    std::cout << print_config(*config);
+    return kExitOk;
+  }
+  if (options.source.empty())
+    return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm or sim:NAME"}, kExitUsage});
+  TrackRun run(options);
+  const Step prepared = run.prepare(*config);
+  return prepared ? run.run() : tell(prepared.error());
+}
+
+}  // namespace barehand

@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "child_process.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int exit_code;
+  std::string output;
+};
+
+Outcome barehand(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), BAREHAND_PROGRAM);
+  ChildProcess child(std::move(arguments));
+  const int exit_code = child.finish();
+  return {exit_code, child.output()};
+}
+
+std::string write_file(const std::string& name, const std::string& text) {
+  const std::string path = ::testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string shipped_config() {
+  std::ifstream file(BAREHAND_CONFIGS "/default.yaml");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(CommandLine, HelpAndVersionSucceed) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"--version"}, {"track", "--help"}, {"eval", "--help"}, {"doctor", "--help"}}) {
+    const Outcome outcome = barehand(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments[0];
+    EXPECT_FALSE(outcome.output.empty());
+  }
+}
+
+TEST(CommandLine, WrongUsageIsExitCode2) {
+  EXPECT_EQ(barehand({}).exit_code, 2);
+  EXPECT_EQ(barehand({"juggle"}).exit_code, 2);
+  EXPECT_EQ(barehand({"track", "--sauce", "lcm"}).exit_code, 2);
+  EXPECT_EQ(barehand({"track", "--source", "lcm", "--threads", "two"}).exit_code, 2);
+}
+
+TEST(Track, NeedsASource) {
+  const Outcome outcome = barehand({"track"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("folder:DIR, log:FILE, lcm or sim:NAME"));
+}
+
+TEST(Track, RefusesUnknownSources) {
+  for (const char* spec : {"camera", "folder", "folder:", "flodder:/tmp", "lcm:", ""}) {
+    const Outcome outcome = barehand({"track", "--no-publish", "--source", spec});
+    EXPECT_EQ(outcome.exit_code, 2) << spec;
+    EXPECT_THAT(outcome.output, HasSubstr("folder:DIR")) << spec;
+  }
+}
+
+TEST(Track, SaysWhichInputFileIsMissing) {
+  for (const char* spec : {"folder:/nonexistent/hand", "log:/nonexistent/hand.lcmlog"}) {
+    const Outcome outcome = barehand({"track", "--no-publish", "--source", spec});
+    EXPECT_EQ(outcome.exit_code, 2) << spec;
+    EXPECT_THAT(outcome.output, HasSubstr("/nonexistent/hand")) << spec;
+  }
+  const Outcome outcome = barehand({"track", "--source", "lcm", "--config", "/nonexistent.yaml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("/nonexistent.yaml"));
+}
+
+TEST(Track, RefusesAbsurdThreadCountsAndSteps) {
+  for (const char* threads : {"0", "-2", "100000"}) {
+    const Outcome outcome = barehand({"track", "--source", "lcm", "--lcm-url", "memq://", "--threads", threads});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr(std::string("number of threads is ") + threads));
+  }
+  EXPECT_THAT(barehand({"track", "--source", "folder:/tmp", "--step", "0"}).output, HasSubstr("step of 0"));
+  EXPECT_THAT(barehand({"track", "--source", "lcm", "--start", "3"}).output, HasSubstr("for recordings"));
+}
+
+TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
+  std::string text = shipped_config();
+  const auto at = text.find("\n  min_depth:");
+  ASSERT_NE(at, std::string::npos);
+  const auto line = 2 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  text.replace(at, 13, "\n  min_dpeth:");
+  const std::string path = write_file("misspelled.yaml", text);
+  const Outcome outcome = barehand({"track", "--source", "lcm", "--config", path});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr(path + ":" + std::to_string(line) +
+                                        ": unknown key 'preprocess.min_dpeth', did "
+                                        "you mean 'preprocess.min_depth'?"));
+  EXPECT_THAT(outcome.output, HasSubstr("key 'preprocess.min_depth' is missing"));
+}
+
+TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
+  const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
+  EXPECT_EQ(printed.exit_code, 0);
+  EXPECT_THAT(printed.output, HasSubstr("\n  seed: 42\n"));
+  const std::string path = write_file("printed.yaml", printed.output);
+  EXPECT_EQ(barehand({"track", "--print-config", "--config", path}).output, printed.output);
+}
+
+TEST(Track, FindsShippedConfigsByName) {
+  for (const char* name : {"paper", "paper.yaml", "accurate.yaml"})
+    EXPECT_EQ(barehand({"track", "--print-config", "--config", name}).exit_code, 0) << name;
+}
+
+/// A network of one's own without any route; not everywhere allowed.
+bool can_unshare() { return ChildProcess({"unshare", "-rn", "true"}).finish() == 0; }
+
+TEST(Track, SaysHowToMendAMissingMulticastRoute) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  ChildProcess child(
+      {"unshare", "-rn", BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "udpm://239.255.76.67:7667?ttl=0"});
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(), HasSubstr("ip route add 224.0.0.0/4 dev lo"));
+}
+
+TEST(Doctor, FindsTheMissingMulticastRoute) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  ChildProcess child({"unshare", "-rn", BAREHAND_PROGRAM, "doctor"});
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(),
+              AllOf(HasSubstr("PROBLEM multicast route"), HasSubstr("ip route add 224.0.0.0/4 dev lo")));
+}
+
+TEST(Doctor, IsSatisfiedWithARoute) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  ChildProcess child({"unshare", "-rn", "sh", "-c",
+                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_PROGRAM " doctor"});
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("Ready to track"));
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,47 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "app/doctor_checks.h"
+
+namespace barehand {
+namespace {
+
+using Level = Finding::Level;
+
+std::string write_file(const std::string& text) {
+  const std::string path = ::testing::TempDir() + "doctor_test";
+  std::ofstream(path) << text;
+  return path;
+}
+
+constexpr const char* kColumns = "Iface\tDestination\tGateway\tFlags\tRefCnt\tUse\tMetric\tMask\tMTU\tWindow\tIRTT\n";
+
+TEST(DoctorChecks, MulticastRoute) {
+  const std::string subnet = "eth0\t0000A8C0\t00000000\t0001\t0\t0\t0\t00FFFFFF\t0\t0\t0\n";
+  const std::string multicast = "lo\t000000E0\t00000000\t0001\t0\t0\t0\t000000F0\t0\t0\t0\n";
+  const std::string by_default = "eth0\t00000000\t0100A8C0\t0003\t0\t0\t0\t00000000\t0\t0\t0\n";
+  EXPECT_EQ(check_multicast_route(write_file(kColumns)).level, Level::problem);
+  EXPECT_EQ(check_multicast_route(write_file(kColumns + subnet)).level, Level::problem);
+  EXPECT_EQ(check_multicast_route(write_file(kColumns + subnet + multicast)).text, "through lo");
+  EXPECT_EQ(check_multicast_route(write_file(kColumns + by_default)).text, "through eth0");
+}
+
+TEST(DoctorChecks, ReceiveBuffer) {
+  EXPECT_EQ(check_receive_buffer(write_file("212992\n")).level, Level::warning);
+  EXPECT_THAT(check_receive_buffer(write_file("212992\n")).remedy, ::testing::HasSubstr("net.core.rmem_max"));
+  EXPECT_EQ(check_receive_buffer(write_file("4194304\n")).level, Level::ok);
+  EXPECT_EQ(check_receive_buffer("/nonexistent").level, Level::note);
+}
+
+TEST(DoctorChecks, LcmInOneProcess) {
+  EXPECT_EQ(check_lcm("memq://").level, Level::ok);
+  EXPECT_EQ(check_lcm("nonsense://").level, Level::problem);
+}
+
+TEST(DoctorChecks, ShippedFilesAreReadable) {
+  for (const Finding& finding : check_files()) EXPECT_EQ(finding.level, Level::ok) << finding.subject << finding.text;
+}
+
+}  // namespace
+}  // namespace barehand
