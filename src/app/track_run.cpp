@@ -48,7 +48,6 @@ class TrackRun {
   Step choose_hand();
   Step use_hand(Result<HandProfile> profile, const std::string& name);
   Step choose_start();
-  Step make_stages();
   Step open_outputs();
   Step open_bus();
   Step add(Result<std::unique_ptr<Sink>> sink);
@@ -64,7 +63,6 @@ class TrackRun {
   OpenSource input_;
   std::shared_ptr<const HandProfile> profile_;
   std::optional<HandPose> initial_;
-  TrackStages stages_;
   std::unique_ptr<LcmBus> bus_;
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
@@ -76,11 +74,9 @@ Step TrackRun::prepare(const Config& config) {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
-  return open_input()
-      .and_then([&] { return choose_hand(); })
-      .and_then([&] { return choose_start(); })
-      .and_then([&] { return make_stages(); })
-      .and_then([&] { return open_outputs(); });
+  return open_input().and_then([&] { return choose_hand(); }).and_then([&] { return choose_start(); }).and_then([&] {
+    return open_outputs();
+  });
 }
 
 Step TrackRun::open_input() {
@@ -119,13 +115,6 @@ Step TrackRun::choose_start() {
   auto pose = load_pose(options_.init, *profile_);
   if (!pose) return usage(pose.error());
   initial_ = *pose;
-  return {};
-}
-
-Step TrackRun::make_stages() {
-  auto stages = make_track_stages(config_, profile_, initial_, *workers_);
-  if (!stages) return failure(stages.error());
-  stages_ = std::move(*stages);
   return {};
 }
 
@@ -168,7 +157,8 @@ Step TrackRun::open_bus() {
 }
 
 int TrackRun::run() {
-  PipelineStages stages{*input_.source, stages_.preprocess, stages_.track, {}};
+  TrackStages computing = make_track_stages(config_, profile_, initial_, *workers_);
+  PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;
   options.threaded = !options_.single_threaded;

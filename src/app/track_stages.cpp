@@ -1,10 +1,21 @@
 #include "app/track_stages.h"
 
+#include "app/hand_tracker.h"
+#include "stages/preprocess/preprocess.h"
+
 namespace barehand {
 
-Result<TrackStages> make_track_stages(const Config&, std::shared_ptr<const HandProfile>, const std::optional<HandPose>&,
-                                      Workers&) {
-  return fail("this build has no tracker");
+TrackStages make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
+                              const std::optional<HandPose>& initial, Workers& workers) {
+  auto preprocessor = std::make_shared<Preprocessor>(config.preprocess);
+  auto tracker = std::make_shared<HandTracker>(config.tracker, std::move(profile),
+                                               static_cast<std::uint64_t>(config.run.seed), workers);
+  if (initial) tracker->start_at(*initial);
+  return {
+      [preprocessor](const FramePtr& frame, const HandEstimate* hint) { return preprocessor->process(frame, hint); },
+      [tracker](const HandObservationPtr& observation) -> Result<HandEstimatePtr> {
+        return tracker->process(*observation);
+      }};
 }
 
 }  // namespace barehand

@@ -19,7 +19,7 @@ struct TrackStages {
 };
 
 /// `initial`: start from this pose; none: find the hand. `workers` outlive the stages.
-Result<TrackStages> make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
-                                      const std::optional<HandPose>& initial, Workers& workers);
+TrackStages make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
+                              const std::optional<HandPose>& initial, Workers& workers);
 
 }  // namespace barehand

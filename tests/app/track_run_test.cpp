@@ -1,0 +1,138 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "child_process.h"
+#include "io/lcm_log_reader.h"
+#include "io/recording_writer.h"
+#include "io/result_table.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A recording of an empty wall whose frames share one small image.
+class TrackRun : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    auto writer = RecordingWriter::create(folder_);
+    ASSERT_TRUE(writer) << writer.error().message();
+    RgbdFrame frame;
+    frame.utime = 1'000'000;
+    frame.camera = {64, 48, 60, 60, 31.5, 23.5};
+    frame.depth.reset(64, 48, 800);
+    ASSERT_TRUE(writer->write(frame));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void repeat(int frames) {
+    std::ofstream list(folder_ + "/depth.txt");
+    for (int i = 1; i <= frames; ++i) list << i << ".0 depth/000000.png\n";
+  }
+  std::vector<std::string> track(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {BAREHAND_PROGRAM,        "track",        "--source",
+                                          "folder:" + folder_,     "--no-publish", "--result",
+                                          folder_ + "/result.csv", "--states-log", folder_ + "/states.lcmlog"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  /// Frames in the states log, which must be whole.
+  std::size_t logged_frames() const {
+    const auto log = LcmLogReader::open(folder_ + "/states.lcmlog");
+    EXPECT_TRUE(log) << log.error().message();
+    if (!log) return 0;
+    EXPECT_EQ(log->damaged_bytes(), 0);
+    std::size_t frames = 0;
+    for (const LogEntry& entry : log->entries()) frames += entry.channel == "HAND_STATE";
+    return frames;
+  }
+
+  const std::string folder_ = ::testing::TempDir() + "track_run_test";
+};
+
+TEST_F(TrackRun, FinishesARecordingWithASummary) {
+  repeat(7);
+  ChildProcess child(track({}));
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("7 published, 0 dropped, 0 failed"));
+  EXPECT_THAT(child.output(), HasSubstr("searched for in 7"));
+  EXPECT_EQ(logged_frames(), 7u);
+  const auto table = read_table(folder_ + "/result.csv");
+  ASSERT_TRUE(table) << table.error().message();
+  EXPECT_TRUE(table->frames.empty());
+}
+
+TEST_F(TrackRun, PlaysTheFramesThatWereAskedFor) {
+  repeat(10);
+  ChildProcess child(track({"--start", "8", "--step", "-3", "--inline", "--threads", "1"}));
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_EQ(logged_frames(), 3u);  // 8, 5, 2
+}
+
+TEST_F(TrackRun, SkipsACorruptImageAndCountsIt) {
+  repeat(5);
+  std::ofstream(folder_ + "/depth/bad.png") << "no image";
+  std::ofstream(folder_ + "/depth.txt", std::ios::app) << "6.0 depth/bad.png\n7.0 depth/000000.png\n";
+  ChildProcess child(track({}));
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("depth/bad.png"));
+  EXPECT_THAT(child.output(), HasSubstr("6 published, 0 dropped, 0 failed; 1 unreadable"));
+}
+
+TEST_F(TrackRun, CtrlCKeepsWhatWasTrackedAndIsExitCode130) {
+  repeat(1'000'000);
+  for (const bool inline_stages : {false, true}) {
+    ChildProcess child(
+        track(inline_stages ? std::vector<std::string>{"--health", "--inline"} : std::vector<std::string>{"--health"}));
+    ASSERT_TRUE(child.wait_for("captured ")) << child.output();  // the first report on a run that goes on
+    child.signal(SIGINT);
+    EXPECT_EQ(child.finish(), 130) << child.output();
+    EXPECT_THAT(child.output(), HasSubstr("stopped by Ctrl-C"));
+    EXPECT_GT(logged_frames(), 0u);
+    EXPECT_THAT(child.output(), HasSubstr("): " + std::to_string(logged_frames()) + " published"));
+  }
+}
+
+TEST_F(TrackRun, SigtermStopsADaemonThatWaitsForFramesInOrder) {
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "memq://"});
+  ASSERT_TRUE(child.wait_for("tracking lcm:")) << child.output();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("stopped by SIGTERM"));
+}
+
+TEST_F(TrackRun, FullDiskEndsTheRunAndKeepsWhatIsWritten) {
+  repeat(1'000'000);
+  std::string command = "trap '' XFSZ; ulimit -f 64; exec";  // files of 32 or 64 KiB, as on a small disk
+  for (const std::string& argument : track({})) command += " '" + argument + "'";
+  ChildProcess child({"bash", "-c", command});
+  EXPECT_EQ(child.finish(), 1) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("states.lcmlog"));
+  EXPECT_THAT(child.output(), HasSubstr("frames in a row"));
+  EXPECT_GT(logged_frames(), 0u);
+}
+
+TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--result",
+                      "/nonexistent/result.csv"});
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(), HasSubstr("/nonexistent/result.csv"));
+}
+
+TEST_F(TrackRun, BadHandAndPoseFilesAreExitCode2) {
+  const std::string bad = folder_ + "/bad.json";
+  std::ofstream(bad) << "{\"handedness\": \"right\", \"segments\": []}";
+  for (const char* option : {"--hand", "--init"}) {
+    ChildProcess child(track({option, bad}));
+    EXPECT_EQ(child.finish(), 2) << option << child.output();
+    EXPECT_THAT(child.output(), HasSubstr(bad));
+    EXPECT_FALSE(fs::exists(folder_ + "/result.csv")) << "an output was touched before all input was checked";
+  }
+}
+
+}  // namespace
+}  // namespace barehand
