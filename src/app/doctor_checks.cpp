@@ -9,6 +9,7 @@
 #include "app/config.h"
 #include "app/data_files.h"
 #include "core/parallel.h"
+#include "drivers/synthetic/hand_mesh_file.h"
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -34,6 +35,13 @@ Finding check_profile(const std::string& name) {
   return {Level::ok, subject, *path, ""};
 }
 
+Finding check_mesh(Handedness side) {
+  const std::string subject = std::string("simulated ") + std::string(to_string(side)) + " hand";
+  const auto path = synthetic::find_hand_mesh(side);
+  if (!path) return {Level::warning, subject, path.error().what + "; sim:NAME cannot run", path.error().remedy};
+  return {Level::ok, subject, *path, ""};
+}
+
 Finding check_library(const char* file, const std::string& subject, const std::string& use, const std::string& remedy) {
   void* handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
   if (!handle) return {Level::note, subject, "absent; only needed for " + use, remedy};
@@ -46,6 +54,7 @@ Finding check_library(const char* file, const std::string& subject, const std::s
 std::vector<Finding> examine(const std::string& lcm_url) {
   std::vector<Finding> findings{check_processor()};
   for (Finding& finding : check_files()) findings.push_back(std::move(finding));
+  for (const Handedness side : {Handedness::right, Handedness::left}) findings.push_back(check_mesh(side));
   findings.push_back(check_multicast_route());
   findings.push_back(check_receive_buffer());
   findings.push_back(check_lcm(lcm_url));

@@ -3,6 +3,7 @@
 #include "app/doctor_command.h"
 #include "app/eval_command.h"
 #include "app/exit_code.h"
+#include "app/sim_command.h"
 #include "app/track_command.h"
 
 int main(int argc, char** argv) {
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
       "barehand COMMAND --help says more.");
   int exit_code = barehand::kExitOk;
   barehand::add_track_command(app, exit_code);
+  barehand::add_sim_command(app, exit_code);
   barehand::add_eval_command(app, exit_code);
   barehand::add_doctor_command(app, exit_code);
   try {

@@ -5,6 +5,7 @@
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "drivers/synthetic/synthetic_source.h"
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -54,9 +55,21 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   return open;
 }
 
+Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
+  auto source = synthetic::SyntheticSource::open(text, clock);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  if (const std::int64_t frames = (*source)->remaining(); frames >= 0) open.frames = frames;
+  open.fps = (*source)->fps();
+  open.hand = [profile = (*source)->profile()] { return Result<HandProfile>(profile); };
+  open.hand_name = "of the simulated hand";
+  open.source = std::move(*source);
+  return open;
+}
+
 }  // namespace
 
-Result<OpenSource> open_source(const SourceRequest& request) {
+Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
   const auto colon = request.spec.find(':');
   const std::string kind = request.spec.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
@@ -65,6 +78,7 @@ Result<OpenSource> open_source(const SourceRequest& request) {
   if (!recording && (request.start || request.step != 1))
     return fail("--start and --step are for recordings", request.spec, "leave them out");
   if (kind == "lcm" && colon == std::string::npos) return open_live(request);
+  if (kind == "sim" && !argument.empty()) return open_simulator(argument, clock);
   if (recording && argument.empty())
     return fail("the source names no file", request.spec, std::string("give ") + kKinds);
   if (kind == "folder") return open_folder(argument, request);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "drivers/lcm/foreign_frames.h"
 #include "hand/profile.h"
@@ -21,7 +22,6 @@ struct SourceRequest {
   std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
   std::string channel;                ///< glob of LCM channels with frames; "": the driver's default
   ForeignCamera foreign;              ///< intrinsics of frames that come without
-  std::uint64_t seed = 1;             ///< of the simulator
 };
 
 struct OpenSource {
@@ -35,6 +35,7 @@ struct OpenSource {
 };
 
 /// Errors: an unknown kind of source, and whatever the driver says (no such file, no frames, no multicast route, ...).
-Result<OpenSource> open_source(const SourceRequest& request);
+/// `clock` outlives the source and paces a live simulator.
+Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock);
 
 }  // namespace barehand

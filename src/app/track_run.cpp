@@ -87,8 +87,7 @@ Step TrackRun::open_input() {
   request.lcm_url = options_.lcm_url;
   request.channel = config_.run.frame_channel;
   request.foreign = config_.foreign_camera;
-  request.seed = static_cast<std::uint64_t>(config_.run.seed);
-  auto input = open_source(request);
+  auto input = open_source(request, clock_);
   if (!input) return options_.source == "lcm" ? failure(input.error()) : usage(input.error());
   input_ = std::move(*input);
   if (input_.warning) log_.logger().warn(*input_.warning);
