@@ -50,6 +50,7 @@ class TrackRun {
   Step choose_start();
   Step open_outputs();
   Step open_bus();
+  CommandedTracker::Inbox inbox() const;
   Step add(Result<std::unique_ptr<Sink>> sink);
   int conclude(const RunResult& result, double seconds);
 
@@ -63,7 +64,8 @@ class TrackRun {
   OpenSource input_;
   std::shared_ptr<const HandProfile> profile_;
   std::optional<HandPose> initial_;
-  std::unique_ptr<LcmBus> bus_;
+  std::shared_ptr<LcmBus> bus_;
+  std::unique_ptr<CommandInbox> commands_;
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -150,13 +152,19 @@ Step TrackRun::open_bus() {
     return failure(bus.error());
   }
   bus_ = std::move(*bus);
+  commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
   BusSink::Health health{[this] { return pipeline_->take_interval_health(); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
   return add(BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_));
 }
 
+CommandedTracker::Inbox TrackRun::inbox() const {
+  if (!commands_) return {};
+  return [commands = commands_.get()] { return commands->take(); };
+}
+
 int TrackRun::run() {
-  TrackStages computing = make_track_stages(config_, profile_, initial_, *workers_);
+  TrackStages computing = make_track_stages(config_, profile_, initial_, inbox(), *workers_, log_);
   PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;

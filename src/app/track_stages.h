@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/commanded_tracker.h"
 #include "app/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -18,8 +19,10 @@ struct TrackStages {
   std::function<Result<HandEstimatePtr>(const HandObservationPtr& observation)> track;
 };
 
-/// `initial`: start from this pose; none: find the hand. `workers` outlive the stages.
+/// `initial`: start from this pose; none: find the hand. `inbox`: commands from outside; may be empty. `workers` and
+/// `log` outlive the stages.
 TrackStages make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
-                              const std::optional<HandPose>& initial, Workers& workers);
+                              const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
+                              RepeatLog& log);
 
 }  // namespace barehand

@@ -171,20 +171,16 @@ Json to_json(const SegmentProfile& segment, int s) {
           {"dofs", dofs}};
 }
 
-}  // namespace
-
-Result<HandProfile> load_profile(const std::string& path) {
-  const auto json = json_fields::read_json(path);
-  if (!json) return tl::unexpected(json.error());
-  if (!json->is_object() || !json->contains("segments") || !json->at("segments").is_array())
+Result<HandProfile> profile_from(const Json& json, const std::string& path) {
+  if (!json.is_object() || !json.contains("segments") || !json.at("segments").is_array())
     return fail("\"segments\" is missing or no list", path, "see docs/formats.md");
   HandProfile profile;
-  const auto side = parse_handedness({*json, path});
+  const auto side = parse_handedness({json, path});
   if (!side) return tl::unexpected(side.error());
   profile.handedness = *side;
 
   ParentNames parents;
-  for (const Json& entry : json->at("segments")) {
+  for (const Json& entry : json.at("segments")) {
     if (!entry.is_object()) return fail("\"segments\" holds " + entry.dump(), path, "it must hold objects");
     const auto index = parse_index({entry, path}, parents);
     if (!index) return tl::unexpected(index.error());
@@ -202,6 +198,20 @@ Result<HandProfile> load_profile(const std::string& path) {
   const auto tree = check_parents(parents, path);
   if (!tree) return tl::unexpected(tree.error());
   return profile;
+}
+
+}  // namespace
+
+Result<HandProfile> load_profile(const std::string& path) {
+  const auto json = json_fields::read_json(path);
+  if (!json) return tl::unexpected(json.error());
+  return profile_from(*json, path);
+}
+
+Result<HandProfile> parse_profile(const std::string& text, const std::string& where) {
+  const auto json = json_fields::parse_json(text, where);
+  if (!json) return tl::unexpected(json.error());
+  return profile_from(*json, where);
 }
 
 Result<void> save_profile(const HandProfile& profile, const std::string& path) {

@@ -10,6 +10,8 @@ namespace barehand {
 /// Reads a hand profile (docs/formats.md). Unknown keys are allowed; elliptic skin that is absent is round. Errors
 /// name file, segment and key: missing, doubled or unknown segments, a wrong parent, a cycle, numbers that no hand has.
 Result<HandProfile> load_profile(const std::string& path);
+/// The same from the text of such a file; `where` stands for its name in messages.
+Result<HandProfile> parse_profile(const std::string& text, const std::string& where);
 /// Writes what load_profile reads, to 1e-9 m.
 Result<void> save_profile(const HandProfile& profile, const std::string& path);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace barehand::json_fields {
@@ -30,10 +31,14 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
 Result<Json> read_json(const std::string& path) {
   std::ifstream file(path);
   if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
+  return parse_json({std::istreambuf_iterator<char>(file), {}}, path);
+}
+
+Result<Json> parse_json(const std::string& text, const std::string& where) {
   try {
-    return Json::parse(file);
+    return Json::parse(text);
   } catch (const Json::exception& error) {
-    return fail(std::string("is not valid JSON: ") + error.what(), path, "correct the place named");
+    return fail(std::string("is not valid JSON: ") + error.what(), where, "correct the place named");
   }
 }
 

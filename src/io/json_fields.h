@@ -13,6 +13,8 @@ using Json = nlohmann::json;
 
 /// Reads and parses a file; a missing file and a syntax error (with its line) become errors.
 Result<Json> read_json(const std::string& path);
+/// `where`: what the text comes from, for messages.
+Result<Json> parse_json(const std::string& text, const std::string& where);
 /// Writes `json` to a file; a directory that does not exist or a full disk is an error.
 Result<void> write_json(const std::string& path, const Json& json);
 

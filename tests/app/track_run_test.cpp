@@ -4,9 +4,11 @@
 #include <fstream>
 
 #include "child_process.h"
+#include "hand/skin.h"
 #include "io/lcm_log_reader.h"
 #include "io/recording_writer.h"
 #include "io/result_table.h"
+#include "support/painted_hand.h"
 
 namespace barehand {
 namespace {
@@ -49,6 +51,11 @@ class TrackRun : public ::testing::Test {
     std::size_t frames = 0;
     for (const LogEntry& entry : log->entries()) frames += entry.channel == "HAND_STATE";
     return frames;
+  }
+
+  std::string file_bytes(const std::string& name) const {
+    std::ifstream file(folder_ + name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
   }
 
   const std::string folder_ = ::testing::TempDir() + "track_run_test";
@@ -114,6 +121,40 @@ TEST_F(TrackRun, FullDiskEndsTheRunAndKeepsWhatIsWritten) {
   EXPECT_THAT(child.output(), HasSubstr("states.lcmlog"));
   EXPECT_THAT(child.output(), HasSubstr("frames in a row"));
   EXPECT_GT(logged_frames(), 0u);
+}
+
+TEST_F(TrackRun, SameBytesWhateverTheThreads) {
+  fs::remove_all(folder_);
+  auto writer = RecordingWriter::create(folder_);
+  ASSERT_TRUE(writer) << writer.error().message();
+  const auto profile = test::adult_hand();
+  const Skin skin = make_blended_skin(*profile, 0.004);
+  for (int i = 0; i < 6; ++i) {
+    const auto observation = test::observe_skin(skin, test::facing_pose(*profile, 0.5 + 0.003 * i, 0.15 + 0.05 * i));
+    RgbdFrame frame = *observation->frame;
+    frame.utime = 1'000'000 + 33'333 * i;
+    frame.depth_unit = 0.0001;
+    frame.depth.reset(frame.camera.width, frame.camera.height);
+    for (std::size_t k = 0; k < frame.depth.size(); ++k)
+      frame.depth[k] = static_cast<std::uint16_t>(observation->depth[k] / frame.depth_unit);
+    ASSERT_TRUE(writer->write(frame));
+  }
+  std::vector<std::string> states, tables;
+  for (const auto& how : std::vector<std::vector<std::string>>{
+           {"--threads", "1", "--inline"}, {"--threads", "1"}, {"--threads", "3"}, {"--threads", "3", "--inline"}}) {
+    ChildProcess child(track(how));
+    ASSERT_EQ(child.finish(), 0) << child.output();
+    EXPECT_THAT(child.output(), HasSubstr("tracked in 6 frames"));
+    states.push_back(file_bytes("/states.lcmlog"));
+    tables.push_back(file_bytes("/result.csv"));
+  }
+  ChildProcess other_seed(track({"--seed", "2"}));
+  ASSERT_EQ(other_seed.finish(), 0);
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    EXPECT_EQ(states[i], states[0]) << i;
+    EXPECT_EQ(tables[i], tables[0]) << i;
+  }
+  EXPECT_NE(file_bytes("/states.lcmlog"), states[0]) << "the seed has no effect: nothing was drawn";
 }
 
 TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {

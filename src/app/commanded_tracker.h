@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "app/hand_tracker.h"
+#include "core/log.h"
+#include "drivers/lcm/command.h"
+
+namespace barehand {
+
+/// A hand tracker that takes commands from outside (command_t) between two frames: reset, start at a pose, another
+/// hand profile. A command that cannot be read or followed is reported and changes nothing.
+class CommandedTracker {
+ public:
+  /// What arrived since the last call; asked before every frame, on the thread of `process`. Empty: no commands.
+  using Inbox = std::function<std::vector<Result<Command>>()>;
+
+  /// `workers` and `log` outlive the tracker.
+  CommandedTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
+                   Workers& workers, Inbox inbox, RepeatLog& log);
+
+  HandEstimatePtr process(const HandObservation& observation);
+  void start_at(const HandPose& pose) { tracker_->start_at(pose); }
+
+ private:
+  bool concerns(const Command& command, const std::string& sensor) const;
+  void follow(const Command& command);
+  void use(std::shared_ptr<const HandProfile> profile);
+
+  const TrackerParams params_;
+  const std::uint64_t seed_;
+  Workers& workers_;
+  const Inbox inbox_;
+  RepeatLog& log_;
+  std::unique_ptr<HandTracker> tracker_;
+  std::int32_t hand_id_ = 0;
+};
+
+}  // namespace barehand

@@ -1,0 +1,85 @@
+#include "app/commanded_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "hand/skin.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+std::string file_text(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A tracker before an open hand that faces the camera, and the commands it will find.
+class CommandedTrackerTest : public ::testing::Test {
+ protected:
+  static TrackerParams cheap() {
+    TrackerParams params;
+    params.sampling = false;
+    return params;
+  }
+  HandEstimatePtr next() {
+    auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
+    frame->utime = utime_ += 33'000;
+    auto observation = std::make_shared<HandObservation>(*hand_);
+    observation->frame = frame;
+    return tracker_.process(*observation);
+  }
+  void send(Command command) { waiting_.push_back(std::move(command)); }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5);
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  ManualClock clock_;
+  RepeatLog log_{make_silent_logger(), clock_};
+  Workers workers_{1};
+  std::vector<Result<Command>> waiting_;
+  CommandedTracker tracker_{cheap(), profile_, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(CommandedTrackerTest, StartsAtTheGivenPose) {
+  Command command;
+  command.kind = Command::Kind::initialise;
+  command.pose = pose_;
+  send(command);
+  const HandEstimatePtr estimate = next();
+  EXPECT_EQ(estimate->status, TrackStatus::tracking);
+  EXPECT_LT((estimate->segments[kPalm].T_camera_segment.t - pose_[kPalm].t).norm(), 0.005);
+}
+
+TEST_F(CommandedTrackerTest, UsesTheGivenProfile) {
+  EXPECT_EQ(next()->handedness, Handedness::right);
+  Command command;
+  command.kind = Command::Kind::set_profile;
+  command.profile = file_text(BAREHAND_CONFIGS "/hands/adult_left.json");
+  send(command);
+  EXPECT_EQ(next()->handedness, Handedness::left);
+}
+
+TEST_F(CommandedTrackerTest, IgnoresWhatItCannotReadAndWhatIsForOthers) {
+  Command foreign, broken;
+  foreign.kind = broken.kind = Command::Kind::set_profile;
+  foreign.profile = file_text(BAREHAND_CONFIGS "/hands/adult_left.json");
+  foreign.sensor = "another camera";
+  broken.profile = "{\"handedness\": \"left\"}";
+  send(foreign);
+  send(broken);
+  waiting_.push_back(fail("truncated"));
+  EXPECT_EQ(next()->handedness, Handedness::right);
+}
+
+TEST_F(CommandedTrackerTest, ResetForgetsTheHand) {
+  tracker_.start_at(pose_);
+  const std::int32_t before = next()->hand_id;
+  send(Command{});
+  EXPECT_NE(next()->hand_id, before);
+}
+
+}  // namespace
+}  // namespace barehand
