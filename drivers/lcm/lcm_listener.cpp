@@ -3,6 +3,15 @@
 #include <lcm/lcm-cpp.hpp>
 
 namespace barehand {
+namespace {
+
+/// Subscriptions go through LCM's C interface: its C++ one crashes in builds with -fsanitize=undefined (g++ 12 gets
+/// `(subs->handler->*subs->handlerMethod)(...)` of lcm-cpp-impl.hpp wrong).
+void hand_on(const lcm_recv_buf_t* buffer, const char* channel, void* handler) {
+  (*static_cast<LcmListener::Handler*>(handler))(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+}
+
+}  // namespace
 
 std::string glob_to_regex(const std::string& glob) {
   std::string regex;
@@ -21,18 +30,14 @@ std::string glob_to_regex(const std::string& glob) {
 
 LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler)
     : bus_(std::move(bus)), handler_(std::move(handler)) {
-  subscription_ = bus_->lcm().subscribe(glob_to_regex(channels), &LcmListener::on_message, this);
+  subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, &handler_);
   thread_ = std::thread([this] { run(); });
 }
 
 LcmListener::~LcmListener() {
   stop_ = true;
   thread_.join();
-  bus_->lcm().unsubscribe(subscription_);
-}
-
-void LcmListener::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  handler_(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+  lcm_unsubscribe(bus_->lcm().getUnderlyingLCM(), subscription_);
 }
 
 void LcmListener::run() {

@@ -9,10 +9,7 @@
 #include "drivers/lcm/wire.h"
 #include "io/lcm_bus.h"
 
-namespace lcm {
-struct ReceiveBuffer;
-class Subscription;
-}  // namespace lcm
+struct _lcm_subscription_t;  // liblcm's own
 
 namespace barehand {
 
@@ -33,12 +30,11 @@ class LcmListener {
   bool broken() const { return broken_; }
 
  private:
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void run();
 
   std::shared_ptr<LcmBus> bus_;
   Handler handler_;
-  lcm::Subscription* subscription_ = nullptr;
+  _lcm_subscription_t* subscription_ = nullptr;
   std::atomic<bool> stop_{false}, broken_{false};
   std::thread thread_;
 };

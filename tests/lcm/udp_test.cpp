@@ -62,10 +62,10 @@ TEST(Udp, AForeignMessageIsSkippedAndTheNextFrameArrives) {
 /// Subscribes and never handles a message: its queue and its socket fill up and stay full.
 class DeafSubscriber {
  public:
-  DeafSubscriber() : bus_(connect()) { bus_->lcm().subscribe("HAND_STATE", &DeafSubscriber::ignore, this); }
+  DeafSubscriber() : bus_(connect()) { lcm_subscribe(bus_->lcm().getUnderlyingLCM(), "HAND_STATE", ignore, nullptr); }
 
  private:
-  void ignore(const lcm::ReceiveBuffer*, const std::string&) {}
+  static void ignore(const lcm_recv_buf_t*, const char*, void*) {}
   std::unique_ptr<LcmBus> bus_;
 };
 
