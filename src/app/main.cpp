@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
 
+#include "app/convert_command.h"
 #include "app/doctor_command.h"
 #include "app/eval_command.h"
 #include "app/exit_code.h"
+#include "app/listen_command.h"
+#include "app/record_command.h"
 #include "app/sim_command.h"
 #include "app/track_command.h"
 
@@ -16,7 +19,10 @@ int main(int argc, char** argv) {
   int exit_code = barehand::kExitOk;
   barehand::add_track_command(app, exit_code);
   barehand::add_sim_command(app, exit_code);
+  barehand::add_record_command(app, exit_code);
+  barehand::add_convert_command(app, exit_code);
   barehand::add_eval_command(app, exit_code);
+  barehand::add_listen_command(app, exit_code);
   barehand::add_doctor_command(app, exit_code);
   try {
     app.parse(argc, argv);

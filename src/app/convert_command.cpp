@@ -1,0 +1,41 @@
+#include "app/convert_command.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/exit_code.h"
+#include "app/run_copy.h"
+
+namespace barehand {
+namespace {
+
+int convert(const std::string& in, CopyRequest request) {
+  const std::filesystem::path path(in);
+  if (path.extension() == ".oni") {
+    std::cerr << "barehand convert: " << in
+              << ": .oni files are not read yet (record an LCM log or a folder instead)\n";
+    return kExitUsage;
+  }
+  request.source.spec = (std::filesystem::is_directory(path) ? "folder:" : "log:") + in;
+  return run_copy(request, "barehand convert");
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, int& exit_code) {
+  auto request = std::make_shared<CopyRequest>();
+  auto in = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("convert", "Turn a recording folder into an LCM log, or the other way round");
+  command->add_option("in", *in, "folder or LCM log")->required();
+  command->add_option("out", request->out, "FILE.lcmlog, or a folder that is made")->required();
+  add_copy_options(*command, *request);
+  command->footer(
+      "Time stamps are kept; a log keeps frame numbers too, a folder numbers its frames from 0. hand.json and "
+      "truth.csv "
+      "stay beside the original. .oni files are not supported yet.");
+  command->callback([request, in, &exit_code] { exit_code = convert(*in, *request); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,103 @@
+// `barehand record`, `convert` and `listen` as a user meets them.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "app/copy_frames.h"
+#include "child_process.h"
+#include "drivers/folder/folder_source.h"
+#include "drivers/lcm/lcm_log_source.h"
+#include "tests/lcm/test_frames.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CopyCommands : public testing::Test {
+ protected:
+  struct Outcome {
+    int exit_code;
+    std::string output;
+  };
+  Outcome barehand(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), BAREHAND_PROGRAM);
+    ChildProcess child(std::move(arguments));
+    const int exit_code = child.finish();
+    return {exit_code, child.output()};
+  }
+  /// A folder of three frames.
+  std::string recording() {
+    auto writer = open_frame_writer(folder_ / "recording", {}).value();
+    for (int number = 0; number < 3; ++number) EXPECT_TRUE(writer->write(test_frame(number)));
+    return folder_ / "recording";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CopyCommands, ConvertGoesFromFolderToLogAndBack) {
+  const Outcome there = barehand({"convert", recording(), folder_ / "a.lcmlog"});
+  EXPECT_EQ(there.exit_code, 0) << there.output;
+  EXPECT_THAT(there.output, HasSubstr("3 frames written"));
+  EXPECT_EQ(barehand({"convert", folder_ / "a.lcmlog", folder_ / "back", "--step", "2"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "back").value()->remaining(), 2);
+}
+
+TEST_F(CopyCommands, RecordTakesAnySource) {
+  const Outcome outcome =
+      barehand({"record", "--source", "folder:" + recording(), "--out", folder_ / "a.lcmlog", "--frames", "2"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(LcmLogSource::open(folder_ / "a.lcmlog").value()->remaining(), 2);
+}
+
+TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
+  const std::string in = recording(), out = folder_ / "a.lcmlog";
+  std::ofstream(out) << "precious";
+  EXPECT_EQ(barehand({"convert", in, out}).exit_code, 2);
+  EXPECT_EQ(std::filesystem::file_size(out), 8u);
+  EXPECT_EQ(barehand({"convert", in, out, "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(CopyCommands, OniFilesAreRefusedClearly) {
+  for (const auto& arguments : {std::vector<std::string>{"convert", "a.oni", folder_ / "b"},
+                                std::vector<std::string>{"convert", recording(), folder_ / "b.oni"}}) {
+    const Outcome outcome = barehand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr(".oni files are not"));
+  }
+}
+
+TEST_F(CopyCommands, AForeignFileIsRefusedClearly) {
+  std::ofstream(folder_ / "a.txt") << "no log";
+  const Outcome outcome = barehand({"convert", folder_ / "a.txt", folder_ / "b"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("is not an LCM log"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "b"));
+}
+
+TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
+  std::filesystem::create_symlink("/dev/full", folder_ / "full.lcmlog");
+  const Outcome full = barehand({"convert", recording(), folder_ / "full.lcmlog", "--overwrite"});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.output, HasSubstr("No space left on device"));
+  EXPECT_THAT(full.output, HasSubstr("0 frames written"));
+}
+
+TEST_F(CopyCommands, ControlCEndsALiveRecording) {
+  ChildProcess child(
+      {BAREHAND_PROGRAM, "record", "--source", "lcm", "--lcm-url", "memq://", "--out", folder_ / "a.lcmlog"});
+  while (!std::filesystem::exists(folder_ / "a.lcmlog")) std::this_thread::yield();
+  child.signal(SIGINT);
+  EXPECT_EQ(child.finish(), 130);
+  EXPECT_THAT(child.output(), HasSubstr("stopped"));
+}
+
+TEST_F(CopyCommands, ListenRefusesAnImpossibleUrl) {
+  EXPECT_EQ(barehand({"listen", "--lcm-url", "nonsense://"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace barehand
