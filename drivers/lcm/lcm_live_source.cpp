@@ -27,11 +27,12 @@ LcmLiveSource::LcmLiveSource(std::shared_ptr<LcmBus> bus, const LcmLiveOptions& 
 void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
   const std::lock_guard lock(mutex_);
   ++counts_.received;
-  if (waiting_) ++counts_.replaced;
+  if (letters_.size() >= options_.capacity) {
+    letters_.pop_front();
+    ++counts_.replaced;
+  }
   if (message_hash(message) == rgbd_frame_t::getHash()) count_lost(channel, message_word(message, 2));
-  letter_.channel = channel;
-  letter_.message.assign(message.begin(), message.end());
-  waiting_ = true;
+  letters_.push_back({channel, {message.begin(), message.end()}});
   arrived_.notify_one();
 }
 
@@ -51,12 +52,12 @@ SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
   Letter letter;
   {
     std::unique_lock lock(mutex_);
-    if (!arrived_.wait_for(lock, patience, [this] { return waiting_; })) {
+    if (!arrived_.wait_for(lock, patience, [this] { return !letters_.empty(); })) {
       if (listener_.broken()) return SourceFailed{{"the LCM connection broke", bus_->url(), "check the network"}};
       return Timeout{};
     }
-    std::swap(letter, letter_);
-    waiting_ = false;
+    letter = std::move(letters_.front());
+    letters_.pop_front();
   }
   return open_letter(letter);
 }

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,17 +18,19 @@ namespace barehand {
 struct LcmLiveOptions {
   std::string channel = "*RGBD_FRAME";  ///< glob
   ForeignCamera foreign = {};
+  std::size_t capacity =
+      1;  ///< messages that may wait; 1: the newest wins (tracking), more: none is missed (recording)
 };
 
-/// Counts since the start: received = delivered + replaced + (one may be waiting).
+/// Counts since the start: received = delivered + replaced + waiting.
 struct LcmLiveCounts {
   std::int64_t received = 0;
-  std::int64_t replaced = 0;  ///< thrown away because a newer one came before `next` was called
+  std::int64_t replaced = 0;  ///< the oldest waiting, thrown away because a newer one needed its place
   std::int64_t lost = 0;      ///< numbered by the sender (seq) but never arrived
 };
 
-/// Frames from a live LCM bus. A thread receives and keeps only the newest message; `next` decodes it. A message of a
-/// wrong type, a damaged one and one that repeats or precedes the last frame come as SkippedFrame.
+/// Frames from a live LCM bus. A thread receives and keeps the newest messages; `next` decodes the oldest of them. A
+/// message of a wrong type, a damaged one and one that repeats or precedes the last frame come as SkippedFrame.
 class LcmLiveSource : public FrameSource {
  public:
   static Result<std::unique_ptr<LcmLiveSource>> open(const std::string& url, const LcmLiveOptions& options = {});
@@ -55,8 +58,7 @@ class LcmLiveSource : public FrameSource {
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable arrived_;
-  bool waiting_ = false;
-  Letter letter_;
+  std::deque<Letter> letters_;
   LcmLiveCounts counts_;
   std::map<std::string, std::int64_t> last_seq_;
 

@@ -1,5 +1,6 @@
 #include "app/copy_frames.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ostream>
 
@@ -45,6 +46,9 @@ class Copy {
 
   bool store(const RgbdFrame& frame) {
     if (auto written = writer_.write(frame); !written) return end_with(written.error());
+    if (source_.live() && result_.written > 0)
+      result_.missing += std::max<std::int64_t>(0, frame.number - last_number_ - 1);
+    last_number_ = frame.number;
     ++result_.written;
     show();
     return true;
@@ -76,6 +80,7 @@ class Copy {
     if (options_.expected) text += " of " + std::to_string(*options_.expected);
     text += " frames";
     if (result_.skipped > 0) text += ", " + std::to_string(result_.skipped) + " skipped";
+    if (result_.missing > 0) text += ", " + std::to_string(result_.missing) + " missing";
     report_ << (options_.terminal ? "\r\x1b[K" : "") << text << (options_.terminal ? "" : "\n") << std::flush;
     line_open_ = options_.terminal;
   }
@@ -93,7 +98,7 @@ class Copy {
   std::ostream& report_;
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
-  std::int64_t start_us_ = 0, shown_us_ = 0;
+  std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0;
   bool line_open_ = false;
 };
 

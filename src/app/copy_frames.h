@@ -21,7 +21,8 @@ struct CopyOptions {
 
 struct CopyResult {
   std::int64_t written = 0;
-  std::int64_t skipped = 0;    ///< unreadable at the source
+  std::int64_t skipped = 0;  ///< unreadable at the source
+  std::int64_t missing = 0;  ///< numbered by a live source but never delivered: lost on the way or dropped at the door
   std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
   bool stopped = false;        ///< by `stop`
 };

@@ -57,6 +57,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << result.written << " frames written to " << (*writer)->name();
   if (result.skipped > 0) std::cerr << ", " << result.skipped << " unreadable ones skipped";
+  if (result.missing > 0) std::cerr << ", " << result.missing << " never arrived";
   std::cerr << (result.stopped ? ", stopped\n" : "\n");
   return exit_code_of(result, interrupt.signal());
 }

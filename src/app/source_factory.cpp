@@ -48,6 +48,7 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   LcmLiveOptions options;
   if (!request.channel.empty()) options.channel = request.channel;
   options.foreign = request.foreign;
+  options.capacity = request.live_capacity;
   auto source = LcmLiveSource::open(request.lcm_url, options);
   if (!source) return tl::unexpected(source.error());
   OpenSource open;

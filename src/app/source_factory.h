@@ -22,6 +22,7 @@ struct SourceRequest {
   std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
   std::string channel;                ///< glob of LCM channels with frames; "": the driver's default
   ForeignCamera foreign;              ///< intrinsics of frames that come without
+  std::size_t live_capacity = 1;      ///< live messages that may wait; 1: the newest wins
 };
 
 struct OpenSource {

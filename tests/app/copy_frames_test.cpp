@@ -15,15 +15,16 @@ namespace {
 /// Plays what it is given.
 class ListSource : public FrameSource {
  public:
-  explicit ListSource(std::vector<SourceEvent> events) : events_(std::move(events)) {}
+  explicit ListSource(std::vector<SourceEvent> events, bool live = false) : events_(std::move(events)), live_(live) {}
   SourceEvent next(std::chrono::milliseconds) override {
     return next_ < events_.size() ? events_[next_++] : SourceEvent(EndOfStream{});
   }
-  bool live() const override { return false; }
+  bool live() const override { return live_; }
   std::string name() const override { return "list"; }
 
  private:
   std::vector<SourceEvent> events_;
+  bool live_;
   std::size_t next_ = 0;
 };
 
@@ -77,6 +78,13 @@ TEST_F(CopyFrames, SkippedFramesAreCountedAndReported) {
   EXPECT_EQ(result.written, 2);
   EXPECT_EQ(result.skipped, 1);
   EXPECT_NE(report_.str().find("frame 1: damaged"), std::string::npos) << report_.str();
+}
+
+TEST_F(CopyFrames, GapsInALiveSourceAreCounted) {
+  ListSource live({frame_event(7), frame_event(8), frame_event(11)}, true);
+  EXPECT_EQ(copy(live, *writer("a.lcmlog")).missing, 2);
+  ListSource replay({frame_event(7), frame_event(11)});
+  EXPECT_EQ(copy(replay, *writer("b.lcmlog")).missing, 0) << "its step may be 4";
 }
 
 TEST_F(CopyFrames, AFullDiskEndsTheCopyWithAnError) {

@@ -47,6 +47,15 @@ TEST_F(LcmLive, TheNewestFrameWinsAndTheOthersAreCounted) {
   EXPECT_EQ(source_.counts().lost, 0);
 }
 
+TEST_F(LcmLive, AQueueMissesNothingUntilItIsFull) {
+  const std::shared_ptr<LcmBus> bus = LcmBus::open("memq://").value();
+  LcmLiveSource source(bus, {.capacity = 3});
+  for (int number = 1; number <= 4; ++number) ASSERT_TRUE(bus->send("RGBD_FRAME", frame_bytes(number), 0));
+  while (source.counts().received < 4) std::this_thread::yield();
+  for (int number = 2; number <= 4; ++number) EXPECT_EQ(std::get<FramePtr>(source.next(kLong))->number, number);
+  EXPECT_EQ(source.counts().replaced, 1);
+}
+
 TEST_F(LcmLive, GapsInTheNumbersAreCountedAsLost) {
   for (const int number : {1, 2, 5, 4, 6}) send("RGBD_FRAME", frame_bytes(number));
   wait_received(5);
