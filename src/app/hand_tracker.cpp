@@ -172,7 +172,24 @@ std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& obser
     fit.joint_gap = raw_gap(fit.refined.pose);
     if (!best || fit.refined.score < best->refined.score) best = fit;
   }
+  if (best) relax_hidden(observation, best->refined);
   return best;
+}
+
+void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
+  // A search bends what no data holds at random; a hidden joint most likely bends like the one before it.
+  constexpr double kHidden = 0.15, kDistalShare = 2.0 / 3;
+  HandPose pose = found.pose;
+  for (int s = 1; s < kSegmentCount; ++s) {
+    if (found.visible[s] > kHidden) continue;
+    const bool root = parent_of(s) == kPalm;
+    const double before = root ? 0.0 : std::max(0.0, joint_angles(*profile_, pose, parent_of(s)).flexion);
+    pose[s] = pose[parent_of(s)] * profile_->rest_relative(s);
+    pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * before : before, 0, 0});
+  }
+  const RefinedPose at_start = refinement_.evaluate(observation, pose);
+  const RefinedPose relaxed = refinement_.refine(observation, pose, pose, freedom(at_start), params_.search_iterations);
+  if (relaxed.score < found.score * (1 + params_.sampling_advantage)) found = relaxed;
 }
 
 double HandTracker::raw_gap(const HandPose& pose) const {

@@ -38,6 +38,7 @@ class HandTracker {
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation);
+  void relax_hidden(const HandObservation& observation, RefinedPose& found);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);

@@ -22,7 +22,7 @@ struct TrackerParams {
   double search_advantage = 0.1;
   double nominal_rate = 30;
   double seen_fraction = 0.15;
-  int search_refined = 4;
+  int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
   double covariance_scale = 4;

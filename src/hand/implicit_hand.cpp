@@ -13,22 +13,29 @@ constexpr double kDegree = 0.017453292519943295;
 // The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
 // known poses. Factors multiply the profile's own sections.
 constexpr double kPalmBlend = 0.008;     // m, between the metacarpals
-constexpr double kThenarBlend = 0.013;   // m, between thumb and palm: the fold of skin
-constexpr double kFingerBlend = 0.0035;  // m, between fingers and palm: the webs
-constexpr double kKnuckleTaper = 0.62;   // a phalanx next to the palm has lost this much of its taper at kMiddle
-constexpr double kMiddle = 0.45;         // of a phalanx
-constexpr double kWristSpread = 0.45;    // of the wrist's half width: where the outer metacarpals begin
-constexpr double kWristWidth = 0.51;     // of one metacarpal tube at the wrist
+constexpr double kThenarBlend = 0.0125;   // m, between thumb and palm: the fold of skin
+constexpr double kFingerBlend = 0.004;  // m, between fingers and palm: the webs
+constexpr double kKnuckleTaper = 0.63;   // a phalanx next to the palm has lost this much of its taper at kMiddle
+constexpr double kMiddle = 0.48;         // of a phalanx
+constexpr double kWristSpread = 0.42;    // of the wrist's half width: where the outer metacarpals begin
+constexpr double kWristWidth = 0.515;     // of one metacarpal tube at the wrist
 constexpr double kWristThickness = 0.51;
-constexpr double kWristOffset = 0.22;
+constexpr double kWristOffset = 0.25;
 constexpr double kHeelAt = 0.38;         // the heel of the hand, as a fraction of the metacarpals
-constexpr double kHeelThickness = 0.73;  // of the wrist's section, which includes the root of the thumb
-constexpr double kHeelOffset = 0.79;
+constexpr double kHeelThickness = 0.72;  // of the wrist's section, which includes the root of the thumb
+constexpr double kHeelOffset = 0.78;
 constexpr double kKnuckleThickness = 0.88;
-constexpr double kKnuckleOffset = 0.83;
+constexpr double kKnuckleOffset = 0.85;
 constexpr double kThenarRoot = 0.94;
-constexpr double kThenarTaper = 0.70;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
-constexpr double kThenarMiddle = 0.36;
+constexpr double kThenarTaper = 0.67;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
+constexpr double kThenarMiddle = 0.365;
+constexpr double kBorder = 1.15;          // the palm's border lies outside the outer knuckles' sections
+constexpr double kProximalOffset = 0.89;  // flesh under a proximal phalanx at its middle
+constexpr double kWebBlend = 0.0045;      // m, between a web and its fingers
+constexpr double kWebAt = 0.23;           // of the proximal phalanges: where the fold of skin between them lies
+constexpr double kWebHalfLength = 1.09;   // along the fingers, of their thickness at the next joint
+constexpr double kWebThickness = 0.95;
+constexpr double kWebOffset = 1.57;       // towards the palm, of the knuckles' flesh offset
 
 // Polynomial smooth minimum: differs from min only where |a - b| < k, by at most k / 4.
 double smooth_min(double a, double b, double k) {
@@ -59,6 +66,15 @@ HandPose spread_pose(const HandProfile& profile) {
   return forward_kinematics(profile, profile.segments[kPalm].T_hand_segment, angles);
 }
 
+// Frame at `start` with -z towards `end` and y near `up`.
+SE3 frame_along(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d z = (start - end).normalized();
+  const Eigen::Vector3d x = up.cross(z).normalized();
+  SE3 frame{Eigen::Matrix3d::Identity(), start};
+  frame.R << x, z.cross(x), z;
+  return frame;
+}
+
 EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int segment) {
   const SegmentProfile& s = profile.segments[segment];
   EllipticTube tube;
@@ -76,6 +92,11 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
     taper = kKnuckleTaper;  // flesh around a knuckle thins out fast
   }
   tube.sections = {proximal, mix(proximal, distal, taper), distal};
+  if (parent_of(segment) == kPalm && segment != segment_of(0, 0)) {
+    tube.sections[0].half_y *= kKnuckleThickness;
+    tube.sections[0].centre_y *= kKnuckleOffset;
+    tube.sections[1].centre_y *= kProximalOffset;
+  }
   // The tip's skin ends one distal radius beyond the tip joint; other ends only need to meet their neighbour.
   tube.cap = {std::min(s.half_width[0], s.half_thickness[0]),
               is_tip(segment) ? s.radius[1] : std::min(distal.half_x, distal.half_y)};
@@ -93,20 +114,16 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
 
   const double little_side = knuckle(4).x() > knuckle(1).x() ? 1.0 : -1.0;
   // Towards a neighbour the tube runs on to that neighbour's bone: no groove between metacarpals.
-  const double reach_little = finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x;
-  const double reach_thumb = finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x;
+  const double reach_little = finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorder;
+  const double reach_thumb = finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x * kBorder;
 
   // At the wrist the four tubes share the wrist's section.
   const double slot = (finger - 2.5) / 4 * 2 * wrist.half_x * kWristSpread * little_side;
   const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
   const Eigen::Vector3d end = knuckle(finger);
 
-  const Eigen::Vector3d z = (start - end).normalized();
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
-  Eigen::Matrix3d R_palm_tube;
-  R_palm_tube << x, z.cross(x), z;
   EllipticTube tube;
-  tube.T_tube_hand = (T_hand_palm * SE3{R_palm_tube, start}).inverse();
+  tube.T_tube_hand = (T_hand_palm * frame_along(start, end, Eigen::Vector3d::UnitY())).inverse();
   tube.length = (end - start).norm();
   tube.middle = kHeelAt;
   tube.sections[0] = {wrist.half_x * kWristWidth, wrist.half_y * kWristThickness, 0, wrist.centre_y * kWristOffset};
@@ -118,6 +135,25 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   tube.sections[1].half_y = wrist.half_y * kHeelThickness;
   tube.sections[1].centre_y = wrist.centre_y * kHeelOffset;
   tube.cap = {0.004, std::min(root.half_x, root.half_y) * 0.8};
+  return tube;
+}
+
+// The fold of skin between finger `finger` and the next one.
+EllipticTube web_tube(const HandProfile& profile, const HandPose& pose, int finger) {
+  const int a = segment_of(finger, 0), b = segment_of(finger + 1, 0);
+  const auto anchor = [&](int s) {
+    const SegmentProfile& proximal = profile.segments[s];
+    return Eigen::Vector3d(
+        pose[s] * (Eigen::Vector3d(0, kWebOffset * proximal.flesh_offset_y[0], 0) + kWebAt * proximal.distal));
+  };
+  const Eigen::Vector3d start = anchor(a), end = anchor(b);
+  const double thin = std::min(profile.segments[a].half_thickness[1], profile.segments[b].half_thickness[1]);
+  const EllipticSection section{kWebHalfLength * thin, kWebThickness * thin, 0, 0};
+  EllipticTube tube;
+  tube.T_tube_hand = frame_along(start, end, pose[a].R.col(1) + pose[b].R.col(1)).inverse();
+  tube.length = (end - start).norm();
+  tube.sections = {section, section, section};
+  tube.cap = {0.002, 0.002};
   return tube;
 }
 
@@ -142,6 +178,7 @@ ImplicitHand::ImplicitHand(const HandProfile& profile) : pose_(spread_pose(profi
   for (int finger = 1; finger < kFingerCount; ++finger) tubes_.push_back(metacarpal_tube(profile, pose_, finger));
   palm_tubes_ = static_cast<int>(tubes_.size());
   for (int s = 1; s < kSegmentCount; ++s) tubes_.push_back(phalanx_tube(profile, pose_, s));
+  for (int finger = 1; finger + 1 < kFingerCount; ++finger) tubes_.push_back(web_tube(profile, pose_, finger));
 }
 
 double ImplicitHand::segment_distance(int segment, const Eigen::Vector3d& p) const {
@@ -162,7 +199,10 @@ double ImplicitHand::distance(const Eigen::Vector3d& p) const {
     else
       fingers = std::min(fingers, chain);
   }
-  return smooth_min(d, fingers, kFingerBlend);
+  d = smooth_min(d, fingers, kFingerBlend);
+  for (std::size_t web = palm_tubes_ + kSegmentCount - 1; web < tubes_.size(); ++web)
+    d = smooth_min(d, tubes_[web].distance(p), kWebBlend);
+  return d;
 }
 
 }  // namespace barehand

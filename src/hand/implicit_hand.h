@@ -26,7 +26,8 @@ struct EllipticTube {
 };
 
 /// The hand as an implicit surface in a pose with spread fingers, so that neighbouring fingers do not melt together.
-/// Phalanges follow the profile's sections; the palm is built from one tube per finger between wrist and knuckle.
+/// Phalanges follow the profile's sections; the palm is built from one tube per finger between wrist and knuckle,
+/// and a short tube across each pair of fingers is the web between them.
 class ImplicitHand {
  public:
   explicit ImplicitHand(const HandProfile& profile);
@@ -40,7 +41,7 @@ class ImplicitHand {
 
  private:
   HandPose pose_;
-  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15
+  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15, then the webs
   int palm_tubes_ = 0;
 };
 

@@ -161,17 +161,26 @@ void CoarseScorer::project(const CoarseSkin::Part& part, const SE3& T) {
 
 double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
-  int beyond_region = 0, beyond_image = 0;
+  double beyond_region = 0;
+  int beyond_image = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const bool seen = facing_[i] < 0;
     const bool off_grid = (u_[i] < 0.5f) | (v_[i] < 0.5f) | (u_[i] > w - 0.5f) | (v_[i] > h - 0.5f);
+    if (!(off_grid & (facing_[i] < 0))) continue;
     const bool off_image =
         (u_[i] < image_lo_u_) | (v_[i] < image_lo_v_) | (u_[i] > image_hi_u_) | (v_[i] > image_hi_v_);
-    beyond_region += seen & off_grid & !off_image;
-    beyond_image += seen & off_grid & off_image;
+    beyond_image += off_image;
+    if (!off_image) beyond_region += border_cost(u_[i], v_[i], z_[i]);
   }
-  // Beyond the region of interest, yet in the image, no hand was found.
-  return params_.background * beyond_region + params_.outside * beyond_image;
+  return beyond_region + params_.outside * beyond_image;
+}
+
+/// Beyond the region of interest, yet in the image, no hand was found: what lies at the region's border goes on there,
+/// be it background or an object that hides the hand.
+double CoarseScorer::border_cost(float u, float v, float z) const {
+  const int i = std::clamp(static_cast<int>(std::lround(u)), kBorder, camera_.width - 1 - kBorder);
+  const int j = std::clamp(static_cast<int>(std::lround(v)), kBorder, camera_.height - 1 - kBorder);
+  const std::size_t cell = static_cast<std::size_t>(j) * camera_.width + i;
+  return z < costs_.data[cell] ? costs_.front[cell] : costs_.behind[cell];
 }
 
 void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer) {

@@ -14,7 +14,7 @@ struct CoarseScoreParams {
   double depth_cap = 0.05;     ///< [m] depth differences and image distances count up to this
   double background = 1.2;     ///< model where the background is seen, at the cap
   double unknown = 0.4;        ///< model where nothing is measured and no hand is near
-  double hidden = 0.15;        ///< model behind an object: allowed, but seen hands are better
+  double hidden = 0.03;        ///< model behind an object: allowed, but seen hands are better
   double outside = 0.4;        ///< model outside the image
   double unexplained = 1.0;    ///< hand cells without model
   double no_forearm = 0.6;     ///< forearm where the background is seen
@@ -55,6 +55,7 @@ class CoarseScorer {
   void project(const CoarseSkin::Part& part, const SE3& T);
   void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
   double outside_cost(const CoarseSkin::Part& part) const;
+  double border_cost(float u, float v, float z) const;
   double sum_of_costs() const;
 
   const CoarseSkin& skin_;

@@ -15,9 +15,9 @@ struct SearchEffort {
   int rolls = 8;                 ///< rotations about the finger axis, among them palm and back to the camera
   int pitches = 3;               ///< leanings of the fingers towards the camera and away
   int shapes = 6;                ///< number of shape templates, from open to fist
-  int first_survivors = 24;      ///< templates improved on the coarse grid
+  int first_survivors = 72;      ///< templates improved on the coarse grid
   int first_evaluations = 120;   ///< trials for each
-  int second_survivors = 8;      ///< of these, improved by ICP and on the fine grid
+  int second_survivors = 24;     ///< of these, improved by ICP and on the fine grid
   int second_evaluations = 400;  ///< trials for each
 };
 
@@ -38,7 +38,7 @@ struct InitialiserParams {
   double fine_cell = 0.005;    ///< [m] cells of the second round
   double widening = 0.17;      ///< [rad] added to the profile's joint limits
   int min_hand_pixels = 200;   ///< fewer: no start is proposed
-  int results = 6;             ///< start poses returned at most
+  int results = 12;            ///< start poses returned at most
   double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
   SearchEffort full;
   SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost

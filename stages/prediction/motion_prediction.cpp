@@ -62,17 +62,18 @@ double MotionModel::damping_of(int segment, double dt) const {
 
 HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, double dt) const {
   HandPose pose = carried;
+  std::array<Vector6d, kSegmentCount> velocity;
   for (int s = 0; s < kSegmentCount; ++s) {
-    Vector6d velocity = velocity_[s];
-    velocity << motion.R * velocity.head<3>(), motion.R * velocity.tail<3>();  // the velocity turns with the hand
-    pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity);
-  }
-  // An unseen segment keeps its orientation but stays on the joint of a parent that moved.
-  for (int s = 1; s < kSegmentCount; ++s) {
-    if (seen_[s]) continue;
+    velocity[s] << motion.R * velocity_[s].head<3>(), motion.R * velocity_[s].tail<3>();  // turns with the hand
+    if (s == kPalm || seen_[s]) {
+      pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity[s]);
+      continue;
+    }
+    // What is not seen keeps its joint angles and goes with its parent, which may be seen to move.
     const int parent = parent_of(s);
-    const Eigen::Vector3d joint_in_parent = carried[parent].inverse() * carried[s].t;
-    pose[s].t = pose[parent] * joint_in_parent;
+    pose[s] = pose[parent] * (carried[parent].inverse() * carried[s]);
+    const Eigen::Vector3d bending = velocity[s].tail<3>() - velocity[parent].tail<3>();
+    pose[s].R = exp_so3(damping_of(s, dt) * dt * bending) * pose[s].R;
   }
   return pose;
 }
