@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Everything Barehand needs on a fresh Debian 12: packages, the simulator's hand mesh, a release build.
+#   deploy/setup.sh            install, fetch, build
+#   deploy/setup.sh --tests    the same with the tests, then run them
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+
+mapfile -t packages <deploy/packages.txt
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  as_root apt-get update
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
+fi
+deploy/fetch_hand_mesh.sh
+
+if [ "${1:-}" = --tests ]; then
+  cmake --preset release
+  cmake --build --preset release
+  ctest --preset release
+else
+  cmake --preset release -DBAREHAND_TESTS=OFF
+  cmake --build --preset release --target barehand
+fi
