@@ -14,7 +14,7 @@ namespace barehand {
 /// their velocity is noise that feeds itself.
 struct PredictionParams {
   bool velocity = true;              ///< constant velocity per segment
-  double damping = 0.9;              ///< fraction of a seen segment's relative velocity that is kept
+  double damping = 0.7;              ///< fraction of a seen segment's relative velocity that is kept
   double unseen_damping = 0.0;       ///< the same for unseen segments at sensor rate
   double slow_unseen_damping = 0.5;  ///< and for unseen segments below `slow_rate`
   double slow_rate = 10;             ///< [Hz] frame rate below which unseen segments keep some velocity

@@ -17,7 +17,7 @@ struct EnergyParams {
   double silhouette_scale = 0.008;   ///< m, Geman-McClure scale of silhouette distances
   double silhouette_gate = 0.040;    ///< m, larger silhouette distances are ignored
   double weight_outside = 0.5;       ///< of model pixels where the data shows no hand
-  double weight_unexplained = 0.5;   ///< of hand data that no model pixel explains
+  double weight_unexplained = 1.0;   ///< of hand data that no model pixel explains
   double sigma_gap = 0.0005;         ///< m, joint gap (Eq. 5)
   double sigma_angle_deg = 2.0;      ///< angles beyond the limits, and twist (Eq. 6)
   double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (Sec. 4.3)

@@ -21,35 +21,43 @@ std::vector<TrackStatus> play(LossDetector& detector, const std::vector<TrackEvi
 
 using S = TrackStatus;
 
+// The tests' scores are chosen around these, whatever the defaults are.
+LossParams thresholds() {
+  LossParams params;
+  params.lost_score = 0.004;
+  params.recovered_score = 0.003;
+  return params;
+}
+
 TEST(LossDetector, TracksFromTheFirstGoodFrame) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   EXPECT_EQ(play(detector, {no_data(), scored(0.009), scored(0.0035), scored(0.002)}),
             (std::vector{S::searching, S::searching, S::searching, S::tracking}));
 }
 
 TEST(LossDetector, IsLostAfterSeveralBadFramesInARow) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   detector.start_tracking();
   EXPECT_EQ(play(detector, {scored(0.006), scored(0.006), scored(0.006), scored(0.006)}),
             (std::vector{S::tracking, S::tracking, S::tracking, S::lost}));
 }
 
 TEST(LossDetector, AGoodFrameEndsTheRun) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   detector.start_tracking();
   for (int i = 0; i < 5; ++i) play(detector, {scored(0.006), scored(0.006), scored(0.006), scored(0.002)});
   EXPECT_EQ(detector.status(), S::tracking);
 }
 
 TEST(LossDetector, BetweenTheThresholdsNothingChanges) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   for (int i = 0; i < 20; ++i) EXPECT_EQ(detector.update(scored(0.0035)), S::searching);
   detector.start_tracking();
   for (int i = 0; i < 20; ++i) EXPECT_EQ(detector.update(scored(0.0035)), S::tracking);
 }
 
 TEST(LossDetector, HoldsWithoutDataThenLosesThenForgets) {
-  LossParams params;
+  LossParams params = thresholds();
   params.hold_time = 2.5 * kFrame;
   params.forget_time = 1.5 * kFrame;
   LossDetector detector(params);
@@ -59,21 +67,21 @@ TEST(LossDetector, HoldsWithoutDataThenLosesThenForgets) {
 }
 
 TEST(LossDetector, ReturnsFromHolding) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   detector.start_tracking();
   EXPECT_EQ(play(detector, {no_data(), scored(0.002), no_data(), scored(0.0035)}),
             (std::vector{S::holding, S::tracking, S::holding, S::tracking}));
 }
 
 TEST(LossDetector, BadFramesCountAcrossHolding) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   detector.start_tracking();
   EXPECT_EQ(play(detector, {scored(0.006), scored(0.006), no_data(), scored(0.006), scored(0.006)}),
             (std::vector{S::tracking, S::tracking, S::holding, S::holding, S::lost}));
 }
 
 TEST(LossDetector, RecoversFromLossByGoodFramesOnly) {
-  LossParams params;
+  LossParams params = thresholds();
   params.good_frames = 2;
   LossDetector detector(params);
   detector.start_tracking();
@@ -83,7 +91,7 @@ TEST(LossDetector, RecoversFromLossByGoodFramesOnly) {
 }
 
 TEST(LossDetector, MissingAndNanScoresAreBad) {
-  LossDetector detector{LossParams{}};
+  LossDetector detector{thresholds()};
   detector.start_tracking();
   TrackEvidence unscored = scored(0);
   unscored.score.reset();
@@ -92,7 +100,7 @@ TEST(LossDetector, MissingAndNanScoresAreBad) {
 }
 
 TEST(LossDetector, ThresholdsGrowWithNoiseAndHand) {
-  const LossDetector detector{LossParams{}};
+  const LossDetector detector{thresholds()};
   TrackEvidence noisy = scored(0), large = scored(0);
   noisy.noise = 0.003;
   large.hand_length = 0.38;
