@@ -10,7 +10,8 @@ namespace {
 using Level = Finding::Level;
 
 std::string write_file(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "doctor_test";
+  const std::string path =
+      ::testing::TempDir() + "doctor_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
   std::ofstream(path) << text;
   return path;
 }

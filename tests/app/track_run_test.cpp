@@ -58,7 +58,8 @@ class TrackRun : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  const std::string folder_ = ::testing::TempDir() + "track_run_test";
+  const std::string folder_ =
+      ::testing::TempDir() + "track_run_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(TrackRun, FinishesARecordingWithASummary) {

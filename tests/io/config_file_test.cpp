@@ -41,7 +41,8 @@ void visit(V& v, Outer& p) {
 
 class ConfigFile : public ::testing::Test {
  protected:
-  const std::string path_ = ::testing::TempDir() + "config_file_test.yaml";
+  const std::string path_ =
+      ::testing::TempDir() + "config_file_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml";
   const std::string good_ = print_config(Outer{});
 
   Result<Outer> load(const std::string& text) {
