@@ -9,22 +9,11 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr double kDistinct = 0.001;  // start poses closer than this are the same [m]
 
-std::shared_ptr<const Skin> make_skin(const TrackerParams& params, const HandProfile& profile) {
-  return std::make_shared<const Skin>(make_blended_skin(profile, params.skin_cell));
-}
-
-std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, const HandProfile& profile) {
-  if (params.skin == "cylinders")
-    return std::make_shared<const HandSurface>(make_cylinder_surface(profile, params.skin_points));
-  return std::make_shared<const HandSurface>(
-      surface_points(make_blended_skin(profile, params.skin_cell), profile, params.skin_points));
-}
-
-// How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
-std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
-  std::array<double, kSegmentCount> free;
-  for (int s = 0; s < kSegmentCount; ++s) free[s] = std::clamp(at_start.matched[s] / 0.4, 0.0, 1.0);
-  return free;
+std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, const HandProfile& profile,
+                                                const Skin& skin) {
+  return std::make_shared<const HandSurface>(params.skin == "cylinders"
+                                                 ? make_cylinder_surface(profile, params.skin_points)
+                                                 : surface_points(skin, profile, params.skin_points));
 }
 
 }  // namespace
@@ -33,11 +22,12 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
                          Workers& workers)
     : params_(params),
       profile_(std::move(profile)),
-      surface_(make_surface(params_, *profile_)),
+      skin_(std::make_shared<const Skin>(make_blended_skin(*profile_, params_.skin_cell))),
+      surface_(make_surface(params_, *profile_, *skin_)),
       seed_(seed),
       segment_tracker_(params_.segment_tracker, surface_, workers),
       fusion_(params_.fusion, profile_, workers),
-      refinement_(params_.refinement, profile_, make_skin(params_, *profile_)),
+      refinement_(params_.refinement, profile_, skin_),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
       initialiser_(profile_, params_.initialiser) {}
@@ -132,7 +122,7 @@ RefinedPose HandTracker::refine_best_start(const HandObservation& observation, c
       start = &pose;
     }
   }
-  return refinement_.refine(observation, *start, prediction.primary(), freedom(best), params_.refinement.iterations);
+  return refinement_.refine(observation, *start, prediction.primary(), params_.refinement.iterations);
 }
 
 std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& observation) {
@@ -146,15 +136,14 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   }
   const FusedPose fused = sample(observation, *fit.prediction);
   fit.joint_gap = raw_gap(fused.pose);
-  RefinedPose sampled = refinement_.evaluate(observation, fused.pose);
   if (!refine) {
-    fit.refined = sampled;
+    fit.refined = refinement_.evaluate(observation, fused.pose);
     fit.refined.covariance = fused.covariance;
     return fit;
   }
   // A good local fit must not be spoilt by a sampled one that only looks as good.
-  sampled = refinement_.refine(observation, fused.pose, fit.prediction->primary(), freedom(sampled),
-                               params_.refinement.iterations);
+  const RefinedPose sampled =
+      refinement_.refine(observation, fused.pose, fit.prediction->primary(), params_.refinement.iterations);
   if (sampled.score < fit.refined.score * (1 - params_.sampling_advantage)) fit.refined = sampled;
   return fit;
 }
@@ -165,10 +154,8 @@ std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& obser
   std::optional<Fit> best;
   const int count = std::min<int>(params_.search_refined, static_cast<int>(starts.size()));
   for (int i = 0; i < count; ++i) {
-    const RefinedPose at_start = refinement_.evaluate(observation, starts[i].pose);
     Fit fit;
-    fit.refined =
-        refinement_.refine(observation, starts[i].pose, starts[i].pose, freedom(at_start), params_.search_iterations);
+    fit.refined = refinement_.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
     fit.joint_gap = raw_gap(fit.refined.pose);
     if (!best || fit.refined.score < best->refined.score) best = fit;
   }
@@ -187,8 +174,7 @@ void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& 
     pose[s] = pose[parent_of(s)] * profile_->rest_relative(s);
     pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * before : before, 0, 0});
   }
-  const RefinedPose at_start = refinement_.evaluate(observation, pose);
-  const RefinedPose relaxed = refinement_.refine(observation, pose, pose, freedom(at_start), params_.search_iterations);
+  const RefinedPose relaxed = refinement_.refine(observation, pose, pose, params_.search_iterations);
   if (relaxed.score < found.score * (1 + params_.sampling_advantage)) found = relaxed;
 }
 

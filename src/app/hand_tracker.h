@@ -49,6 +49,7 @@ class HandTracker {
 
   TrackerParams params_;
   std::shared_ptr<const HandProfile> profile_;
+  std::shared_ptr<const Skin> skin_;
   std::shared_ptr<const HandSurface> surface_;
   std::uint64_t seed_;
   SegmentTracker segment_tracker_;

@@ -6,7 +6,15 @@
 namespace barehand {
 namespace {
 constexpr double kDegree = 0.017453292519943295;
+
+// How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
+std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
+  std::array<double, kSegmentCount> free;
+  for (int s = 0; s < kSegmentCount; ++s) free[s] = std::clamp(at_start.matched[s] / 0.4, 0.0, 1.0);
+  return free;
 }
+
+}  // namespace
 
 Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
                        std::shared_ptr<const Skin> skin)
@@ -63,15 +71,17 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
 }
 
 RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                               const std::array<double, kSegmentCount>& seen, int iterations) {
+                               int iterations) {
   HandPose pose = start;
   compare_at(observation, pose);
+  RefinedPose result;
+  summarise(result);
+  const std::array<double, kSegmentCount> seen = freedom(result);
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), pose)) break;
     compare_at(observation, pose);
   }
-  RefinedPose result;
   result.pose = pose;
   summarise(result);
   if (!tree_.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);

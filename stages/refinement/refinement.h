@@ -45,10 +45,10 @@ class Refinement {
   Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
              std::shared_ptr<const Skin> skin);
 
-  /// Moves `start` to a nearby optimum. `predicted` is the weak prior; `seen[s]` in [0, 1] says how far segment s may
-  /// leave it freely.
+  /// Moves `start` to a nearby optimum. `predicted` is the weak prior: a segment may leave it the more freely, the more
+  /// of its skin agrees with data at `start`.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                     const std::array<double, kSegmentCount>& seen, int iterations);
+                     int iterations);
   /// Score and visibility of a pose as it is.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose);
 

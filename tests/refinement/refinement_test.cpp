@@ -17,11 +17,6 @@ class RefinementTest : public ::testing::Test {
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   std::shared_ptr<const Skin> skin_ = std::make_shared<Skin>(make_blended_skin(*profile_, 0.004));
   Refinement refinement_{RefinementParams{}, profile_, skin_};
-  std::array<double, kSegmentCount> seen_ = [] {
-    std::array<double, kSegmentCount> all;
-    all.fill(1);
-    return all;
-  }();
 };
 
 TEST_F(RefinementTest, FindsAPoseFromTenMillimetresAndDegreesAway) {
@@ -30,7 +25,7 @@ TEST_F(RefinementTest, FindsAPoseFromTenMillimetresAndDegreesAway) {
   HandPose start = test::facing_pose(*profile_, 0.45, 0.2);
   for (SE3& T : start) T.t += Eigen::Vector3d(0.006, -0.005, 0.006);
   ASSERT_GT(mean_end_error(start, truth), 0.008);
-  const RefinedPose refined = refinement_.refine(*observation, start, start, seen_, 12);
+  const RefinedPose refined = refinement_.refine(*observation, start, start, 12);
   EXPECT_LT(mean_end_error(refined.pose, truth), 0.001);
   EXPECT_LT(refined.score, 0.0005);
 }
@@ -39,7 +34,7 @@ TEST_F(RefinementTest, JointsStayClosed) {
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.35);
   const auto observation = test::observe_skin(*skin_, truth);
   const HandPose start = test::facing_pose(*profile_, 0.45, 0.1);
-  const RefinedPose refined = refinement_.refine(*observation, start, start, seen_, 12);
+  const RefinedPose refined = refinement_.refine(*observation, start, start, 12);
   for (int s = 1; s < kSegmentCount; ++s)
     EXPECT_LT((joint_in_parent(*profile_, refined.pose, s) - refined.pose[s].t).norm(), 0.0005) << s;
 }
@@ -54,9 +49,7 @@ TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
     }
   HandPose start = truth;
   for (SE3& T : start) T.t += Eigen::Vector3d(0.004, 0.003, -0.004);
-  std::array<double, kSegmentCount> seen = seen_;
-  for (int s = 4; s < kSegmentCount; ++s) seen[s] = 0;
-  const RefinedPose refined = refinement_.refine(*observation, start, start, seen, 10);
+  const RefinedPose refined = refinement_.refine(*observation, start, start, 10);
   EXPECT_LT(
       (distal_end(*profile_, refined.pose, segment_of(2, 2)) - distal_end(*profile_, truth, segment_of(2, 2))).norm(),
       0.006);
