@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 #include "math/schedule.h"
+#include "stages/segment_tracker/cpu_observer.h"
+#include "stages/segment_tracker/patch_distance.h"
 #include "stages/segment_tracker/self_occlusion.h"
 
 namespace barehand {
 namespace {
-
-constexpr int kChunk = 16;  // samples per task: small enough to balance, large enough to be worth a task
 
 void copy_labels(const Image<std::uint16_t>& hidden, PixelMap& map) {
   assert(hidden.width() + 2 == map.width && hidden.height() + 2 == map.height);
@@ -19,19 +18,22 @@ void copy_labels(const Image<std::uint16_t>& hidden, PixelMap& map) {
 }
 
 /// Eq. 3. A sample without evidence gets the mean distance of its siblings: neither punished nor preferred.
-std::vector<double> log_likelihood(const std::vector<double>& mean_distance, const std::vector<char>& has_evidence,
-                                   double alpha, double sigma_obs) {
+std::vector<double> log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha,
+                                   double sigma_obs) {
+  const auto has_evidence = [&](const PatchDistance& p) {
+    return p.counted > 0 && p.counted_fraction() >= min_counted;
+  };
   double sum = 0;
   int count = 0;
-  for (std::size_t i = 0; i < mean_distance.size(); ++i) {
-    if (!has_evidence[i]) continue;
-    sum += mean_distance[i];
+  for (const PatchDistance& patch : patches) {
+    if (!has_evidence(patch)) continue;
+    sum += patch.mean();
     ++count;
   }
   const double neutral = count > 0 ? sum / count : 0;
-  std::vector<double> log_l(mean_distance.size());
+  std::vector<double> log_l(patches.size());
   for (std::size_t i = 0; i < log_l.size(); ++i) {
-    const double d = (has_evidence[i] ? mean_distance[i] : neutral) / sigma_obs;
+    const double d = (has_evidence(patches[i]) ? patches[i].mean() : neutral) / sigma_obs;
     log_l[i] = -alpha * d * d;
   }
   return log_l;
@@ -40,19 +42,20 @@ std::vector<double> log_likelihood(const std::vector<double>& mean_distance, con
 }  // namespace
 
 SegmentTracker::SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface,
-                               Workers& workers)
-    : params_(params), surface_(std::move(surface)), workers_(workers) {}
+                               Workers& workers, std::unique_ptr<Observer> observer)
+    : params_(params), surface_(std::move(surface)), workers_(workers), observer_(std::move(observer)) {
+  if (!observer_) observer_ = std::make_unique<CpuObserver>(surface_, distance_cap(params_), workers_);
+}
 
 PatchDistance SegmentTracker::compare(const PreparedObservation& prepared, int segment,
                                       const SE3& T_camera_segment) const {
-  const float cap = params_.pixel_distance_cap > 0 ? static_cast<float>(params_.pixel_distance_cap)
-                                                   : std::numeric_limits<float>::infinity();
-  return patch_distance((*surface_)[segment], T_camera_segment, segment, prepared.map, cap);
+  return patch_distance((*surface_)[segment], T_camera_segment, segment, prepared.map, distance_cap(params_));
 }
 
 PreparedObservation SegmentTracker::prepare(const HandObservation& observation, const HandPose& predicted,
                                             const Image<std::uint16_t>* hidden) const {
   PreparedObservation prepared;
+  prepared.id = ++prepared_count_;
   prepared.map = make_pixel_map(observation, params_.missing_depth == "background", workers_);
   if (hidden)
     copy_labels(*hidden, prepared.map);
@@ -65,29 +68,19 @@ PreparedObservation SegmentTracker::prepare(const HandObservation& observation, 
 
 SegmentSamples SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
                                       const SampleKey& key) const {
-  const int count = params_.samples, chunks = (count + kChunk - 1) / kChunk;
+  const int count = params_.samples, chunks = (count + kSampleChunk - 1) / kSampleChunk;
   SegmentSamples samples;
-  std::array<std::vector<double>, kSegmentCount> distance;
-  std::array<std::vector<char>, kSegmentCount> has_evidence;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    samples.poses[s].resize(count);
-    distance[s].assign(count, 0.0);
-    has_evidence[s].assign(count, 0);
-  }
+  for (auto& poses : samples.poses) poses.resize(count);
   workers_.for_each_index(kSegmentCount * chunks, [&](int task) {
-    const int s = task / chunks, begin = task % chunks * kChunk, end = std::min(begin + kChunk, count);
-    for (int i = begin; i < end; ++i) {
-      samples.poses[s][i] = draw_sample(proposals[s], s, i, key);
-      if (!observed(s)) continue;
-      const PatchDistance patch = compare(prepared, s, samples.poses[s][i]);
-      distance[s][i] = patch.mean();
-      has_evidence[s][i] = patch.counted > 0 && patch.counted_fraction() >= params_.min_counted;
-    }
+    const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
+    for (int i = begin; i < end; ++i) samples.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
+  PatchDistances distances;
+  observer_->compare({prepared.map, prepared.id, samples.poses, params_.observe_palm ? kPalm : kPalm + 1}, distances);
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);
   samples.unoccluded = prepared.unoccluded;
   for (int s = 0; s < kSegmentCount; ++s)
-    samples.log_likelihood[s] = log_likelihood(distance[s], has_evidence[s], prepared.unoccluded[s], sigma_obs);
+    samples.log_likelihood[s] = log_likelihood(distances[s], params_.min_counted, prepared.unoccluded[s], sigma_obs);
   return samples;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "core/parallel.h"
 #include "hand/samples.h"
 #include "hand/surface.h"
 #include "observe/observation.h"
-#include "stages/segment_tracker/patch_distance.h"
-#include "stages/segment_tracker/pixel_map.h"
+#include "observe/observer.h"
 #include "stages/segment_tracker/sampling.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
@@ -16,14 +16,17 @@ namespace barehand {
 /// One frame as all levels of the local trackers share it: data, and what is hidden at the prediction.
 struct PreparedObservation {
   PixelMap map;
+  std::uint64_t id = 0;                            ///< of the map, unique within its tracker
   std::array<double, kSegmentCount> unoccluded{};  ///< alpha of Eq. 3 at the predicted pose
 };
 
-/// The 16 local trackers of Sec. 4: each draws its own samples and judges them by the data around it alone. Stateless
-/// between calls; results do not depend on the number of workers.
+/// The 16 local trackers of Sec. 4: each draws its own samples and judges them by the data around it alone. What it
+/// returns depends on the arguments only, not on earlier calls or the number of workers.
 class SegmentTracker {
  public:
-  SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface, Workers& workers);
+  /// `observer` compares the samples with the data; none: the CPU does.
+  SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface, Workers& workers,
+                 std::unique_ptr<Observer> observer = nullptr);
 
   const SegmentTrackerParams& params() const { return params_; }
 
@@ -40,11 +43,11 @@ class SegmentTracker {
   PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;
 
  private:
-  bool observed(int segment) const { return segment != kPalm || params_.observe_palm; }
-
   SegmentTrackerParams params_;
   std::shared_ptr<const HandSurface> surface_;
   Workers& workers_;
+  std::unique_ptr<Observer> observer_;
+  mutable std::atomic<std::uint64_t> prepared_count_ = 0;
 };
 
 }  // namespace barehand

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "math/random.h"
-#include "tests/segment_tracker/scene.h"
+#include "tests/support/scene.h"
 
 namespace barehand {
 namespace {

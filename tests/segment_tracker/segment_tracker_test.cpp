@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "tests/segment_tracker/scene.h"
+#include "tests/support/scene.h"
 
 namespace barehand {
 namespace {

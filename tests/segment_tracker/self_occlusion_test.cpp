@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/segment_tracker/scene.h"
+#include "tests/support/scene.h"
 
 namespace barehand {
 namespace {

@@ -1,8 +1,8 @@
-#include "stages/segment_tracker/pixel_map.h"
+#include "observe/pixel_map.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/segment_tracker/scene.h"
+#include "tests/support/scene.h"
 
 namespace barehand {
 namespace {

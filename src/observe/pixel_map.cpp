@@ -1,4 +1,4 @@
-#include "stages/segment_tracker/pixel_map.h"
+#include "observe/pixel_map.h"
 
 #include <algorithm>
 #include <limits>
