@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "app/bench_command.h"
 #include "app/convert_command.h"
 #include "app/doctor_command.h"
 #include "app/eval_command.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   barehand::add_convert_command(app, exit_code);
   barehand::add_eval_command(app, exit_code);
   barehand::add_listen_command(app, exit_code);
+  barehand::add_bench_command(app, exit_code);
   barehand::add_doctor_command(app, exit_code);
   try {
     app.parse(argc, argv);

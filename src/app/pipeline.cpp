@@ -24,9 +24,9 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
       options_(options),
       clock_(clock),
       log_(log),
-      door_("door", capacity(stages_.source, options), door_policy(stages_.source)),
-      to_track_("to track", capacity(stages_.source, options), Overflow::block),
-      to_sinks_("to sinks", capacity(stages_.source, options), Overflow::block),
+      queues_{Queue{"door", capacity(stages_.source, options), door_policy(stages_.source)},
+              Queue{"to track", capacity(stages_.source, options), Overflow::block},
+              Queue{"to sinks", capacity(stages_.source, options), Overflow::block}},
       preprocess_monitor_("preprocess", clock),
       track_monitor_("track", clock) {
   for (const Sink* sink : stages_.sinks) sink_monitors_.push_back(std::make_unique<StageMonitor>(sink->name(), clock));
@@ -45,25 +45,25 @@ RunResult Pipeline::run() {
 
 void Pipeline::run_threaded() {
   std::jthread sinks([&] {
-    while (auto item = to_sinks_.pop()) deliver(*item);
+    while (auto item = pop(kToSinks)) deliver(*item);
   });
   std::jthread tracker([&] {
-    while (auto item = to_track_.pop())
-      if (track(*item)) to_sinks_.push(std::move(*item));
-    to_sinks_.close();
+    while (auto item = pop(kToTrack))
+      if (track(*item)) push(kToSinks, std::move(*item));
+    queues_[kToSinks].close();
   });
   std::jthread preprocessor([&] {
     while (true) {
       const HandEstimatePtr hint = take_hint();  // first: a frame that waits for it at the door can still be replaced
-      auto item = door_.pop();
+      auto item = pop(kDoor);
       if (!item) break;
-      if (preprocess(*item, hint.get())) to_track_.push(std::move(*item));
+      if (preprocess(*item, hint.get())) push(kToTrack, std::move(*item));
     }
-    to_track_.close();
+    queues_[kToTrack].close();
   });
   while (capture(options_.patience) != Capture::end) {
   }
-  door_.close();  // the rest follows downstream; the threads are joined in that order
+  queues_[kDoor].close();  // the rest follows downstream; the threads are joined in that order
 }
 
 void Pipeline::run_inline() {
@@ -72,8 +72,28 @@ void Pipeline::run_inline() {
     captured = capture(options_.patience);
     if (stages_.source.live())  // what arrived while the last frame was tracked: the newest wins, as with threads
       for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
-    while (auto item = door_.try_pop()) process(std::move(*item));
+    while (auto item = try_pop(kDoor)) process(std::move(*item));
   }
+}
+
+bool Pipeline::push(QueueIndex queue, Item item) {
+  item.queued_us = clock_.steady_us();
+  return queues_[queue].push(std::move(item));
+}
+
+std::optional<Pipeline::Item> Pipeline::pop(QueueIndex queue) { return waited_for(queue, queues_[queue].pop()); }
+
+std::optional<Pipeline::Item> Pipeline::try_pop(QueueIndex queue) {
+  return waited_for(queue, queues_[queue].try_pop());
+}
+
+std::optional<Pipeline::Item> Pipeline::waited_for(QueueIndex queue, std::optional<Item> item) {
+  if (!item) return item;
+  const std::int64_t wait_us = clock_.steady_us() - item->queued_us;
+  std::unique_lock lock(mutex_);
+  wait_[queue].add(wait_us);
+  interval_wait_[queue].add(wait_us);
+  return item;
 }
 
 void Pipeline::process(Item item) {
@@ -95,7 +115,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   }
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
-    door_.push({0, clock_.steady_us(), {std::move(*frame), nullptr, nullptr}});
+    push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), nullptr, nullptr}});
     return Capture::frame;
   }
   if (auto* skipped = std::get_if<SkippedFrame>(&event)) {
@@ -188,7 +208,7 @@ PipelineHealth Pipeline::counts() const {
   health.published = published_;
   health.failed = failed_;
   health.skipped = skipped_;
-  health.queues = {door_.health(), to_track_.health(), to_sinks_.health()};
+  for (const Queue& queue : queues_) health.queues.push_back(queue.health());
   health.captured = health.queues[0].pushed;
   health.dropped = health.queues[0].dropped;
   return health;
@@ -200,6 +220,7 @@ PipelineHealth Pipeline::health() const {
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->health());
   std::unique_lock lock(mutex_);
   health.latency = latency_.summary();
+  for (int q = 0; q < kQueueCount; ++q) health.queues[q].wait = wait_[q].summary();
   return health;
 }
 
@@ -209,6 +230,10 @@ PipelineHealth Pipeline::take_interval_health() {
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->take_interval());
   std::unique_lock lock(mutex_);
   health.latency = interval_latency_.summary();
+  for (int q = 0; q < kQueueCount; ++q) {
+    health.queues[q].wait = interval_wait_[q].summary();
+    interval_wait_[q].clear();
+  }
   interval_latency_.clear();
   return health;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -68,10 +69,17 @@ class Pipeline {
   struct Item {
     std::int64_t index = 0;       ///< k-th frame through the door
     std::int64_t arrived_us = 0;  ///< steady clock
+    std::int64_t queued_us = 0;   ///< steady clock, when it was put into the queue it is in
     TrackedFrame data;
   };
+  using Queue = BoundedQueue<Item>;
+  enum QueueIndex { kDoor, kToTrack, kToSinks, kQueueCount };
   enum class Capture { frame, nothing, end };
 
+  bool push(QueueIndex queue, Item item);
+  std::optional<Item> pop(QueueIndex queue);
+  std::optional<Item> try_pop(QueueIndex queue);
+  std::optional<Item> waited_for(QueueIndex queue, std::optional<Item> item);
   bool stopped() const { return stop_ || options_.stop.stop_requested(); }
   Capture capture(std::chrono::milliseconds patience);
   Capture waited(std::chrono::milliseconds patience);
@@ -94,7 +102,7 @@ class Pipeline {
   const Clock& clock_;
   RepeatLog& log_;
 
-  BoundedQueue<Item> door_, to_track_, to_sinks_;
+  std::array<Queue, kQueueCount> queues_;
   Feedback<HandEstimate> feedback_;
   StageMonitor preprocess_monitor_, track_monitor_;
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
@@ -106,6 +114,7 @@ class Pipeline {
   mutable std::mutex mutex_;  // of what follows
   std::optional<Error> error_;
   TimeHistogram latency_, interval_latency_;
+  std::array<TimeHistogram, kQueueCount> wait_, interval_wait_;
 };
 
 }  // namespace barehand

@@ -7,7 +7,6 @@
 #include <stop_token>
 
 #include "app/config.h"
-#include "app/data_files.h"
 #include "app/exit_code.h"
 #include "app/file_sinks.h"
 #include "app/health_sink.h"
@@ -15,11 +14,11 @@
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/publish_sink.h"
+#include "app/run_inputs.h"
 #include "app/source_factory.h"
 #include "app/summary.h"
 #include "app/track_stages.h"
 #include "core/parallel.h"
-#include "io/hand_json.h"
 #include "io/pose_json.h"
 
 namespace barehand {
@@ -45,8 +44,7 @@ class TrackRun {
 
  private:
   Step open_input();
-  Step choose_hand();
-  Step use_hand(Result<HandProfile> profile, const std::string& name);
+  Step use_hand();
   Step choose_start();
   Step open_outputs();
   Step open_bus();
@@ -76,7 +74,7 @@ Step TrackRun::prepare(const Config& config) {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
-  return open_input().and_then([&] { return choose_hand(); }).and_then([&] { return choose_start(); }).and_then([&] {
+  return open_input().and_then([&] { return use_hand(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();
   });
 }
@@ -96,18 +94,11 @@ Step TrackRun::open_input() {
   return {};
 }
 
-Step TrackRun::choose_hand() {
-  if (options_.hand.empty() && input_.hand) return use_hand(input_.hand(), input_.hand_name);
-  if (!options_.hand.empty()) return use_hand(load_profile(options_.hand), options_.hand);
-  const auto shipped = find_data_file("configs/hands/adult_right.json");
-  if (!shipped) return failure(shipped.error());
-  return use_hand(load_profile(*shipped), *shipped);
-}
-
-Step TrackRun::use_hand(Result<HandProfile> profile, const std::string& name) {
-  if (!profile) return usage(profile.error());
-  log_.logger().info("hand profile: {}", name);
-  profile_ = std::make_shared<const HandProfile>(std::move(*profile));
+Step TrackRun::use_hand() {
+  auto hand = choose_hand(options_.hand, input_);
+  if (!hand) return usage(hand.error());
+  log_.logger().info("hand profile: {}", hand->name);
+  profile_ = std::move(hand->profile);
   return {};
 }
 
@@ -196,12 +187,6 @@ int TrackRun::conclude(const RunResult& result, double seconds) {
     exit_code = kExitFailure;
   }
   return exit_code;
-}
-
-/// "builtin" needs no file: the values in the code, to write a new file from when keys were added.
-Result<Config> read_configuration(const std::string& name) {
-  if (name == "builtin") return Config{};
-  return find_config(name).and_then([](const std::string& path) { return load_config<Config>(path); });
 }
 
 Result<Config> configuration(const TrackOptions& options) {

@@ -76,7 +76,7 @@ class BoundedQueue {
 
   QueueHealth health() const {
     std::unique_lock lock(mutex_);
-    return {name_, capacity_, items_.size(), pushed_, popped_, dropped_};
+    return {name_, capacity_, items_.size(), pushed_, popped_, dropped_, {}};
   }
 
  private:

@@ -38,6 +38,7 @@ struct QueueHealth {
   std::string name;
   std::size_t capacity = 0, depth = 0;
   std::int64_t pushed = 0, popped = 0, dropped = 0;
+  TimeSummary wait;  ///< how long items stood in it; no count where nobody measured
 };
 
 /// One stage: how long it took per frame, and how many frames it failed on.

@@ -35,8 +35,12 @@ std::string shipped_config() {
 }
 
 TEST(CommandLine, HelpAndVersionSucceed) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"--help"}, {"--version"}, {"track", "--help"}, {"eval", "--help"}, {"doctor", "--help"}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                         {"--version"},
+                                                                                         {"track", "--help"},
+                                                                                         {"bench", "--help"},
+                                                                                         {"eval", "--help"},
+                                                                                         {"doctor", "--help"}}) {
     const Outcome outcome = barehand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments[0];
     EXPECT_FALSE(outcome.output.empty());
@@ -48,6 +52,17 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(barehand({"juggle"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--sauce", "lcm"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--threads", "two"}).exit_code, 2);
+}
+
+TEST(Bench, MeasuresAndWritesFigures) {
+  const std::string json = ::testing::TempDir() + "bench_smoke.json";
+  const Outcome outcome = barehand({"bench", "--source", "sim:fist,width=160,height=120", "--store", "3", "--frames",
+                                    "3", "--warm-up", "1", "--json", json});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("frames/s"), HasSubstr("capture to publish")));
+  EXPECT_TRUE(std::ifstream(json).good());
+  EXPECT_EQ(
+      barehand({"bench", "--threads", "0", "--source", "sim:fist,width=160,height=120", "--store", "1"}).exit_code, 2);
 }
 
 TEST(Track, NeedsASource) {

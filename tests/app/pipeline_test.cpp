@@ -138,6 +138,22 @@ TEST_P(PipelineLifecycle, HintIsTheEstimateTwoFramesBack) {
   EXPECT_THAT(world_.hints, ElementsAre(-1, -1, 0, 1, 2, 3));
 }
 
+TEST_P(PipelineLifecycle, MeasuresTheWaitInEveryQueueThatWasPassed) {
+  // The clock moves while the source is asked for the second frame: with threads, frame 0 may be through by then.
+  ScriptedSource source(false, [this](int n) -> SourceEvent {
+    world_.clock.advance(n == 1 ? 5000 : 0);
+    return n < 3 ? SourceEvent(frame(n)) : EndOfStream{};
+  });
+  const RunResult result = world_.run(source);
+  for (const QueueHealth& queue : result.health.queues) {
+    EXPECT_EQ(queue.wait.count, queue.popped) << queue.name;
+    if (queue.popped > 0) {
+      EXPECT_LE(queue.wait.max, 0.005) << queue.name;
+    }
+  }
+  EXPECT_EQ(result.health.queues[0].wait.count, 3);
+}
+
 TEST_P(PipelineLifecycle, HintIsNullWhereTheFrameFailed) {
   ScriptedSource source(false, frames_then_end(7));
   world_.before_preprocess = [](const FramePtr& f) { f->number == 1 ? throw std::runtime_error("bad") : void(); };

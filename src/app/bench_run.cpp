@@ -1,0 +1,111 @@
+#include "app/bench_run.h"
+
+#include <fstream>
+#include <iostream>
+
+#include "app/bench_report.h"
+#include "app/bench_sweep.h"
+#include "app/exit_code.h"
+#include "app/run_inputs.h"
+#include "core/parallel.h"
+
+namespace barehand {
+namespace {
+
+struct NamedCase {
+  std::string config;
+  BenchCase bench;
+};
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  return "unknown";
+}
+
+/// Every configuration as it is, then every sweep of the first one.
+Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
+  if (const auto workers = make_workers(options.threads); !workers) return tl::unexpected(workers.error());
+  std::vector<NamedCase> cases;
+  for (const std::string& name : options.configs) {
+    auto config = read_configuration(name);
+    if (!config) return tl::unexpected(config.error());
+    cases.push_back({name, {"", 0, std::move(*config), options.threads, 1}});
+  }
+  const NamedCase base = cases.front();
+  for (const std::string& sweep : options.sweeps) {
+    auto swept = parse_sweep(sweep, base.bench);
+    if (!swept) return tl::unexpected(swept.error());
+    for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
+  }
+  return cases;
+}
+
+struct Input {
+  FrameStore store;
+  std::shared_ptr<const HandProfile> hand;
+};
+
+Result<Input> read_input(const BenchOptions& options) {
+  const SystemClock clock;
+  SourceRequest request;
+  request.spec = options.source;
+  auto source = open_source(request, clock);
+  if (!source) return tl::unexpected(source.error());
+  auto hand = choose_hand(options.hand, *source);
+  if (!hand) return tl::unexpected(hand.error());
+  std::cerr << "reading frames of " << source->source->name() << "\n";
+  auto store = read_frames(*source->source, options.store);
+  if (!store) return tl::unexpected(store.error());
+  return Input{std::move(*store), std::move(hand->profile)};
+}
+
+Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditions, const Input& input) {
+  const FrameStore store = decimated(input.store, named.bench.decimate);
+  auto result = run_case(named.bench, conditions, store, input.hand);
+  if (!result) return tl::unexpected(result.error());
+  const Intrinsics& camera = store.frames[0]->camera;
+  return BenchRow{named.bench.sweep, named.bench.value, named.config,      named.bench.threads,
+                  camera.width,      camera.height,     std::move(*result)};
+}
+
+Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, int repeat, BenchReport& report) {
+  for (int round = 0; round < repeat; ++round)  // interleaved: other load on the machine meets all cases alike
+    for (const NamedCase& named : cases) {
+      auto row = measure(named, report.conditions, input);
+      if (!row) return tl::unexpected(row.error());
+      std::cout << bench_text(*row) << std::flush;
+      report.rows.push_back(std::move(*row));
+    }
+  return {};
+}
+
+int tell(const Error& error, int exit_code) {
+  std::cerr << "barehand bench: " << error.message() << std::endl;
+  return exit_code;
+}
+
+}  // namespace
+
+int run_bench(const BenchOptions& options) {
+  if (!options.draw.empty()) {
+    const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
+    return drawn ? kExitOk : tell(drawn.error(), kExitUsage);
+  }
+  const auto cases = cases_of(options);
+  if (!cases) return tell(cases.error(), kExitUsage);
+  const auto input = read_input(options);
+  if (!input) return tell(input.error(), kExitUsage);
+  BenchReport report;
+  report.source = options.source;
+  report.processor = processor_name();
+  report.cores = available_cores();
+  report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
+  auto done = measure_all(*cases, *input, options.repeat, report);
+  if (done && !options.json.empty()) done = write_bench_json(report, options.json);
+  if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);
+  return done ? kExitOk : tell(done.error(), kExitFailure);
+}
+
+}  // namespace barehand

@@ -1,0 +1,134 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "app/bench_report.h"
+#include "app/bench_sweep.h"
+#include "io/json_fields.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A 4x2 picture whose depth counts its pixels.
+FrameStore stored(int frames) {
+  FrameStore store;
+  for (int k = 0; k < frames; ++k) {
+    auto frame = std::make_shared<RgbdFrame>();
+    frame->number = k;
+    frame->camera = {4, 2, 100, 100, 2, 1};
+    frame->depth.reset(4, 2);
+    for (std::size_t i = 0; i < frame->depth.size(); ++i) frame->depth[i] = static_cast<std::uint16_t>(i);
+    store.frames.push_back(std::move(frame));
+  }
+  return store;
+}
+
+std::vector<std::int64_t> numbers_of(FrameSource& source) {
+  std::vector<std::int64_t> numbers;
+  while (true) {
+    const SourceEvent event = source.next(std::chrono::milliseconds(0));
+    if (std::holds_alternative<EndOfStream>(event)) return numbers;
+    numbers.push_back(std::get<FramePtr>(event)->number);
+  }
+}
+
+TEST(MemorySource, PlaysForthAndBackWithoutAJump) {
+  const FrameStore store = stored(3);
+  const ManualClock clock;
+  MemorySource source(store, {8, std::nullopt}, clock);
+  EXPECT_FALSE(source.live());
+  EXPECT_THAT(numbers_of(source), ::testing::ElementsAre(0, 1, 2, 1, 0, 1, 2, 1));
+}
+
+TEST(MemorySource, AtARateAFrameComesWhenItIsDue) {
+  const FrameStore store = stored(2);
+  ManualClock clock(1'000'000);
+  MemorySource source(store, {3, 10.0}, clock);
+  EXPECT_TRUE(source.live());
+  const auto no_wait = std::chrono::milliseconds(0);
+  ASSERT_TRUE(std::holds_alternative<FramePtr>(source.next(no_wait)));
+  EXPECT_TRUE(std::holds_alternative<Timeout>(source.next(no_wait)));
+  clock.advance(130'000);  // 30 ms late
+  const SourceEvent second = source.next(no_wait);
+  ASSERT_TRUE(std::holds_alternative<FramePtr>(second));
+  EXPECT_EQ(std::get<FramePtr>(second)->number, 1);
+  EXPECT_EQ(std::get<FramePtr>(second)->utime, 1'100'000) << "captured when due, not when fetched";
+}
+
+TEST(MemorySource, DecimationKeepsTheRays) {
+  const FrameStore small = decimated(stored(1), 2);
+  const RgbdFrame& frame = *small.frames[0];
+  EXPECT_EQ(frame.depth.width(), 2);
+  EXPECT_EQ(frame.depth.height(), 1);
+  EXPECT_EQ(frame.depth.at(1, 0), 2);  // was pixel (2, 0)
+  const Intrinsics full{4, 2, 100, 100, 2, 1};
+  EXPECT_TRUE(frame.camera.unproject(1, 0, 0.5).isApprox(full.unproject(2, 0, 0.5)));
+}
+
+TEST(BenchSweep, VariesOneParameterOfTheBaseCase) {
+  BenchCase base;
+  base.threads = 3;
+  const auto cases = parse_sweep("samples=20,60", base);
+  ASSERT_TRUE(cases.has_value()) << cases.error().message();
+  ASSERT_EQ(cases->size(), 2u);
+  EXPECT_EQ((*cases)[1].config.tracker.segment_tracker.samples, 60);
+  EXPECT_EQ((*cases)[1].value, 60);
+  EXPECT_EQ((*cases)[1].threads, 3);
+  EXPECT_EQ((*cases)[1].config.tracker.fusion.levels, base.config.tracker.fusion.levels);
+}
+
+TEST(BenchSweep, RefusesWhatCannotBeRun) {
+  EXPECT_THAT(parse_sweep("hats=1", {}).error().message(), HasSubstr("samples, levels"));
+  EXPECT_FALSE(parse_sweep("samples", {}).has_value());
+  for (const char* value : {"0", "-3", "many", "20x", "99999999999999", "100001"})
+    EXPECT_FALSE(parse_sweep(std::string("samples=") + value, {}).has_value()) << value;
+  EXPECT_FALSE(parse_sweep("threads=0", {}).has_value());
+}
+
+BenchReport small_report() {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  BenchReport report;
+  report.conditions.frames = 100;
+  for (const double value : {0.0, 10.0, 20.0, 40.0}) {
+    BenchRow row;
+    row.sweep = value == 0 ? "" : "samples";
+    row.value = value;
+    row.config = "default.yaml";
+    row.result.cpu_seconds_per_frame = 0.01 + value * 1e-4;
+    row.result.resident_mb = {50, 51};
+    row.result.health.stages = {{"track", {100, 0.008, 0.007, 0.009, 0.010, 0.011}, 0}};
+    row.result.health.queues = {{"door", 1, 0, 0, 0, 0, {0, kNaN, kNaN, kNaN, kNaN, kNaN}}};
+    row.result.health.latency = {100, 0.012, 0.011, 0.013, 0.014, 0.015};
+    report.rows.push_back(row);
+  }
+  return report;
+}
+
+TEST(BenchReport, WritesFiguresInMillisecondsAndDrawsThem) {
+  const std::string folder = ::testing::TempDir() + "bench_report";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  ASSERT_TRUE(write_bench_json(small_report(), folder + "/bench.json").has_value());
+  const auto json = json_fields::read_json(folder + "/bench.json");
+  ASSERT_TRUE(json.has_value()) << json.error().message();
+  EXPECT_EQ(json->at("cases")[0].at("stages_ms").at("track").at("p99"), 10);
+  EXPECT_EQ(json->at("cases")[1].at("cpu_ms_per_frame"), 11);
+  const auto drawn = draw_bench(folder + "/bench.json", folder + "/plots");
+  ASSERT_TRUE(drawn.has_value()) << drawn.error().message();
+  for (const char* name : {"stages.png", "memory.png", "samples.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder + "/plots/" + name)) << name;
+}
+
+TEST(BenchReport, WillNotDrawSomethingElse) {
+  const std::string path = ::testing::TempDir() + "no_bench.json";
+  ASSERT_TRUE(json_fields::write_json(path, {{"cases", {{{"a", 1}}}}}).has_value());
+  const auto drawn = draw_bench(path, ::testing::TempDir() + "no_plots");
+  ASSERT_FALSE(drawn.has_value());
+  EXPECT_THAT(drawn.error().message(), HasSubstr("no report of barehand bench"));
+}
+
+}  // namespace
+}  // namespace barehand
