@@ -26,6 +26,9 @@ violations() {  # ROOT: prints every forbidden include
     forbid "$folder" 'opencv2/|lcm/|assimp/|yaml-cpp/|nlohmann/'
   done
   forbid drivers 'opencv2/|yaml-cpp/'
+  for folder in src stages drivers; do
+    forbid "$folder" 'EGL/|GLES' | grep -v '^src/observe/egl/'
+  done
 }
 
 example=$(mktemp -d)
@@ -34,8 +37,9 @@ mkdir -p "$example"/{src/core,stages/fusion,drivers/lcm}
 echo '#include "hand/profile.h"' >"$example/src/core/a.h"
 echo '#include "stages/publish/publisher.h"' >"$example/stages/fusion/b.cpp"
 echo '#include <opencv2/core.hpp>' >"$example/drivers/lcm/c.cpp"
+echo '#include <EGL/egl.h>' >"$example/src/core/d.h"
 found=$(violations "$example" | wc -l)
-[ "$found" = 3 ] || { echo "the check itself is broken: it found $found of 3 planted violations"; exit 1; }
+[ "$found" = 4 ] || { echo "the check itself is broken: it found $found of 4 planted violations"; exit 1; }
 
 found=$(violations "$1")
 [ -z "$found" ] || { echo "forbidden includes:"; echo "$found"; exit 1; }

@@ -45,7 +45,7 @@ void CommandedTracker::follow(const Command& command) {
 }
 
 void CommandedTracker::use(std::shared_ptr<const HandProfile> profile) {
-  tracker_ = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_);
+  tracker_ = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_.shared_logger());
 }
 
 }  // namespace barehand

@@ -58,6 +58,7 @@ std::vector<Finding> examine(const std::string& lcm_url) {
   findings.push_back(check_multicast_route());
   findings.push_back(check_receive_buffer());
   findings.push_back(check_lcm(lcm_url));
+  findings.push_back(check_graphics());
   for (Finding& finding : check_libraries()) findings.push_back(std::move(finding));
   return findings;
 }
@@ -112,9 +113,19 @@ Finding check_multicast_route(const std::string& route_file) {
           "sudo ip link set lo up; sudo ip route add 224.0.0.0/4 dev lo"};
 }
 
+Finding check_graphics(const std::string& egl_library) {
+  const std::string subject = "graphics";
+  const auto device = find_graphics_device(DeviceChoice::any, egl_library);
+  if (!device)
+    return {Level::note, subject, device.error().message() + "; the CPU compares samples",
+            "only with a GPU: install its driver and libegl1"};
+  const std::string name = device->renderer + ", " + device->version;
+  if (device->software) return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU", ""};
+  return {Level::ok, subject, name + ": a GPU, which observer: auto takes", ""};
+}
+
 std::vector<Finding> check_libraries() {
-  return {check_library("libEGL.so.1", "EGL", "rendering on a GPU", "sudo apt-get install libegl1 libgl1-mesa-dri"),
-          check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0"),
+  return {check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0"),
           check_library("libOpenNI2.so.0", "OpenNI2", "OpenNI sensors", "sudo apt-get install libopenni2-0")};
 }
 

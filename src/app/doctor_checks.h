@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "observe/egl/graphics_device.h"
+
 namespace barehand {
 
 /// What one look at the machine showed.
@@ -29,7 +31,9 @@ Finding check_receive_buffer(const std::string& rmem_max_file = "/proc/sys/net/c
 Finding check_multicast_route(const std::string& route_file = "/proc/net/route");
 /// Sends messages of a frame's size to itself.
 Finding check_lcm(const std::string& lcm_url);
-/// Libraries that only some sources or back ends want.
+/// What the samples could be compared on besides the CPU (observer in the configuration).
+Finding check_graphics(const std::string& egl_library = kEglLibrary);
+/// Libraries that only some sources want.
 std::vector<Finding> check_libraries();
 
 }  // namespace barehand

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/segment_tracker/make_observer.h"
+
 namespace barehand {
 namespace {
 
@@ -19,13 +21,14 @@ std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, con
 }  // namespace
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-                         Workers& workers)
+                         Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params),
       profile_(std::move(profile)),
       skin_(std::make_shared<const Skin>(make_blended_skin(*profile_, params_.skin_cell))),
       surface_(make_surface(params_, *profile_, *skin_)),
       seed_(seed),
-      segment_tracker_(params_.segment_tracker, surface_, workers),
+      segment_tracker_(params_.segment_tracker, surface_, workers,
+                       make_observer(params_.segment_tracker, surface_, workers, std::move(log))),
       fusion_(params_.fusion, profile_, workers),
       refinement_(params_.refinement, profile_, skin_),
       motion_(params_.prediction, params_.icp),

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/tracker_params.h"
+#include "core/log.h"
 #include "core/parallel.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
@@ -17,8 +18,9 @@ namespace barehand {
 /// it searches. Synchronous; owns no thread, clock, file or socket. Same observations and seed, same estimates.
 class HandTracker {
  public:
+  /// `workers` outlives it; `log` hears what compares samples with the data, and when that is lost.
   HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-              Workers& workers);
+              Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
   /// Never null; says searching or lost where there is no hand.
   HandEstimatePtr process(const HandObservation& observation);

@@ -22,6 +22,7 @@ class RepeatLog {
   void log(spdlog::level::level_enum level, const std::string& kind, const std::string& message);
   void warn(const std::string& kind, const std::string& message) { log(spdlog::level::warn, kind, message); }
   spdlog::logger& logger() { return *logger_; }
+  const std::shared_ptr<spdlog::logger>& shared_logger() const { return logger_; }
 
  private:
   std::shared_ptr<spdlog::logger> logger_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "hand/segments.h"
 #include "math/se3.h"
 #include "observe/pixel_map.h"
 

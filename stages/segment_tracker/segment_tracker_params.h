@@ -16,6 +16,7 @@ struct SegmentTrackerParams {
   double patch_margin = 0.010;
   double min_counted = 0.05;
   bool observe_palm = true;
+  std::string observer = "auto";
 };
 
 template <class V>
@@ -37,6 +38,9 @@ void visit(V& v, SegmentTrackerParams& p) {
   v("min_counted", p.min_counted, 0.0, 1.0,
     "a sample with a smaller visible part than this has no evidence: it gets its siblings' mean distance");
   v("observe_palm", p.observe_palm, "compare the palm with the data, too; the paper does not (Sec. 4.1)");
+  v("observer", p.observer, {"auto", "cpu", "egl"},
+    "what compares samples with the data: a GPU if there is one (auto), the CPU (cpu), or whatever runs OpenGL ES, "
+    "software included (egl)");
 }
 
 }  // namespace barehand

@@ -40,6 +40,15 @@ TEST(DoctorChecks, LcmInOneProcess) {
   EXPECT_EQ(check_lcm("nonsense://").level, Level::problem);
 }
 
+TEST(DoctorChecks, GraphicsSaysWhatIsThereAndWhetherItIsUsed) {
+  const Finding found = check_graphics();
+  EXPECT_THAT(found.text, ::testing::HasSubstr("OpenGL ES 3"));
+  EXPECT_THAT(found.text, ::testing::HasSubstr("observer: auto"));
+  const Finding absent = check_graphics("libnone.so.1");
+  EXPECT_EQ(absent.level, Level::note);
+  EXPECT_THAT(absent.text, ::testing::HasSubstr("libnone.so.1"));
+}
+
 TEST(DoctorChecks, ShippedFilesAreReadable) {
   for (const Finding& finding : check_files()) EXPECT_EQ(finding.level, Level::ok) << finding.subject << finding.text;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "child_process.h"
 #include "hand/skin.h"
@@ -31,6 +32,24 @@ class TrackRun : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
+  /// A hand before a wall that turns a little, over six frames.
+  void record_hand() {
+    fs::remove_all(folder_);
+    auto writer = RecordingWriter::create(folder_);
+    ASSERT_TRUE(writer) << writer.error().message();
+    const auto profile = test::adult_hand();
+    const Skin skin = make_blended_skin(*profile, 0.004);
+    for (int i = 0; i < 6; ++i) {
+      const auto observation = test::observe_skin(skin, test::facing_pose(*profile, 0.5 + 0.003 * i, 0.15 + 0.05 * i));
+      RgbdFrame frame = *observation->frame;
+      frame.utime = 1'000'000 + 33'333 * i;
+      frame.depth_unit = 0.0001;
+      frame.depth.reset(frame.camera.width, frame.camera.height);
+      for (std::size_t k = 0; k < frame.depth.size(); ++k)
+        frame.depth[k] = static_cast<std::uint16_t>(observation->depth[k] / frame.depth_unit);
+      ASSERT_TRUE(writer->write(frame));
+    }
+  }
   void repeat(int frames) {
     std::ofstream list(folder_ + "/depth.txt");
     for (int i = 1; i <= frames; ++i) list << i << ".0 depth/000000.png\n";
@@ -125,21 +144,7 @@ TEST_F(TrackRun, FullDiskEndsTheRunAndKeepsWhatIsWritten) {
 }
 
 TEST_F(TrackRun, SameBytesWhateverTheThreads) {
-  fs::remove_all(folder_);
-  auto writer = RecordingWriter::create(folder_);
-  ASSERT_TRUE(writer) << writer.error().message();
-  const auto profile = test::adult_hand();
-  const Skin skin = make_blended_skin(*profile, 0.004);
-  for (int i = 0; i < 6; ++i) {
-    const auto observation = test::observe_skin(skin, test::facing_pose(*profile, 0.5 + 0.003 * i, 0.15 + 0.05 * i));
-    RgbdFrame frame = *observation->frame;
-    frame.utime = 1'000'000 + 33'333 * i;
-    frame.depth_unit = 0.0001;
-    frame.depth.reset(frame.camera.width, frame.camera.height);
-    for (std::size_t k = 0; k < frame.depth.size(); ++k)
-      frame.depth[k] = static_cast<std::uint16_t>(observation->depth[k] / frame.depth_unit);
-    ASSERT_TRUE(writer->write(frame));
-  }
+  record_hand();
   std::vector<std::string> states, tables;
   for (const auto& how : std::vector<std::vector<std::string>>{
            {"--threads", "1", "--inline"}, {"--threads", "1"}, {"--threads", "3"}, {"--threads", "3", "--inline"}}) {
@@ -156,6 +161,31 @@ TEST_F(TrackRun, SameBytesWhateverTheThreads) {
     EXPECT_EQ(tables[i], tables[0]) << i;
   }
   EXPECT_NE(file_bytes("/states.lcmlog"), states[0]) << "the seed has no effect: nothing was drawn";
+}
+
+TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
+  record_hand();
+  const auto with_observer = [&](const std::string& observer) {
+    const std::string file = folder_ + "/" + observer + ".yaml";
+    std::ifstream shipped(BAREHAND_CONFIGS "/default.yaml");
+    const std::string text{std::istreambuf_iterator<char>(shipped), {}};
+    std::ofstream(file) << std::regex_replace(text, std::regex("observer: .*"), "observer: " + observer);
+    return track({"--config", file});
+  };
+  ChildProcess cpu(with_observer("cpu"));
+  ASSERT_EQ(cpu.finish(), 0) << cpu.output();
+  EXPECT_THAT(cpu.output(), HasSubstr("tracked in 6 frames"));
+  const std::string expected = file_bytes("/result.csv");
+  for (const char* trouble : {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json",  // EGL without any driver
+                              "LIBGL_DRIVERS_PATH=/nonexistent",                   // a driver that cannot start
+                              "MESA_GLES_VERSION_OVERRIDE=3.0"}) {                 // an old GL
+    std::vector<std::string> arguments = with_observer("egl");
+    arguments.insert(arguments.begin(), {"env", trouble});
+    ChildProcess child(arguments);
+    EXPECT_EQ(child.finish(), 0) << child.output();
+    EXPECT_THAT(child.output(), HasSubstr("the CPU compares samples, not a GPU: ")) << trouble;
+    EXPECT_EQ(file_bytes("/result.csv"), expected) << trouble;
+  }
 }
 
 TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+#include "observe/egl/gl_functions.h"
+
+namespace barehand {
+
+/// Compiles and links one compute shader; its name in the current context. Error: with the driver's log.
+Result<GLuint> make_compute_program(const Gl& gl, const std::string& source);
+
+}  // namespace barehand

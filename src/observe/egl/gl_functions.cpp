@@ -1,0 +1,35 @@
+#include "observe/egl/gl_functions.h"
+
+#include <cstdio>
+
+namespace barehand {
+
+Result<Gl> load_gl(const Egl& egl) {
+  Gl gl;
+#define BAREHAND_GL_LOAD(type, name)                                \
+  gl.name = reinterpret_cast<type>(egl.GetProcAddress("gl" #name)); \
+  if (!gl.name) return fail("gl" #name " is missing", "OpenGL ES", "update the graphics driver");
+  BAREHAND_GL_FUNCTIONS(BAREHAND_GL_LOAD)
+#undef BAREHAND_GL_LOAD
+  // Loaders return an address for any name: ask for the name whose extension is there.
+  const auto* extensions = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
+  for (const char* suffix : {"EXT", "KHR"}) {
+    const bool khr = suffix[0] == 'K';
+    if (!has_extension(extensions, khr ? "GL_KHR_robustness" : "GL_EXT_robustness")) continue;
+    const std::string name = std::string("glGetGraphicsResetStatus") + suffix;
+    gl.GetGraphicsResetStatus = reinterpret_cast<PFNGLGETGRAPHICSRESETSTATUSPROC>(egl.GetProcAddress(name.c_str()));
+  }
+  return gl;
+}
+
+Result<void> check_gl(const Gl& gl, const std::string& doing) {
+  const GLenum error = gl.GetError();
+  const GLenum reset = gl.GetGraphicsResetStatus ? gl.GetGraphicsResetStatus() : GLenum{GL_NO_ERROR};
+  if (error == GL_NO_ERROR && reset == GL_NO_ERROR) return {};
+  if (error == GL_CONTEXT_LOST || reset != GL_NO_ERROR) return fail("the context was lost while " + doing, "OpenGL ES");
+  char code[16];
+  std::snprintf(code, sizeof code, "0x%04x", error);
+  return fail(std::string("error ") + code + " while " + doing, "OpenGL ES");
+}
+
+}  // namespace barehand

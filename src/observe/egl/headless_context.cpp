@@ -1,0 +1,81 @@
+#include "observe/egl/headless_context.h"
+
+#include <cstdio>
+#include <vector>
+
+namespace barehand {
+namespace {
+
+tl::unexpected<Error> egl_failure(const Egl& egl, const std::string& what) {
+  char code[16];
+  std::snprintf(code, sizeof code, "0x%04x", egl.GetError());
+  return fail(what + " (EGL error " + code + ")", "EGL");
+}
+
+/// A context that says so when it is lost, where the driver can.
+EGLContext create_context(const Egl& egl, EGLDisplay display) {
+  std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1};
+  if (has_extension(egl.QueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness"))
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT});
+  attributes.push_back(EGL_NONE);
+  return egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open(DeviceChoice choice, const std::string& egl_library) {
+  const auto egl = load_egl(egl_library);
+  if (!egl) return tl::unexpected(egl.error());
+  const bool with_software = choice == DeviceChoice::any;
+  Result<std::unique_ptr<HeadlessContext>> best =
+      fail(with_software ? "no graphics device" : "no hardware graphics device", "EGL",
+           "install the GPU's driver; its user needs access to /dev/dri (group render)");
+  for (EGLDisplay display : find_displays(*egl, with_software)) {
+    auto context = open_on(*egl, display);
+    if (context && !(*context)->device().software) return context;
+    if (!best && (!context || with_software)) best = std::move(context);
+  }
+  return best;
+}
+
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open_on(const Egl& egl, EGLDisplay display) {
+  EGLint major = 0, minor = 0;
+  if (display == EGL_NO_DISPLAY) return fail("no display", "EGL");
+  if (!egl.Initialize(display, &major, &minor)) return egl_failure(egl, "the graphics device cannot be opened");
+  if (!egl.BindAPI(EGL_OPENGL_ES_API)) return egl_failure(egl, "no OpenGL ES");
+  EGLContext handle = create_context(egl, display);
+  if (handle == EGL_NO_CONTEXT) return egl_failure(egl, "no OpenGL ES 3.1 context without a window");
+  std::unique_ptr<HeadlessContext> context(new HeadlessContext(egl, display, handle));
+  const auto seen = context->look_around();
+  if (!seen) return tl::unexpected(seen.error());
+  return context;
+}
+
+HeadlessContext::~HeadlessContext() { egl_.DestroyContext(display_, context_); }
+
+Result<void> HeadlessContext::look_around() {
+  const auto current = make_current();
+  if (!current) return tl::unexpected(current.error());
+  auto gl = load_gl(egl_);
+  if (!gl) return tl::unexpected(gl.error());
+  gl_ = *gl;
+  const auto text = [&](GLenum name) {
+    const auto* string = reinterpret_cast<const char*>(gl_.GetString(name));
+    return std::string(string ? string : "");
+  };
+  device_ = {text(GL_RENDERER), text(GL_VERSION), is_software_renderer(text(GL_RENDERER))};
+  return {};
+}
+
+Result<HeadlessContext::Current> HeadlessContext::make_current() const {
+  if (!egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    return egl_failure(egl_, "the context cannot be used");
+  return Current(*this);
+}
+
+HeadlessContext::Current::~Current() {
+  if (context_) context_->egl_.MakeCurrent(context_->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+}  // namespace barehand

@@ -1,0 +1,26 @@
+#include "stages/segment_tracker/make_observer.h"
+
+#include "observe/egl/egl_observer.h"
+#include "observe/fallback_observer.h"
+#include "stages/segment_tracker/cpu_observer.h"
+
+namespace barehand {
+
+std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface,
+                                        Workers& workers, std::shared_ptr<spdlog::logger> log) {
+  const float cap = distance_cap(params);
+  auto cpu = std::make_unique<CpuObserver>(surface, cap, workers);
+  if (params.observer == "cpu") return cpu;
+  const bool by_name = params.observer == "egl";
+  auto device = EglObserver::open(*surface, cap, by_name ? DeviceChoice::any : DeviceChoice::hardware);
+  if (!device) {
+    log->log(by_name ? spdlog::level::warn : spdlog::level::debug, "the CPU compares samples, not a GPU: {}",
+             device.error().message());
+    return cpu;
+  }
+  const GraphicsDevice& found = (*device)->device();
+  log->info("samples are compared on {}, {}{}", found.renderer, found.version, found.software ? " (software)" : "");
+  return std::make_unique<FallbackObserver>(std::move(*device), std::move(cpu), std::move(log));
+}
+
+}  // namespace barehand

@@ -1,0 +1,109 @@
+#include "observe/egl/egl_observer.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "stages/segment_tracker/cpu_observer.h"
+#include "tests/egl/random_batch.h"
+
+namespace barehand {
+namespace {
+
+constexpr float kCap = 0.008f, kUncapped = std::numeric_limits<float>::infinity();
+
+std::unique_ptr<EglObserver> open(const HandSurface& surface, float cap = kCap) {
+  auto observer = EglObserver::open(surface, cap, DeviceChoice::any);
+  if (!observer) throw std::runtime_error(observer.error().message());
+  return std::move(*observer);
+}
+
+PatchDistances by_egl(EglObserver& observer, const SampleBatch& batch) {
+  PatchDistances distances;
+  const auto done = observer.compare(batch, distances);
+  EXPECT_TRUE(done) << done.error().message();
+  return distances;
+}
+
+PatchDistances by_cpu(const RandomBatch& world, float cap = kCap, int first_segment = 0) {
+  Workers workers(1);
+  PatchDistances distances;
+  CpuObserver(world.surface, cap, workers).compare(world.batch(1, first_segment), distances);
+  return distances;
+}
+
+/// The tolerance between observers: mean distances within 0.1 um and weights within 1e-5 of the sample's whole, save
+/// for samples with a point so near to a pixel's edge or the silhouette that single precision decides its side.
+bool agree(const PatchDistance& a, const PatchDistance& b) {
+  const double weight = 1e-5 * std::max(a.total, b.total);
+  return std::abs(a.mean() - b.mean()) <= 1e-7 && std::abs(a.counted - b.counted) <= weight &&
+         std::abs(a.total - b.total) <= weight;
+}
+
+/// Share of the samples that differ.
+double disagreement(const PatchDistances& a, const PatchDistances& b) {
+  int samples = 0, different = 0;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (a[s].size() != b[s].size()) return 1;
+    for (std::size_t i = 0; i < a[s].size(); ++i) different += !agree(a[s][i], b[s][i]);
+    samples += static_cast<int>(a[s].size());
+  }
+  return static_cast<double>(different) / samples;
+}
+constexpr double kNearAnEdge = 0.002;  // share of samples
+
+TEST(EglObserver, AgreesWithTheCpu) {
+  for (const auto& [cap, skin_points] : {std::pair{kCap, 83}, {kUncapped, 83}, {kCap, 3}, {kCap, 256}}) {
+    const RandomBatch world = random_batch(1, 150, skin_points);
+    const PatchDistances expected = by_cpu(world, cap);
+    EXPECT_LE(disagreement(by_egl(*open(*world.surface, cap), world.batch()), expected), kNearAnEdge)
+        << skin_points << " points, cap " << cap;
+    EXPECT_GT(disagreement(by_cpu(world, 0.9f * kCap), expected), 0.5);  // what differs is noticed
+  }
+}
+
+TEST(EglObserver, SegmentsBeforeTheFirstAreLeftOut) {
+  const RandomBatch world = random_batch(2, 20);
+  const PatchDistances distances = by_egl(*open(*world.surface), world.batch(1, 3));
+  for (int s = 0; s < 3; ++s)
+    for (const PatchDistance& patch : distances[s]) EXPECT_EQ(patch.total, 0);
+  EXPECT_LE(disagreement(distances, by_cpu(world, kCap, 3)), kNearAnEdge);
+}
+
+TEST(EglObserver, ANewIdBringsTheNewMap) {
+  const RandomBatch first = random_batch(3, 20), second = random_batch(4, 60);
+  const auto observer = open(*first.surface);
+  by_egl(*observer, first.batch(1));
+  EXPECT_LE(disagreement(by_egl(*observer, second.batch(2)), by_cpu(second)), kNearAnEdge);
+  EXPECT_GT(disagreement(by_egl(*observer, first.batch(2)), by_cpu(first)), 0.5);  // the second map is still there
+  EXPECT_LE(disagreement(by_egl(*observer, first.batch(1)), by_cpu(first)), kNearAnEdge);
+}
+
+TEST(EglObserver, ThreadsMayTakeTurns) {
+  const RandomBatch world = random_batch(5, 30);
+  const auto observer = open(*world.surface);
+  const PatchDistances here = by_egl(*observer, world.batch());
+  PatchDistances there;
+  std::jthread([&] { there = by_egl(*observer, world.batch()); }).join();
+  EXPECT_EQ(disagreement(here, there), 0);
+}
+
+TEST(EglObserver, TwoInOneProcessKeepApart) {
+  const RandomBatch a = random_batch(6, 20, 50), b = random_batch(7, 20, 90);
+  const auto observer_a = open(*a.surface), observer_b = open(*b.surface);
+  by_egl(*observer_a, a.batch());
+  by_egl(*observer_b, b.batch());
+  EXPECT_LE(disagreement(by_egl(*observer_a, a.batch()), by_cpu(a)), kNearAnEdge);
+}
+
+TEST(EglObserver, WithoutEglThereIsNone) {
+  const RandomBatch world = random_batch(8, 1);
+  const auto observer = EglObserver::open(*world.surface, kCap, DeviceChoice::any, "libnone.so.1");
+  ASSERT_FALSE(observer);
+  EXPECT_THAT(observer.error().message(), ::testing::HasSubstr("libnone.so.1"));
+}
+
+}  // namespace
+}  // namespace barehand
