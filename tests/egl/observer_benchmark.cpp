@@ -27,7 +27,11 @@ void by_cpu(benchmark::State& state) {
   for (auto _ : state) observer.compare(world.batch(), distances);
   count_samples(state);
 }
-BENCHMARK(by_cpu)->ArgNames({"S", "threads"})->ArgsProduct({{60, 200, 1000}, {1, 2}})->UseRealTime();
+BENCHMARK(by_cpu)
+    ->ArgNames({"S", "threads"})
+    ->ArgsProduct({{60, 200, 1000}, {1, 2}})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 /// With one new map every kLevels levels, as in a frame.
 void by_egl(benchmark::State& state) {
@@ -42,7 +46,7 @@ void by_egl(benchmark::State& state) {
       return state.SkipWithError(done.error().message().c_str());
   count_samples(state);
 }
-BENCHMARK(by_egl)->ArgName("S")->Arg(60)->Arg(200)->Arg(1000)->UseRealTime();
+BENCHMARK(by_egl)->ArgName("S")->Arg(60)->Arg(200)->Arg(1000)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace barehand
