@@ -1,17 +1,16 @@
 #include <cmath>
-#include <numbers>
 
 #include "drivers/synthetic/grasp_planner.h"
 #include "drivers/synthetic/random_keys.h"
 #include "drivers/synthetic/shapes.h"
 #include "drivers/synthetic/stage_set.h"
+#include "math/angles.h"
 #include "math/random.h"
 
 namespace barehand::synthetic {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A thing and how a right hand takes hold of it.
 struct GraspPlan {

@@ -1,6 +1,6 @@
 #include "drivers/synthetic/joint_ranges.h"
 
-#include <numbers>
+#include "math/angles.h"
 
 namespace barehand::synthetic {
 namespace {
@@ -12,8 +12,7 @@ struct Range {
 };
 
 JointDof dof(int finger, const char* joint, const Eigen::Vector3d& axis, Range range) {
-  constexpr double degree = std::numbers::pi / 180;
-  return {std::string(kFingers[finger]) + joint, axis, range.lower * degree, range.upper * degree};
+  return {std::string(kFingers[finger]) + joint, axis, range.lower * kDegree, range.upper * kDegree};
 }
 
 std::vector<JointDof> thumb_dofs(int k, const Eigen::Vector3d& abduction, const Eigen::Vector3d& flexion) {

@@ -1,11 +1,9 @@
 #include "drivers/synthetic/skeleton.h"
 
-#include <numbers>
+#include "math/angles.h"
 
 namespace barehand::synthetic {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 FingerAngles degrees(double abduction, double first, double second, double third) {
   return {abduction * kDegree, {first * kDegree, second * kDegree, third * kDegree}};

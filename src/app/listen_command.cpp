@@ -13,6 +13,7 @@
 #include "app/interrupt.h"
 #include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_listener.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -43,7 +44,7 @@ void print_glove(const glove_state_t& m) {
   std::printf("frame %lld  flexion of knuckles [deg]", static_cast<long long>(m.frame_number));
   for (const int channel : {glove_state_t::THUMB_MPJ, glove_state_t::INDEX_MPJ, glove_state_t::MIDDLE_MPJ,
                             glove_state_t::RING_MPJ, glove_state_t::PINKIE_MPJ}) {
-    std::printf(" %5.0f", m.channel[channel] * 57.29578);
+    std::printf(" %5.0f", m.channel[channel] / kDegree);
   }
   std::printf("\n");
 }

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "hand/joint_angles.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 // The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
 // known poses. Factors multiply the profile's own sections.
 constexpr double kPalmBlend = 0.008;     // m, between the metacarpals

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "io/json_fields.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -14,7 +14,6 @@ using json_fields::Json;
 using json_fields::Object;
 using json_fields::rounded;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLongest = 0.3;      // m; more is no bone, but perhaps millimetres
 constexpr double kThinnest = 0.0005;  // m
 constexpr double kThickest = 0.1;     // m

@@ -1,9 +1,8 @@
 #include "io/pose_json.h"
 
-#include <numbers>
-
 #include "hand/joint_angles.h"
 #include "io/json_fields.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -12,7 +11,6 @@ using json_fields::Json;
 using json_fields::Object;
 
 Result<SE3> posed_by_angles(const Object& object, const SE3& rest) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const auto flexion = object.number_or("flexion_deg", 0, -180, 180);
   if (!flexion) return tl::unexpected(flexion.error());
   const auto abduction = object.number_or("abduction_deg", 0, -180, 180);

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "math/angles.h"
 #include "math/schedule.h"
 #include "stages/fusion/mode.h"
 
 namespace barehand {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr std::array<int, kSegmentCount> kParents = [] {
   std::array<int, kSegmentCount> parents{};

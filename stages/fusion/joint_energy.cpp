@@ -2,12 +2,11 @@
 
 #include <numbers>
 
+#include "math/angles.h"
 #include "math/fast_math.h"
 
 namespace barehand {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 float inverse_square(double sigma) { return static_cast<float>(1 / (sigma * sigma)); }
 

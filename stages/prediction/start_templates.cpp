@@ -1,13 +1,12 @@
 #include "stages/prediction/start_templates.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "math/angles.h"
 
 namespace barehand {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Flexion of a finger's three joints [degrees]; spread of the fingers away from the middle one [degrees].
 struct Curl {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hand/joint_linearisation.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -12,8 +13,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Kind = Correspondence::Kind;
 using Jacobian = Eigen::Matrix<double, 3, 6>;
-
-constexpr double kDegree = 0.017453292519943295;
 
 double sq(double x) { return x * x; }
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/angles.h"
+
 namespace barehand {
 namespace {
-constexpr double kDegree = 0.017453292519943295;
 
 // How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
 std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/angles.h"
 #include "math/random.h"
 #include "tests/fusion/small_hand.h"
 
 namespace barehand {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Eq. 4-6 as written, in double precision.
 double reference_energy(const HandProfile& profile, const FusionParams& params, double sigma_prox, const HandPose& pose,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hand/joint_angles.h"
+#include "math/angles.h"
 #include "math/random.h"
 
 namespace barehand {
@@ -8,7 +9,6 @@ namespace barehand {
 /// A plausible right hand for tests: straight fingers side by side, saddle joints at the palm, hinges beyond.
 inline HandProfile small_hand() {
   HandProfile profile;
-  const double degree = 0.017453292519943295;
   const auto shape = [](SegmentProfile& s, double length, double radius) {
     s.length = length;
     s.distal = {0, 0, -length};
@@ -22,8 +22,8 @@ inline HandProfile small_hand() {
       shape(s, 0.03, 0.008);
       s.T_hand_segment.t = {-0.04 + 0.02 * finger, 0, -0.09 - 0.03 * k};
       s.T_hand_segment.R = exp_so3({0, 0.05 * (2 - finger), 0});
-      if (k == 0) s.dofs.push_back({"abduction", Eigen::Vector3d::UnitY(), -20 * degree, 20 * degree});
-      s.dofs.push_back({"flexion", -Eigen::Vector3d::UnitX(), -10 * degree, 90 * degree});
+      if (k == 0) s.dofs.push_back({"abduction", Eigen::Vector3d::UnitY(), -20 * kDegree, 20 * kDegree});
+      s.dofs.push_back({"flexion", -Eigen::Vector3d::UnitX(), -10 * kDegree, 90 * kDegree});
     }
   return profile;
 }

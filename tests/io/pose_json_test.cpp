@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "hand/joint_angles.h"
+#include "math/angles.h"
 #include "small_hand.h"
 #include "temp_folder.h"
 
@@ -36,8 +37,8 @@ TEST_F(PoseJson, AnglesBendFromRestAndCarryTheFingerAlong) {
   const auto pose = load(std::string(kPalmAt) + R"(, "index_proximal": {"flexion_deg": 30, "abduction_deg": -10})");
   ASSERT_TRUE(pose) << pose.error().message();
   const JointAngles knuckle = joint_angles(small_hand(), *pose, 4);
-  EXPECT_NEAR(knuckle.flexion, 30 * M_PI / 180, 1e-9);
-  EXPECT_NEAR(knuckle.abduction, -10 * M_PI / 180, 1e-9);
+  EXPECT_NEAR(knuckle.flexion, 30 * kDegree, 1e-9);
+  EXPECT_NEAR(knuckle.abduction, -10 * kDegree, 1e-9);
   EXPECT_NEAR((joint_in_parent(small_hand(), *pose, 5) - proximal_end(*pose, 5)).norm(), 0, 1e-12);
 }
 

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include "hand/joint_angles.h"
 #include "io/hand_json.h"
+#include "math/angles.h"
 
 namespace barehand {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline HandProfile adult_hand(Handedness side) {
   const std::string directory = BAREHAND_SOURCE_DIR "/configs/hands/";

@@ -1,12 +1,11 @@
 #include "stages/refinement/hand_energy.h"
 
+#include "math/angles.h"
 #include "math/random.h"
 #include "support/painted_hand.h"
 
 namespace barehand {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 class EnergyTest : public ::testing::Test {
  protected:
