@@ -52,15 +52,21 @@ class FolderFrameWriter : public FrameWriter {
 
 }  // namespace
 
+bool is_log_path(const std::string& path) {
+  const std::filesystem::path ending = std::filesystem::path(path).extension();
+  return ending == ".lcmlog" || ending == ".lcm" || ending == ".log";
+}
+
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".oni") return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
-  if (ending == ".lcmlog" || ending == ".lcm" || ending == ".log") {
+  if (std::filesystem::path(path).extension() == ".oni")
+    return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
+  if (is_log_path(path)) {
     auto log = LcmLogWriter::create(path, options.overwrite);
     if (!log) return tl::unexpected(log.error());
     return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
   }
   RecordingWriter::Options folder;
+  folder.fps = options.fps;
   folder.colour_ending = options.encoding.colour == ColourEncoding::jpeg ? "jpg" : "png";
   auto writer = RecordingWriter::create(path, folder);
   if (!writer) return tl::unexpected(writer.error());

@@ -22,10 +22,14 @@ class FrameWriter {
 struct FrameWriterOptions {
   FrameEncoding encoding = {};         ///< of a log; of a folder only colour, which is never raw there
   std::string channel = "RGBD_FRAME";  ///< of a log
+  double fps = 0;                      ///< nominal rate, noted in a folder; 0 = not noted
   bool overwrite = false;              ///< of a log; a folder with a recording is never overwritten
 };
 
-/// A recording folder, or an LCM log if `path` ends in .lcmlog, .lcm or .log. Errors: it exists, it cannot be made, or
+/// Whether frames written to `path` make an LCM log: it ends in .lcmlog, .lcm or .log.
+bool is_log_path(const std::string& path);
+
+/// A recording folder, or an LCM log if is_log_path. Errors: it exists, it cannot be made, or
 /// it ends in .oni, which is not written.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 

@@ -3,14 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/frame_writer.h"
 #include "core/clock.h"
-#include "drivers/lcm/frame_codec.h"
-#include "drivers/lcm/wire.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "io/hand_json.h"
-#include "io/lcm_log_writer.h"
 #include "io/pose_json.h"
-#include "io/recording_writer.h"
 #include "io/result_table.h"
 
 namespace barehand {
@@ -18,59 +15,17 @@ namespace {
 
 using synthetic::SyntheticSource;
 
-/// Where frames go.
-class FrameWriter {
- public:
-  virtual ~FrameWriter() = default;
-  virtual Result<void> write(const RgbdFrame& frame) = 0;
-};
-
-class FolderWriter : public FrameWriter {
- public:
-  explicit FolderWriter(RecordingWriter writer) : writer_(std::move(writer)) {}
-  Result<void> write(const RgbdFrame& frame) override {
-    const auto number = writer_.write(frame);
-    if (!number) return tl::unexpected(number.error());
-    return {};
-  }
-
- private:
-  RecordingWriter writer_;
-};
-
-class LogWriter : public FrameWriter {
- public:
-  explicit LogWriter(std::unique_ptr<LcmLogWriter> log) : log_(std::move(log)) {}
-  Result<void> write(const RgbdFrame& frame) override {
-    FrameEncoding encoding;
-    encoding.colour = ColourEncoding::jpeg;
-    const auto message = encode_frame(frame, encoding);
-    if (!message) return tl::unexpected(message.error());
-    return log_->send("RGBD_FRAME", encode_message(*message), frame.utime);
-  }
-
- private:
-  std::unique_ptr<LcmLogWriter> log_;
-};
-
-bool is_log(const std::string& out) { return out.ends_with(".lcmlog"); }
-
 /// Path of a file that goes with the recording.
 std::string beside(const std::string& out, const std::string& name) {
-  return is_log(out) ? out.substr(0, out.size() - 6) + name : out + "/" + name;  // 6: "lcmlog"
+  return is_log_path(out) ? std::filesystem::path(out).replace_extension(name).string() : out + "/" + name;
 }
 
+/// Logs get JPEG, as from a camera that streams; folders lossless colour.
 Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double fps) {
-  if (is_log(out)) {
-    auto log = LcmLogWriter::create(out, false);
-    if (!log) return tl::unexpected(log.error());
-    return std::make_unique<LogWriter>(std::move(*log));
-  }
-  RecordingWriter::Options options;
+  FrameWriterOptions options;
+  options.encoding.colour = is_log_path(out) ? ColourEncoding::jpeg : ColourEncoding::png;
   options.fps = fps;
-  auto writer = RecordingWriter::create(out, options);
-  if (!writer) return tl::unexpected(writer.error());
-  return std::make_unique<FolderWriter>(std::move(*writer));
+  return open_frame_writer(out, options);
 }
 
 }  // namespace
