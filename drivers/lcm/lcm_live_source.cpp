@@ -79,6 +79,20 @@ SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
   return *frame;
 }
 
+std::vector<QueueHealth> LcmLiveSource::queues() const {
+  const std::lock_guard lock(mutex_);
+  const auto waiting = static_cast<std::int64_t>(letters_.size());
+  const std::int64_t received = counts_.received;
+  return {{"transit", 0, 0, received + counts_.lost, received, counts_.lost, {}},
+          {"inbox",
+           options_.capacity,
+           letters_.size(),
+           received,
+           received - counts_.replaced - waiting,
+           counts_.replaced,
+           {}}};
+}
+
 LcmLiveCounts LcmLiveSource::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;

@@ -40,6 +40,8 @@ class LcmLiveSource : public FrameSource {
   bool live() const override { return true; }
   std::string name() const override { return "lcm:" + bus_->url(); }
 
+  /// "transit", the way from the sender, and "inbox", the messages that wait here.
+  std::vector<QueueHealth> queues() const override;
   LcmLiveCounts counts() const;
 
  private:

@@ -203,14 +203,20 @@ std::int64_t Pipeline::latency_us(const Item& item) const {
   return clocks_agree ? since_capture : clock_.steady_us() - item.arrived_us;
 }
 
+std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
+  return std::span(health.queues).last(kQueueCount);
+}
+
 PipelineHealth Pipeline::counts() const {
   PipelineHealth health;
   health.published = published_;
   health.failed = failed_;
   health.skipped = skipped_;
+  health.queues = stages_.source.queues();
   for (const Queue& queue : queues_) health.queues.push_back(queue.health());
-  health.captured = health.queues[0].pushed;
-  health.dropped = health.queues[0].dropped;
+  const QueueHealth& door = own_queues(health)[kDoor];
+  health.captured = door.pushed;
+  health.dropped = door.dropped;
   return health;
 }
 
@@ -220,7 +226,7 @@ PipelineHealth Pipeline::health() const {
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->health());
   std::unique_lock lock(mutex_);
   health.latency = latency_.summary();
-  for (int q = 0; q < kQueueCount; ++q) health.queues[q].wait = wait_[q].summary();
+  for (int q = 0; q < kQueueCount; ++q) own_queues(health)[q].wait = wait_[q].summary();
   return health;
 }
 
@@ -231,7 +237,7 @@ PipelineHealth Pipeline::take_interval_health() {
   std::unique_lock lock(mutex_);
   health.latency = interval_latency_.summary();
   for (int q = 0; q < kQueueCount; ++q) {
-    health.queues[q].wait = interval_wait_[q].summary();
+    own_queues(health)[q].wait = interval_wait_[q].summary();
     interval_wait_[q].clear();
   }
   interval_latency_.clear();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -96,6 +97,8 @@ class Pipeline {
   void end_with(Error error);
   std::int64_t latency_us(const Item& item) const;
   PipelineHealth counts() const;
+  /// Those of the pipeline itself, indexed by QueueIndex, behind those of the source.
+  static std::span<QueueHealth> own_queues(PipelineHealth& health);
 
   PipelineStages stages_;
   const PipelineOptions options_;

@@ -18,6 +18,15 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
                 time.mean * 1e3, time.p50 * 1e3, time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
 }
 
+/// "dropped by transit 12, door 2", a line; empty if nothing was.
+std::string drops(const std::vector<QueueHealth>& queues) {
+  std::string text;
+  for (const QueueHealth& queue : queues)
+    if (queue.dropped > 0)
+      text += (text.empty() ? "dropped by " : ", ") + queue.name + " " + std::to_string(queue.dropped);
+  return text.empty() ? text : text + "\n";
+}
+
 }  // namespace
 
 std::string summary(const PipelineHealth& health, const StatusCounts& status, double seconds) {
@@ -26,7 +35,7 @@ std::string summary(const PipelineHealth& health, const StatusCounts& status, do
                             seconds > 0 ? static_cast<double>(health.published) / seconds : 0.0,
                             static_cast<long long>(health.published), static_cast<long long>(health.dropped),
                             static_cast<long long>(health.failed));
-  text += format("; %lld unreadable ones skipped\n", static_cast<long long>(health.skipped));
+  text += format("; %lld unreadable ones skipped\n", static_cast<long long>(health.skipped)) + drops(health.queues);
   text += format(
       "hand: tracked in %lld frames, held in %lld, lost in %lld, searched for in %lld\n",
       static_cast<long long>(status.of(TrackStatus::tracking)), static_cast<long long>(status.of(TrackStatus::holding)),
@@ -43,8 +52,11 @@ std::string health_line(const PipelineHealth& health) {
                             static_cast<long long>(health.skipped), health.latency.p50 * 1e3);
   for (const StageHealth& stage : health.stages)
     text += format(" %s %.1f ms", stage.name.c_str(), stage.time.p50 * 1e3);
-  for (const QueueHealth& queue : health.queues)
-    text += format(" [%s %zu/%zu]", queue.name.c_str(), queue.depth, queue.capacity);
+  for (const QueueHealth& queue : health.queues) {
+    text += format(" [%s %zu/%zu", queue.name.c_str(), queue.depth, queue.capacity);
+    if (queue.dropped > 0) text += format(", %lld dropped", static_cast<long long>(queue.dropped));
+    text += "]";
+  }
   return text;
 }
 

@@ -58,7 +58,7 @@ struct PipelineHealth {
   std::int64_t skipped = 0;    ///< frames the source could not read; not part of `captured`
   TimeSummary latency;         ///< capture to published; of a replay: read to published
   std::vector<StageHealth> stages;
-  std::vector<QueueHealth> queues;
+  std::vector<QueueHealth> queues;  ///< in the order frames pass them, those of the source first
 };
 
 }  // namespace barehand

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "math/frame.h"
 
 namespace barehand {
@@ -30,6 +32,9 @@ class FrameSource {
   virtual bool live() const = 0;
   /// "folder:/data/fist", for messages.
   virtual std::string name() const = 0;
+  /// What frames pass before they get here, first to last. Frames that a network lost count as dropped by a queue
+  /// without capacity. Any thread.
+  virtual std::vector<QueueHealth> queues() const { return {}; }
 };
 
 }  // namespace barehand

@@ -20,6 +20,8 @@ class ScriptedSource : public FrameSource {
   SourceEvent next(std::chrono::milliseconds) override { return script_(calls_++); }
   bool live() const override { return live_; }
   std::string name() const override { return "script"; }
+  std::vector<QueueHealth> queues() const override { return before; }
+  std::vector<QueueHealth> before;
 
  private:
   const bool live_;
@@ -374,6 +376,18 @@ TEST(PipelineRunners, LiveFramesAreDroppedAtTheDoorAndTheNewestWinsThreaded) {
   EXPECT_EQ(world.sink.numbers.back(), 19);
   EXPECT_EQ(result.health.captured, 20);
   expect_balanced(result.health);
+}
+
+TEST(PipelineRunners, HealthNamesTheQueuesOfTheSourceFirst) {
+  World world(false);
+  ScriptedSource source(true, frames_then_end(1));
+  source.before = {{"transit", 0, 0, 8, 1, 7, {}}};
+  const PipelineHealth health = world.run(source).health;
+  ASSERT_EQ(health.queues.size(), 4u);
+  EXPECT_EQ(health.queues[0].name, "transit");
+  EXPECT_EQ(health.queues[1].name, "door");
+  EXPECT_EQ(health.captured, 1);
+  EXPECT_EQ(health.dropped, 0) << "what was lost before it came counts apart";
 }
 
 TEST(PipelineRunners, LiveFramesAreDroppedAtTheDoorAndTheNewestWinsInline) {

@@ -62,6 +62,18 @@ TEST_F(LcmLive, GapsInTheNumbersAreCountedAsLost) {
   EXPECT_EQ(source_.counts().lost, 1) << "3 is lost, 4 was only late";
 }
 
+TEST_F(LcmLive, QueuesBalance) {
+  for (const int number : {1, 2, 5}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(3);
+  const std::vector<QueueHealth> queues = source_.queues();
+  ASSERT_EQ(queues.size(), 2u);
+  EXPECT_EQ(queues[0].dropped, 2) << "3 and 4";
+  EXPECT_EQ(queues[1].depth, 1u);
+  EXPECT_EQ(queues[1].popped, 0);
+  for (const QueueHealth& q : queues)
+    EXPECT_EQ(q.pushed, q.popped + q.dropped + static_cast<std::int64_t>(q.depth)) << q.name;
+}
+
 TEST_F(LcmLive, ASenderThatStartsAgainLosesNothing) {
   for (const int number : {500, 501, 0, 1}) send("RGBD_FRAME", frame_bytes(number));
   wait_received(4);
