@@ -3,25 +3,13 @@
 #include <algorithm>
 #include <fstream>
 
-#include "child_process.h"
+#include "barehand_program.h"
 
 namespace barehand {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-struct Outcome {
-  int exit_code;
-  std::string output;
-};
-
-Outcome barehand(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), BAREHAND_PROGRAM);
-  ChildProcess child(std::move(arguments));
-  const int exit_code = child.finish();
-  return {exit_code, child.output()};
-}
 
 std::string write_file(const std::string& name, const std::string& text) {
   const std::string path = ::testing::TempDir() + name;

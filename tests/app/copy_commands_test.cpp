@@ -7,9 +7,10 @@
 #include <thread>
 
 #include "app/copy_frames.h"
-#include "child_process.h"
+#include "barehand_program.h"
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "support/temp_folder.h"
 #include "tests/lcm/test_frames.h"
 
 namespace barehand {
@@ -19,23 +20,13 @@ using ::testing::HasSubstr;
 
 class CopyCommands : public testing::Test {
  protected:
-  struct Outcome {
-    int exit_code;
-    std::string output;
-  };
-  Outcome barehand(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), BAREHAND_PROGRAM);
-    ChildProcess child(std::move(arguments));
-    const int exit_code = child.finish();
-    return {exit_code, child.output()};
-  }
   /// A folder of three frames.
   std::string recording() {
     auto writer = open_frame_writer(folder_ / "recording", {}).value();
     for (int number = 0; number < 3; ++number) EXPECT_TRUE(writer->write(test_frame(number)));
     return folder_ / "recording";
   }
-  TemporaryFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(CopyCommands, ConvertGoesFromFolderToLogAndBack) {

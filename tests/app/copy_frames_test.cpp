@@ -7,6 +7,7 @@
 
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "support/temp_folder.h"
 #include "tests/lcm/test_frames.h"
 
 namespace barehand {
@@ -36,7 +37,7 @@ class CopyFrames : public testing::Test {
     return copy_frames(source, writer, options, stop_, clock_, report_);
   }
   std::unique_ptr<FrameWriter> writer(const std::string& name) { return open_frame_writer(folder_ / name, {}).value(); }
-  TemporaryFolder folder_;
+  test::TempFolder folder_;
   std::atomic<bool> stop_ = false;
   ManualClock clock_;
   std::ostringstream report_;

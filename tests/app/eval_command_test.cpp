@@ -9,8 +9,8 @@
 #include "io/hand_json.h"
 #include "io/recording_writer.h"
 #include "io/result_table.h"
+#include "support/temp_folder.h"
 #include "tests/io/small_hand.h"
-#include "tests/io/temp_folder.h"
 
 namespace barehand {
 namespace {

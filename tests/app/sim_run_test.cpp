@@ -9,6 +9,7 @@
 #include "io/pose_json.h"
 #include "io/recording.h"
 #include "io/result_table.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {
@@ -17,14 +18,12 @@ namespace fs = std::filesystem;
 
 class SimRun : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(folder_), fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   Result<std::int64_t> run(const std::string& spec, const std::string& out) {
     return run_sim({spec, out}, [](std::int64_t, std::int64_t) { return true; });
   }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string path(const std::string& name) const { return folder_ / name; }
 
-  std::string folder_ = testing::TempDir() + "sim_run_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+  test::TempFolder folder_;
 };
 
 TEST_F(SimRun, WritesARecordingWithTruthProfileAndStart) {

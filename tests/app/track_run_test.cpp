@@ -10,6 +10,7 @@
 #include "io/recording_writer.h"
 #include "io/result_table.h"
 #include "support/painted_hand.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {
@@ -21,7 +22,6 @@ namespace fs = std::filesystem;
 class TrackRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(folder_);
     auto writer = RecordingWriter::create(folder_);
     ASSERT_TRUE(writer) << writer.error().message();
     RgbdFrame frame;
@@ -30,7 +30,6 @@ class TrackRun : public ::testing::Test {
     frame.depth.reset(64, 48, 800);
     ASSERT_TRUE(writer->write(frame));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// A hand before a wall that turns a little, over six frames.
   void record_hand() {
@@ -77,8 +76,8 @@ class TrackRun : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  const std::string folder_ =
-      ::testing::TempDir() + "track_run_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const test::TempFolder place_;
+  const std::string folder_ = place_ / "recording";
 };
 
 TEST_F(TrackRun, FinishesARecordingWithASummary) {

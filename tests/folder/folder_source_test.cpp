@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "io/recording_writer.h"
-#include "tests/io/temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

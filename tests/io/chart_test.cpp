@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "io/image_file.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

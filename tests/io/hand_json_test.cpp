@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "small_hand.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/image_file.h"
 #include "io/overlay_drawing.h"
 #include "small_hand.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

@@ -5,7 +5,7 @@
 #include "hand/joint_angles.h"
 #include "math/angles.h"
 #include "small_hand.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "io/image_file.h"
 #include "io/recording_writer.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "small_hand.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {

@@ -10,6 +10,7 @@
 #include "drivers/lcm/layouts.h"
 #include "foreign_messages.h"
 #include "io/lcm_log_writer.h"
+#include "support/temp_folder.h"
 #include "test_frames.h"
 
 namespace barehand {
@@ -52,7 +53,7 @@ class LcmLog : public testing::Test {
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   }
 
-  TemporaryFolder folder_;
+  test::TempFolder folder_;
   std::string path_ = folder_ / "test.lcmlog";
   std::unique_ptr<LcmLogWriter> writer_;
 };

@@ -8,6 +8,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "io/lcm_log_reader.h"
+#include "support/temp_folder.h"
 #include "test_frames.h"
 
 namespace barehand {
@@ -16,7 +17,7 @@ namespace {
 const std::vector<std::uint8_t> kMessage = {1, 2, 3, 4, 5};
 
 TEST(LcmLogWriter, WritesWhatLcmReads) {
-  const TemporaryFolder folder;
+  const test::TempFolder folder;
   {
     auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
     ASSERT_TRUE(log->send("HAND_STATE", kMessage, 123456));
@@ -39,7 +40,7 @@ TEST(LcmLogWriter, WritesWhatLcmReads) {
 }
 
 TEST(LcmLogWriter, EveryEventIsInTheFileAtOnce) {
-  const TemporaryFolder folder;
+  const test::TempFolder folder;
   auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
   for (int i = 1; i <= 3; ++i) {
     ASSERT_TRUE(log->send("A", kMessage, i));
@@ -49,7 +50,7 @@ TEST(LcmLogWriter, EveryEventIsInTheFileAtOnce) {
 }
 
 TEST(LcmLogWriter, ReplacesAFileOnlyIfAllowed) {
-  const TemporaryFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "a.lcmlog") << "precious";
   EXPECT_FALSE(LcmLogWriter::create(folder / "a.lcmlog", false));
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), 8u);
@@ -89,7 +90,7 @@ class FileSizeLimit {
 };
 
 TEST(LcmLogWriter, WhenTheDiskFillsUpTheWholeEventsStay) {
-  const TemporaryFolder folder;
+  const test::TempFolder folder;
   const std::vector<std::uint8_t> large(10'000, 7);
   {
     const FileSizeLimit limit(25'000);

@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-#include <filesystem>
-#include <string>
-
 #include "math/frame.h"
 #include "math/random.h"
 
@@ -41,19 +37,5 @@ inline void expect_same_frame(const RgbdFrame& a, const RgbdFrame& b) {
   ASSERT_EQ(a.colour.size(), b.colour.size());
   for (std::size_t i = 0; i < a.colour.size(); ++i) ASSERT_EQ(a.colour[i], b.colour[i]) << "colour pixel " << i;
 }
-
-/// A folder of its own that vanishes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "barehand-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace barehand
