@@ -41,15 +41,10 @@ std::string label_of(const EvalOptions& o, std::size_t i) {
 
 Result<void> evaluate_runs(const EvalOptions& o, const std::vector<ResultTable>& results, EvalReport& report) {
   for (std::size_t i = 0; i < results.size() && !o.truths.empty(); ++i) {
-    const std::string& path = o.truths[o.truths.size() == 1 ? 0 : i];
-    const auto truth = read_table(path);
-    if (!truth) return tl::unexpected(truth.error());
-    auto evaluation = evaluate(*truth, results[i], {o.start, o.step});
-    if (!evaluation) {
-      evaluation.error().where = o.results[i] + " against " + path;
-      return tl::unexpected(evaluation.error());
-    }
-    report.runs.push_back({label_of(o, i), path, o.results[i], results[i].truncated, std::move(*evaluation)});
+    const std::string& truth = o.truths[o.truths.size() == 1 ? 0 : i];
+    auto run = evaluate_run(label_of(o, i), truth, o.results[i], results[i], {o.start, o.step});
+    if (!run) return tl::unexpected(run.error());
+    report.runs.push_back(std::move(*run));
   }
   return {};
 }

@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kMillimetre = 1000;
 
-Distribution scaled(Distribution d, double scale) {
-  for (double* value : {&d.mean, &d.deviation, &d.min, &d.quartile1, &d.median, &d.quartile3, &d.p90, &d.p95, &d.max})
-    *value *= scale;
-  return d;
-}
-
 BoxChart runs_chart(const std::vector<EvaluatedRun>& runs) {
   BoxChart chart;
   chart.text = {"Error over all hand segments (median, quartiles, range)", "", "segment error [mm]"};

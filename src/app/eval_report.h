@@ -17,6 +17,12 @@ struct EvaluatedRun {
   Evaluation evaluation;
 };
 
+/// Compares `result`, read from `result_path`, with the truth in `truth_path`. Errors: a truth that cannot be read, and
+/// those of evaluate().
+Result<EvaluatedRun> evaluate_run(const std::string& label, const std::string& truth_path,
+                                  const std::string& result_path, const ResultTable& result,
+                                  const ExpectedFrames& expected = {});
+
 /// What `barehand eval` found.
 struct EvalReport {
   std::vector<EvaluatedRun> runs;

@@ -8,10 +8,10 @@ Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path) {
   return std::unique_ptr<Sink>(new ResultTableSink(std::move(*writer)));
 }
 
-Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps) {
-  auto writer = OverlayWriter::open(path, fps);
+Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every) {
+  auto writer = OverlayWriter::open(path, fps / every);
   if (!writer) return tl::unexpected(writer.error());
-  return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer)));
+  return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every));
 }
 
 }  // namespace barehand

@@ -20,19 +20,22 @@ class ResultTableSink : public Sink {
   TableWriter writer_;
 };
 
-/// --overlay: the tracked hand drawn over the images.
+/// --overlay: the tracked hand drawn over the images, on the first and then on each `every`-th frame.
 class OverlaySink : public Sink {
  public:
-  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps);
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every);
   std::string name() const override { return "overlay"; }
   Result<void> consume(const TrackedFrame& tracked) override {
+    if (seen_++ % every_ != 0) return {};
     return writer_.write(*tracked.frame, *tracked.estimate);
   }
   Result<void> finish() override { return writer_.finish(); }
 
  private:
-  explicit OverlaySink(OverlayWriter writer) : writer_(std::move(writer)) {}
+  OverlaySink(OverlayWriter writer, int every) : writer_(std::move(writer)), every_(every) {}
   OverlayWriter writer_;
+  const std::int64_t every_;
+  std::int64_t seen_ = 0;
 };
 
 }  // namespace barehand

@@ -1,11 +1,10 @@
 #include "app/sim_command.h"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
+#include "app/render_progress.h"
 #include "app/sim_run.h"
 #include "drivers/synthetic/synthetic_spec.h"
 
@@ -39,18 +38,6 @@ void print_list() {
               synthetic::synthetic_spec_help().c_str());
 }
 
-/// A line that is rewritten on a terminal, a line at every tenth of the work elsewhere.
-bool print_progress(std::int64_t done, std::int64_t all) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const std::int64_t step = std::max<std::int64_t>(1, all / 10);
-  if (terminal)
-    std::fprintf(stderr, "\r%lld of %lld frames", static_cast<long long>(done), static_cast<long long>(all));
-  if (terminal && done == all) std::fputc('\n', stderr);
-  if (!terminal && (done % step == 0 || done == all))
-    std::fprintf(stderr, "%lld of %lld frames\n", static_cast<long long>(done), static_cast<long long>(all));
-  return true;
-}
-
 int fail_with(const Error& error, int code) {
   std::fprintf(stderr, "barehand sim: %s\n", error.message().c_str());
   return code;
@@ -67,7 +54,7 @@ int run(const SimArguments& a) {
   std::int64_t done = 0;
   const auto frames = run_sim({spec_of(a), a.out}, [&](std::int64_t now, std::int64_t all) {
     done = now;
-    return print_progress(now, all);
+    return render_progress(now, all);
   });
   if (!frames) return fail_with(frames.error(), done > 0 ? 1 : 2);
   std::printf("%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());

@@ -26,6 +26,9 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
   track->add_option("--overlay", o.overlay, "draw the tracked hand over the images: into a folder, or a file.mp4");
+  track->add_option("--overlay-every", o.overlay_every, "draw every so many frames only")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
   track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   track->add_option("--seed", o.seed, "of the random numbers, instead of the configuration's");

@@ -15,6 +15,7 @@ struct TrackOptions {
   std::int64_t step = 1;
   std::string init = "auto";
   std::string result, states_log, overlay;  ///< "": not written
+  int overlay_every = 1;                    ///< every so many frames are drawn
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< instead of the configuration's
   int threads = 1;

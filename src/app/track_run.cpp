@@ -24,23 +24,19 @@
 namespace barehand {
 namespace {
 
-struct Failure {
-  Error error;
-  int exit_code;
-};
-using Step = tl::expected<void, Failure>;
+using Step = tl::expected<void, TrackFailure>;
 
-tl::unexpected<Failure> usage(const Error& error) { return tl::unexpected(Failure{error, kExitUsage}); }
-tl::unexpected<Failure> failure(const Error& error) { return tl::unexpected(Failure{error, kExitFailure}); }
+tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
+tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
 
 /// One run, put together step by step: all input is checked before the first output file is touched.
 class TrackRun {
  public:
-  explicit TrackRun(const TrackOptions& options)
-      : options_(options), log_(make_logger(), clock_), interrupt_([this] { stop_.request_stop(); }) {}
+  TrackRun(const TrackOptions& options, const Config& config)
+      : options_(options), config_(config), log_(make_logger(), clock_), interrupt_([this] { stop_.request_stop(); }) {}
 
-  Step prepare(const Config& config);
-  int run();
+  Step prepare();
+  TrackOutcome run();
 
  private:
   Step open_input();
@@ -50,14 +46,14 @@ class TrackRun {
   Step open_bus();
   CommandedTracker::Inbox inbox() const;
   Step add(Result<std::unique_ptr<Sink>> sink);
-  int conclude(const RunResult& result, double seconds);
+  int conclude(const RunResult& result);
 
   const TrackOptions& options_;
+  const Config& config_;
   SystemClock clock_;
   RepeatLog log_;
   std::stop_source stop_;
   InterruptWatcher interrupt_;  // before anything that starts threads
-  Config config_;
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
   std::shared_ptr<const HandProfile> profile_;
@@ -69,8 +65,7 @@ class TrackRun {
   std::unique_ptr<Pipeline> pipeline_;
 };
 
-Step TrackRun::prepare(const Config& config) {
-  config_ = config;
+Step TrackRun::prepare() {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
@@ -123,7 +118,8 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result));
   if (ok && !options_.states_log.empty()) ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log));
   if (ok && !options_.overlay.empty())
-    ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step))));
+    ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
+                                 options_.overlay_every));
   if (!ok) return ok;
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
@@ -154,7 +150,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
   return [commands = commands_.get()] { return commands->take(); };
 }
 
-int TrackRun::run() {
+TrackOutcome TrackRun::run() {
   TrackStages computing = make_track_stages(config_, profile_, initial_, inbox(), *workers_, log_);
   PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
@@ -167,11 +163,11 @@ int TrackRun::run() {
   pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
-  return conclude(result, static_cast<double>(clock_.steady_us() - start) * 1e-6);
+  const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
+  return {result.health, progress_->counts(), seconds, result.stopped, conclude(result)};
 }
 
-int TrackRun::conclude(const RunResult& result, double seconds) {
-  std::cout << summary(result.health, progress_->counts(), seconds) << std::flush;
+int TrackRun::conclude(const RunResult& result) {
   int exit_code = kExitOk;
   if (result.stopped) {
     const bool by_user = interrupt_.signal() == SIGINT;
@@ -195,12 +191,18 @@ Result<Config> configuration(const TrackOptions& options) {
   return config;
 }
 
-int tell(const Failure& failure) {
+int tell(const TrackFailure& failure) {
   std::cerr << "barehand track: " << failure.error.message() << std::endl;
   return failure.exit_code;
 }
 
 }  // namespace
+
+tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config) {
+  TrackRun run(options, config);
+  if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
+  return run.run();
+}
 
 int run_track(const TrackOptions& options) {
   const auto config = configuration(options);
@@ -211,9 +213,10 @@ int run_track(const TrackOptions& options) {
   }
   if (options.source.empty())
     return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm or sim:NAME"}, kExitUsage});
-  TrackRun run(options);
-  const Step prepared = run.prepare(*config);
-  return prepared ? run.run() : tell(prepared.error());
+  const auto outcome = track(options, *config);
+  if (!outcome) return tell(outcome.error());
+  std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
+  return outcome->exit_code;
 }
 
 }  // namespace barehand

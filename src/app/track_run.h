@@ -1,8 +1,31 @@
 #pragma once
 
+#include "app/config.h"
+#include "app/exit_code.h"
+#include "app/pipeline.h"
+#include "app/progress.h"
 #include "app/track_options.h"
 
 namespace barehand {
+
+/// Why nothing was tracked.
+struct TrackFailure {
+  Error error;
+  int exit_code;  ///< exit_code.h
+};
+
+/// How a run went.
+struct TrackOutcome {
+  PipelineHealth health;
+  StatusCounts status;
+  double seconds = 0;    ///< wall clock
+  bool stopped = false;  ///< by a signal; everything tracked until then is written
+  int exit_code = kExitOk;
+};
+
+/// Tracks as `config` and the rest of `options` say; its config, seed and print_config are not looked at. Progress and
+/// log on standard error, nothing on standard output. All input is checked before the first output file is touched.
+tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config);
 
 /// Runs `barehand track` and returns its exit code (exit_code.h). Errors are told on standard error, the closing
 /// summary on standard output.

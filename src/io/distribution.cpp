@@ -39,4 +39,10 @@ Distribution summarise(std::vector<double> values) {
   return d;
 }
 
+Distribution scaled(Distribution d, double scale) {
+  for (double* value : {&d.mean, &d.deviation, &d.min, &d.quartile1, &d.median, &d.quartile3, &d.p90, &d.p95, &d.max})
+    *value *= scale;
+  return d;
+}
+
 }  // namespace barehand
