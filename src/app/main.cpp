@@ -5,6 +5,7 @@
 #include "app/doctor_command.h"
 #include "app/eval_command.h"
 #include "app/exit_code.h"
+#include "app/experiment_command.h"
 #include "app/listen_command.h"
 #include "app/record_command.h"
 #include "app/sim_command.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   barehand::add_record_command(app, exit_code);
   barehand::add_convert_command(app, exit_code);
   barehand::add_eval_command(app, exit_code);
+  barehand::add_experiment_command(app, exit_code);
   barehand::add_listen_command(app, exit_code);
   barehand::add_bench_command(app, exit_code);
   barehand::add_doctor_command(app, exit_code);

@@ -28,6 +28,7 @@ TEST(CommandLine, HelpAndVersionSucceed) {
                                                                                          {"track", "--help"},
                                                                                          {"bench", "--help"},
                                                                                          {"eval", "--help"},
+                                                                                         {"experiment", "--help"},
                                                                                          {"doctor", "--help"}}) {
     const Outcome outcome = barehand(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments[0];
@@ -39,6 +40,8 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(barehand({}).exit_code, 2);
   EXPECT_EQ(barehand({"juggle"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--sauce", "lcm"}).exit_code, 2);
+  EXPECT_EQ(barehand({"experiment", "juggling", "--out", "/nonexistent"}).exit_code, 2);
+  EXPECT_EQ(barehand({"experiment", "fist"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--threads", "two"}).exit_code, 2);
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace barehand {
+
+/// Adds `barehand experiment`: the paper's experiments on the simulator. When it has run, `exit_code` holds its result
+/// (exit_code.h).
+void add_experiment_command(CLI::App& app, int& exit_code);
+
+}  // namespace barehand
