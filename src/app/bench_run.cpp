@@ -6,7 +6,9 @@
 #include "app/bench_report.h"
 #include "app/bench_sweep.h"
 #include "app/exit_code.h"
+#include "app/memory_check.h"
 #include "app/run_inputs.h"
+#include "core/available_memory.h"
 #include "core/parallel.h"
 
 namespace barehand {
@@ -39,6 +41,9 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
     if (!swept) return tl::unexpected(swept.error());
     for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
   }
+  for (const NamedCase& named : cases)
+    if (const auto fits = check_memory(named.bench.config.tracker, available_memory()); !fits)
+      return tl::unexpected(fits.error());
   return cases;
 }
 

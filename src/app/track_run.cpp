@@ -11,6 +11,7 @@
 #include "app/file_sinks.h"
 #include "app/health_sink.h"
 #include "app/interrupt.h"
+#include "app/memory_check.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/publish_sink.h"
@@ -18,6 +19,7 @@
 #include "app/source_factory.h"
 #include "app/summary.h"
 #include "app/track_stages.h"
+#include "core/available_memory.h"
 #include "core/parallel.h"
 #include "io/pose_json.h"
 
@@ -69,6 +71,7 @@ Step TrackRun::prepare() {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
+  if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   return open_input().and_then([&] { return use_hand(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();
   });

@@ -52,6 +52,10 @@ HandBelief Fusion::fuse(const SegmentSamples& samples, int level) const {
   return belief;
 }
 
+std::int64_t Fusion::memory(std::int64_t samples) {
+  return (kSegmentCount - 1) * samples * samples * static_cast<std::int64_t>(sizeof(float));
+}
+
 Proposals Fusion::next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
                                  double interval_factor) const {
   Proposals proposals;

@@ -30,6 +30,8 @@ class Fusion {
   Proposals first_proposals(const HandPose& predicted, double interval_factor = 1) const;
   /// Marginal posterior of every segment over its samples, exact on the tree (Eq. 4-8). `level` from 0.
   HandBelief fuse(const SegmentSamples& samples, int level) const;
+  /// Bytes that fuse holds for `samples` per segment: the energies of all pairs along the 15 joints.
+  static std::int64_t memory(std::int64_t samples);
   /// The S' best distinct samples of `level` as boxes of level + 1, best first; fewer where they are not distinct.
   Proposals next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
                            double interval_factor = 1) const;

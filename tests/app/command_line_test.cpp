@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 
 #include "barehand_program.h"
 
@@ -89,6 +90,19 @@ TEST(Track, RefusesAbsurdThreadCountsAndSteps) {
   }
   EXPECT_THAT(barehand({"track", "--source", "folder:/tmp", "--step", "0"}).output, HasSubstr("step of 0"));
   EXPECT_THAT(barehand({"track", "--source", "lcm", "--start", "3"}).output, HasSubstr("for recordings"));
+}
+
+TEST(Track, RefusesMoreSamplesThanMemoryHolds) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer does not start under ulimit -v";
+#endif
+  const std::string text = std::regex_replace(shipped_config(), std::regex(" samples: [0-9]+"), " samples: 9000");
+  const std::string path = write_file("many_samples.yaml", text);
+  ChildProcess child(
+      {"bash", "-c", "ulimit -v 2000000; exec " BAREHAND_PROGRAM " track --source lcm --config " + path});
+  EXPECT_EQ(child.finish(), 2);
+  EXPECT_THAT(child.output(), HasSubstr("tracker.segment_tracker.samples: 9000 samples take "));
+  EXPECT_THAT(child.output(), HasSubstr("give at most "));
 }
 
 TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
