@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "observe/nearest_cell.h"
-
 namespace barehand {
 namespace {
 
@@ -30,7 +28,7 @@ class Comparer {
     out_.correspondences.clear();
     out_.visible.fill(0);
     out_.matched.fill(0);
-    nearest_occupied(rendered_.vertex, out_.nearest_model);
+    out_.nearest_model.index(rendered_.vertex);
     const CellGrid& g = rendered_.grid;
     for (int j = 0; j < g.height; ++j)
       for (int i = 0; i < g.width; ++i) {
@@ -88,7 +86,7 @@ class Comparer {
   void judge_unexplained(int i, int j, int u, int v) {
     const Vector3f data = obs_.point(u, v);
     if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // forearm
-    const std::int32_t nearest = out_.nearest_model.at(i, j);
+    const std::int32_t nearest = out_.nearest_model.find(i, j);
     if (nearest < 0) return;
     const int mi = nearest % rendered_.grid.width, mj = nearest / rendered_.grid.width;
     add(Kind::unexplained, mi, mj, data, (data - model_point(mi, mj)).norm());

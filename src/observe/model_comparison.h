@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "observe/hand_renderer.h"
+#include "observe/nearest_cell.h"
 #include "observe/observation.h"
 
 namespace barehand {
@@ -41,7 +42,7 @@ struct ModelComparison {
   double score = 0;  ///< mean capped distance over all evidence [m]; lower is better; the cap if there is none
   std::array<int, kSegmentCount> visible{};  ///< cells in which a segment is front-most and not behind an object
   std::array<int, kSegmentCount> matched{};  ///< of these, cells with hand data near the model
-  Image<std::int32_t> nearest_model;         ///< scratch: nearest model cell of every cell
+  NearestCell nearest_model;                 ///< scratch: where the rendered hand is
 };
 
 /// Cells of the whole region of interest.

@@ -1,48 +1,52 @@
 #include "observe/nearest_cell.h"
 
+#include <limits>
+
 namespace barehand {
 namespace {
 
-class Propagation {
- public:
-  Propagation(int width, Image<std::int32_t>& nearest) : width_(width), nearest_(nearest) {}
-
-  // Takes over the neighbour's answer where it is nearer.
-  void relax(int u, int v, int du, int dv) {
-    if (!nearest_.contains(u + du, v + dv)) return;
-    const std::int32_t candidate = nearest_.at(u + du, v + dv);
-    if (candidate < 0) return;
-    std::int32_t& mine = nearest_.at(u, v);
-    if (mine < 0 || distance_sq(u, v, candidate) < distance_sq(u, v, mine)) mine = candidate;
-  }
-
- private:
-  int distance_sq(int u, int v, std::int32_t i) const {
-    const int du = i % width_ - u, dv = i / width_ - v;
-    return du * du + dv * dv;
-  }
-  int width_;
-  Image<std::int32_t>& nearest_;
-};
+constexpr std::int16_t kNone = -1;
 
 }  // namespace
 
-void nearest_occupied(const Image<std::int32_t>& occupied, Image<std::int32_t>& nearest) {
+void NearestCell::index(const Image<std::int32_t>& occupied) {
   const int width = occupied.width(), height = occupied.height();
-  nearest.reset(width, height, -1);
-  for (std::size_t i = 0; i < occupied.size(); ++i)
-    if (occupied[i] >= 0) nearest[i] = static_cast<std::int32_t>(i);
-  Propagation propagation(width, nearest);
+  row_.reset(width, height, kNone);
+  // Down, then up all columns at once: whole rows vectorise.
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u)
-      for (const auto& [du, dv] : {std::pair{-1, 0}, {0, -1}, {-1, -1}, {1, -1}}) propagation.relax(u, v, du, dv);
-    for (int u = width - 1; u >= 0; --u) propagation.relax(u, v, 1, 0);
+    const std::int32_t* set = occupied.row(v);
+    std::int16_t* own = row_.row(v);
+    const std::int16_t* above = v > 0 ? row_.row(v - 1) : own;
+    for (int u = 0; u < width; ++u) own[u] = set[u] >= 0 ? static_cast<std::int16_t>(v) : above[u];
   }
-  for (int v = height - 1; v >= 0; --v) {
-    for (int u = width - 1; u >= 0; --u)
-      for (const auto& [du, dv] : {std::pair{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) propagation.relax(u, v, du, dv);
-    for (int u = 0; u < width; ++u) propagation.relax(u, v, -1, 0);
+  for (int v = height - 2; v >= 0; --v) {
+    std::int16_t* own = row_.row(v);
+    const std::int16_t* below = row_.row(v + 1);
+    for (int u = 0; u < width; ++u) {
+      const bool nearer = below[u] != kNone && (own[u] == kNone || below[u] - v < v - own[u]);
+      own[u] = nearer ? below[u] : own[u];
+    }
   }
+}
+
+std::int32_t NearestCell::find(int u, int v) const {
+  const int width = row_.width();
+  const std::int16_t* row = row_.row(v);
+  int best_sq = std::numeric_limits<int>::max();
+  std::int32_t nearest = -1;
+  const auto try_column = [&](int x) {
+    if (row[x] == kNone) return;
+    const int dv = row[x] - v, distance_sq = (x - u) * (x - u) + dv * dv;
+    if (distance_sq >= best_sq) return;
+    best_sq = distance_sq;
+    nearest = row[x] * width + x;
+  };
+  try_column(u);
+  for (int step = 1; step < width && step * step < best_sq; ++step) {
+    if (u >= step) try_column(u - step);
+    if (u + step < width) try_column(u + step);
+  }
+  return nearest;
 }
 
 }  // namespace barehand

@@ -32,7 +32,11 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
     observation->normal[i] = rendered.normal[rendered.vertex[i]];
     observation->hand_pixels.push_back(static_cast<std::int32_t>(i));
   }
-  nearest_occupied(rendered.vertex, observation->nearest_hand);
+  NearestCell nearest;
+  nearest.index(rendered.vertex);
+  observation->nearest_hand.reset(camera.width, camera.height, -1);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) observation->nearest_hand.at(u, v) = nearest.find(u, v);
   for (std::size_t i = 0; i < observation->hand_pixels.size(); i += 7)
     observation->cloud.push_back(observation->point(observation->hand_pixels[i]));
   return observation;
