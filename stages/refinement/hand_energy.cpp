@@ -5,23 +5,19 @@
 
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
+#include "stages/refinement/residual_moments.h"
 
 namespace barehand {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 using Jacobian = Eigen::Matrix<double, 3, 6>;
 
 double sq(double x) { return x * x; }
-
-// d(R w + t)/d twist of a point at `arm` from the segment's origin.
-Jacobian point_jacobian(const Vector3d& arm) {
-  Jacobian J;
-  J << Matrix3d::Identity(), -skew(arm);
-  return J;
-}
+float sq(float x) { return x * x; }
 
 // One block of residuals r (weighted information W) that depends on a segment and its parent.
 template <int N>
@@ -36,44 +32,46 @@ void add_pair(GaussianTree& tree, int child, const Eigen::Matrix<double, N, 6>& 
   tree.g[parent] -= J_parent.transpose() * (W * r);
 }
 
-// Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
-double robust_weight(double distance_sq, double scale_sq) { return sq(scale_sq / (scale_sq + distance_sq)); }
-double robust_energy(double distance_sq, double scale_sq) { return scale_sq * distance_sq / (scale_sq + distance_sq); }
-
 class DataTerm {
  public:
   DataTerm(const EnergyParams& p, double widening)
-      : surface_scale_sq_(sq(p.robust_scale * widening)),
-        surface_gate_(p.gate * widening),
-        silhouette_scale_sq_(sq(p.silhouette_scale * widening)),
-        silhouette_gate_(p.silhouette_gate * widening),
-        information_(1 / sq(p.sigma_depth)),
-        params_(p) {}
+      : surface_{scale_sq(p.robust_scale, widening), scale_sq(p.gate, widening), information(p, 1)},
+        outside_{scale_sq(p.silhouette_scale, widening), scale_sq(p.silhouette_gate, widening),
+                 information(p, p.weight_outside)},
+        unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)} {}
 
-  /// Residual direction(s) as a 3x3 information matrix and residual model - data; false if gated out.
-  bool weigh(const Correspondence& c, Matrix3d& W, Vector3d& r, double& energy) const {
-    r = (c.model - c.data).cast<double>();
-    const Vector3d n = c.normal.cast<double>();
+  /// Adds the residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out.
+  double add(const Correspondence& c, const SkinVertex& v, ResidualMoments& sums) const {
+    const Vector3f r = c.model - c.data;
     if (c.kind == Kind::surface) {
-      const double along = n.dot(r);
-      if (std::abs(along) > surface_gate_) return false;
-      W = c.weight * information_ * robust_weight(sq(along), surface_scale_sq_) * n * n.transpose();
-      energy = c.weight * information_ * robust_energy(sq(along), surface_scale_sq_);
-      return true;
+      const float along = c.normal.dot(r), distance_sq = sq(along);
+      if (distance_sq > surface_.gate_sq) return 0;
+      sums.add(v, c.model, c.normal, along, c.weight * surface_.weight(distance_sq));
+      return c.weight * surface_.energy(distance_sq);
     }
     // Outside: the silhouette says nothing about depth. Unexplained: the data is a point of the skin.
-    const Vector3d axes = c.kind == Kind::outside ? Vector3d(1, 1, 0) : Vector3d(1, 1, 1);
-    const double distance_sq = r.cwiseProduct(axes).squaredNorm();
-    if (distance_sq > sq(silhouette_gate_)) return false;
-    const double weight = c.kind == Kind::outside ? params_.weight_outside : params_.weight_unexplained;
-    W = c.weight * weight * information_ * robust_weight(distance_sq, silhouette_scale_sq_) * axes.asDiagonal();
-    energy = c.weight * weight * information_ * robust_energy(distance_sq, silhouette_scale_sq_);
-    return true;
+    const Robust& robust = c.kind == Kind::outside ? outside_ : unexplained_;
+    const int axes = c.kind == Kind::outside ? 2 : 3;
+    const float distance_sq = r.head(axes).squaredNorm();
+    if (distance_sq > robust.gate_sq) return 0;
+    const float weight = c.weight * robust.weight(distance_sq);
+    for (int axis = 0; axis < axes; ++axis) sums.add(v, c.model, Vector3f::Unit(axis), r[axis], weight);
+    return c.weight * robust.energy(distance_sq);
   }
 
  private:
-  double surface_scale_sq_, surface_gate_, silhouette_scale_sq_, silhouette_gate_, information_;
-  const EnergyParams& params_;
+  // Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
+  struct Robust {
+    float scale_sq, gate_sq, information;
+    float weight(float distance_sq) const { return information * sq(scale_sq / (scale_sq + distance_sq)); }
+    float energy(float distance_sq) const { return information * scale_sq * distance_sq / (scale_sq + distance_sq); }
+  };
+  static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }
+  static float information(const EnergyParams& p, double weight) {
+    return static_cast<float>(weight / sq(p.sigma_depth));
+  }
+
+  Robust surface_, outside_, unexplained_;
 };
 
 }  // namespace
@@ -81,25 +79,10 @@ class DataTerm {
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, double widening, GaussianTree& tree) {
   const DataTerm term(params, widening);
+  ResidualMoments sums(pose);
   double total = 0;
-  for (const Correspondence& c : comparison.correspondences) {
-    Matrix3d W;
-    Vector3d r;
-    double energy;
-    if (!term.weigh(c, W, r, energy)) continue;
-    total += energy;
-    const SkinVertex& v = skin.vertices[c.vertex];
-    const Vector3d p = c.model.cast<double>();
-    const Jacobian Ja = (1 - v.weight_b) * point_jacobian(p - pose[v.a].t);
-    if (v.weight_b == 0) {
-      tree.H_self[v.a] += Ja.transpose() * W * Ja;
-      tree.g[v.a] -= Ja.transpose() * (W * r);
-      continue;
-    }
-    const Jacobian Jb = v.weight_b * point_jacobian(p - pose[v.b].t);
-    const bool a_is_child = parent_of(v.a) == v.b;
-    add_pair<3>(tree, a_is_child ? v.a : v.b, a_is_child ? Ja : Jb, a_is_child ? Jb : Ja, r, W);
-  }
+  for (const Correspondence& c : comparison.correspondences) total += term.add(c, skin.vertices[c.vertex], sums);
+  sums.add_to(tree);
   return total;
 }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+
+#include "hand/gaussian_tree.h"
+#include "hand/skin.h"
+
+namespace barehand {
+
+/// Sums up the normal equations of thousands of one-dimensional residuals at points of the skin. The row of a residual
+/// along direction d at point p is (d, (p - t) x d) for a segment with origin t, times the segment's share of the
+/// vertex: one outer product of six numbers instead of a 3x6 Jacobian on both sides of a matrix. Single precision and
+/// padded to eight lanes: relative error below 1e-5, far below what depth data is worth.
+class ResidualMoments {
+ public:
+  explicit ResidualMoments(const HandPose& pose) {
+    for (int s = 0; s < kSegmentCount; ++s) {
+      origin_[s] = pose[s].t.cast<float>();
+      self_[s].setZero();
+      parent_[s].setZero();
+      gradient_[s].setZero();
+    }
+  }
+
+  /// Residual `r` [m] of a point `p` on the skin at vertex `v`, along `direction`, with information `w` [1/m^2].
+  void add(const SkinVertex& v, const Eigen::Vector3f& p, const Eigen::Vector3f& direction, float r, float w) {
+    const Row a = row(v.a, p, direction, 1 - v.weight_b);
+    add_product(self_[v.a], a, a, w);
+    gradient_[v.a] += w * r * a;
+    if (v.weight_b == 0) return;
+    const Row b = row(v.b, p, direction, v.weight_b);
+    add_product(self_[v.b], b, b, w);
+    gradient_[v.b] += w * r * b;
+    if (parent_of(v.a) == v.b)
+      add_product(parent_[v.a], a, b, w);
+    else
+      add_product(parent_[v.b], b, a, w);
+  }
+
+  void add_to(GaussianTree& tree) const;
+
+ private:
+  using Row = Eigen::Matrix<float, 8, 1>;
+  using Square = Eigen::Matrix<float, 8, 6>;
+
+  Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float share) const {
+    const Eigen::Vector3f turn = (p - origin_[s]).cross(d);
+    return share * (Row() << d, turn, 0, 0).finished();
+  }
+  static void add_product(Square& sum, const Row& a, const Row& b, float w) {
+    const Row wa = w * a;
+    for (int k = 0; k < 6; ++k) sum.col(k) += b[k] * wa;
+  }
+
+  std::array<Eigen::Vector3f, kSegmentCount> origin_;
+  std::array<Square, kSegmentCount> self_, parent_;  // parent: rows of a segment, columns of its parent
+  std::array<Row, kSegmentCount> gradient_;
+};
+
+}  // namespace barehand
