@@ -1,0 +1,88 @@
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/world.h"
+#include "stages/fusion/fusion.h"
+#include "stages/segment_tracker/patch_distance.h"
+#include "stages/segment_tracker/segment_tracker.h"
+
+namespace barehand::bench {
+namespace {
+
+/// One core; samples per segment are the benchmark's argument.
+struct Level {
+  explicit Level(const benchmark::State& state) {
+    SegmentTrackerParams params = w.tracker.segment_tracker;
+    params.samples = static_cast<int>(state.range(0));
+    tracker = std::make_unique<SegmentTracker>(params, w.surface, workers);
+    prepared = tracker->prepare(*w.observation, w.predicted);
+    proposals = fusion.first_proposals(w.predicted);
+    samples = draw();
+  }
+  SegmentSamples draw() const { return tracker->sample(prepared, proposals, {1, 1, 0, 6}); }
+  std::int64_t pairs() const {
+    const auto n = static_cast<std::int64_t>(samples.poses[0].size());
+    return n * n;
+  }
+
+  const World& w = world();
+  Workers workers{1};
+  Fusion fusion{w.tracker.fusion, w.profile, workers};
+  std::unique_ptr<SegmentTracker> tracker;
+  PreparedObservation prepared;
+  Proposals proposals;
+  SegmentSamples samples;
+};
+
+void prepare(benchmark::State& state) {
+  const Level level(state);
+  for (auto _ : state) benchmark::DoNotOptimize(level.tracker->prepare(*level.w.observation, level.w.predicted));
+}
+BENCHMARK(prepare)->Arg(60)->Unit(benchmark::kMicrosecond);
+
+void sampling(benchmark::State& state) {
+  const Level level(state);
+  for (auto _ : state) benchmark::DoNotOptimize(level.draw());
+  state.SetItemsProcessed(state.iterations() * state.range(0) * kSegmentCount);
+}
+BENCHMARK(sampling)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
+
+void distance_of_a_patch(benchmark::State& state) {
+  const Level level(state);
+  const int s = segment_of(2, 1);
+  const auto& skin = (*level.w.surface)[s];
+  std::size_t i = 0;
+  for (auto _ : state) {
+    i = i + 1 < level.samples.poses[s].size() ? i + 1 : 0;
+    benchmark::DoNotOptimize(patch_distance(skin, level.samples.poses[s][i], s, level.prepared.map, 0.008f));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(skin.size()));
+}
+BENCHMARK(distance_of_a_patch)->Arg(60);
+
+void psi_matrix(benchmark::State& state) {
+  const Level level(state);
+  const JointModels joints = make_joint_models(*level.w.profile, level.w.tracker.fusion);
+  const int s = segment_of(2, 1);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(joint_energy(joints[s], 0.005, level.samples.poses[parent_of(s)], level.samples.poses[s]));
+  state.SetItemsProcessed(state.iterations() * level.pairs());
+}
+BENCHMARK(psi_matrix)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
+
+/// All messages of the tree and the psi matrices before them.
+void fusing(benchmark::State& state) {
+  const Level level(state);
+  for (auto _ : state) benchmark::DoNotOptimize(level.fusion.fuse(level.samples, 0));
+  state.SetItemsProcessed(state.iterations() * level.pairs() * (kSegmentCount - 1));
+}
+BENCHMARK(fusing)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
+
+void next_proposals(benchmark::State& state) {
+  const Level level(state);
+  const HandBelief belief = level.fusion.fuse(level.samples, 0);
+  for (auto _ : state) benchmark::DoNotOptimize(level.fusion.next_proposals(level.samples, belief, 0));
+}
+BENCHMARK(next_proposals)->Arg(60)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace barehand::bench
