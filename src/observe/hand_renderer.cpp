@@ -2,12 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace barehand {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
+
+using Triangle = std::array<std::int32_t, 3>;
+
+// Neighbouring cells of a row, drawn together (a vector type of the compiler: any width works everywhere).
+constexpr int kLanes = 8;
+using Lanes = float __attribute__((vector_size(4 * kLanes)));
+using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
+constexpr Lanes kSteps{0, 1, 2, 3, 4, 5, 6, 7};
 
 constexpr float kNear = 0.05f;  // nothing is drawn closer to the camera [m]
 
@@ -40,56 +49,86 @@ class Rasteriser {
     }
   }
 
-  void draw(const std::array<std::int32_t, 3>& t) {
+  void draw(const Triangle& t) {
     const Vector3f &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
     // Image v points down, so a triangle counter-clockwise from outside has negative area here when it faces us.
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     if (!(area < 0) || std::min({out_.position[t[0]].z(), out_.position[t[1]].z(), out_.position[t[2]].z()}) < kNear)
       return;
-    const int i0 = std::max(0, static_cast<int>(std::ceil(std::min({a.x(), b.x(), c.x()}))));
-    const int i1 = std::min(out_.grid.width - 1, static_cast<int>(std::floor(std::max({a.x(), b.x(), c.x()}))));
-    const int j0 = std::max(0, static_cast<int>(std::ceil(std::min({a.y(), b.y(), c.y()}))));
-    const int j1 = std::min(out_.grid.height - 1, static_cast<int>(std::floor(std::max({a.y(), b.y(), c.y()}))));
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; i += kLanes) shade(t, 1.0f / area, i, std::min(i1, i + kLanes - 1), j);
+    const Box box{std::max(0, static_cast<int>(std::ceil(std::min({a.x(), b.x(), c.x()})))),
+                  std::min(out_.grid.width - 1, static_cast<int>(std::floor(std::max({a.x(), b.x(), c.x()})))),
+                  std::max(0, static_cast<int>(std::ceil(std::min({a.y(), b.y(), c.y()})))),
+                  std::min(out_.grid.height - 1, static_cast<int>(std::floor(std::max({a.y(), b.y(), c.y()}))))};
+    for (int i = box.i0; i <= box.i1; i += kLanes) shade(t, 1.0f / area, box, i);
   }
 
  private:
-  // Cells i0 ... i1 of row j, at most kLanes of them. No branch depends on a cell: triangles are a few cells large, so
-  // a processor would guess most of them wrong.
-  void shade(const std::array<std::int32_t, 3>& t, float inverse_area, int i0, int i1, int j) {
-    const Vector3f a = cell_[t[0]], b = cell_[t[1]], c = cell_[t[2]];
-    // The last lanes of the picture: begin earlier rather than write beyond its end.
-    const std::size_t begin = std::min(out_.depth.index(i0, j), out_.depth.size() - kLanes);
-    const int first = i0 - static_cast<int>(out_.depth.index(i0, j) - begin);
-    float* inverse_depth = out_.depth.data() + begin;
-    std::int32_t* vertex = out_.vertex.data() + begin;
-    const std::int32_t vertex_a = t[0], vertex_b = t[1], vertex_c = t[2];
-    const float y = static_cast<float>(j);
-    int covered_a = 0, covered_b = 0, covered_c = 0;
-#pragma omp simd reduction(+ : covered_a, covered_b, covered_c)
-    for (int k = 0; k < kLanes; ++k) {
-      const float x = static_cast<float>(first + k);
-      const float wa = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) * inverse_area;
-      const float wb = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) * inverse_area;
-      const float wc = 1 - wa - wb;
-      const bool inside = (wa >= 0) & (wb >= 0) & (wc >= 0) & (first + k >= i0) & (first + k <= i1);
-      const bool nearest_a = (wa >= wb) & (wa >= wc), nearest_b = !nearest_a & (wb >= wc);
-      covered_a += inside & nearest_a;
-      covered_b += inside & nearest_b;
-      covered_c += inside & !nearest_a & !nearest_b;
-      const float inverse_z = wa * a.z() + wb * b.z() + wc * c.z();  // 1/z is linear in the image
-      const bool front = inside & (inverse_z > inverse_depth[k]);
-      const std::int32_t carrier = nearest_a ? vertex_a : (nearest_b ? vertex_b : vertex_c);
-      inverse_depth[k] = front ? inverse_z : inverse_depth[k];
-      vertex[k] = front ? carrier : vertex[k];
+  struct Box {
+    int i0, i1, j0, j1;
+  };
+
+  // The columns from `i` on, as many as there are lanes, of all rows. No branch depends on a cell: triangles are a few
+  // cells large, so a processor would guess most of them wrong.
+  void shade(const Triangle& t, float inverse_area, const Box& box, int i) {
+    const Vector3f &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
+    // Barycentric weights and 1/z are linear in the image.
+    const Lanes x = static_cast<float>(i) + kSteps;
+    const float y = static_cast<float>(box.j0);
+    Lanes wa = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) * inverse_area;
+    Lanes wb = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) * inverse_area;
+    const float wa_down = (c.x() - b.x()) * inverse_area, wb_down = (a.x() - c.x()) * inverse_area;
+    const IntLanes columns = x <= static_cast<float>(box.i1);
+    IntLanes covered_a{}, covered_b{}, covered_c{};
+    for (int j = box.j0; j <= box.j1; ++j, wa += wa_down, wb += wb_down) {
+      const Lanes wc = 1.0f - wa - wb;
+      const IntLanes inside = columns & (wa >= 0.0f) & (wb >= 0.0f) & (wc >= 0.0f);
+      const IntLanes nearest_a = (wa >= wb) & (wa >= wc), nearest_b = ~nearest_a & (wb >= wc);
+      covered_a -= inside & nearest_a;
+      covered_b -= inside & nearest_b;
+      covered_c -= inside & ~nearest_a & ~nearest_b;
+      const Lanes inverse_z = wa * a.z() + wb * b.z() + wc * c.z();
+      const IntLanes carrier = nearest_a ? IntLanes{} + t[0] : (nearest_b ? IntLanes{} + t[1] : IntLanes{} + t[2]);
+      put(i, j, inside, inverse_z, carrier);
     }
-    out_.projected[skin_.vertices[t[0]].a] += covered_a;
-    out_.projected[skin_.vertices[t[1]].a] += covered_b;
-    out_.projected[skin_.vertices[t[2]].a] += covered_c;
+    const int segment_a = skin_.vertices[t[0]].a, segment_b = skin_.vertices[t[1]].a,
+              segment_c = skin_.vertices[t[2]].a;
+    if (segment_a == segment_b && segment_b == segment_c) {  // nearly always
+      out_.projected[segment_a] += sum(covered_a + covered_b + covered_c);
+      return;
+    }
+    out_.projected[segment_a] += sum(covered_a);
+    out_.projected[segment_b] += sum(covered_b);
+    out_.projected[segment_c] += sum(covered_c);
   }
 
-  static constexpr int kLanes = 8;
+  static int sum(const IntLanes& lanes) {
+    using Half = std::int32_t __attribute__((vector_size(2 * kLanes)));
+    std::array<Half, 2> halves;
+    std::memcpy(&halves, &lanes, sizeof lanes);
+    const Half two = halves[0] + halves[1];
+    return (two[0] + two[1]) + (two[2] + two[3]);
+  }
+
+  void put(int i, int j, const IntLanes& inside, const Lanes& inverse_z, const IntLanes& carrier) {
+    float* depth = &out_.depth.at(i, j);
+    std::int32_t* vertex = &out_.vertex.at(i, j);
+    // Lanes beyond the row's end hold the begin of the next row and stay as they are; the last row has no next one.
+    const std::size_t left = out_.depth.size() - out_.depth.index(i, j);
+    const std::size_t bytes = sizeof(float) * std::min<std::size_t>(left, kLanes);
+    Lanes old_depth{};
+    IntLanes old_vertex{};
+    const auto blend = [&](std::size_t size) {
+      std::memcpy(&old_depth, depth, size);
+      std::memcpy(&old_vertex, vertex, size);
+      const IntLanes front = inside & (inverse_z > old_depth);
+      old_depth = front ? inverse_z : old_depth;
+      old_vertex = front ? carrier : old_vertex;
+      std::memcpy(depth, &old_depth, size);
+      std::memcpy(vertex, &old_vertex, size);
+    };
+    bytes == sizeof(Lanes) ? blend(sizeof(Lanes)) : blend(bytes);  // a constant size makes it one instruction each
+  }
+
   const Skin& skin_;
   RenderedHand& out_;           // depth: its inverse while drawing, 0 where there is nothing yet
   std::vector<Vector3f> cell_;  // (i, j, 1/z) of every vertex
@@ -98,13 +137,14 @@ class Rasteriser {
 }  // namespace
 
 void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camera, const CellGrid& grid,
-                 RenderedHand& out) {
+                 RenderedHand& out, Normals normals) {
   out.grid = grid;
   out.depth.reset(grid.width, grid.height, 0.0f);
   out.vertex.reset(grid.width, grid.height, -1);
   out.projected.fill(0);
   pose_skin(skin, pose, out.position);
-  pose_normals(skin, out);
+  out.normal.clear();
+  if (normals == Normals::computed) pose_normals(skin, out);
   Rasteriser rasteriser(skin, camera, out);
   for (const auto& t : skin.triangles) rasteriser.draw(t);
   for (std::size_t i = 0; i < out.depth.size(); ++i) out.depth[i] = out.depth[i] > 0 ? 1.0f / out.depth[i] : 0.0f;

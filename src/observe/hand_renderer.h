@@ -20,12 +20,15 @@ struct RenderedHand {
   CellGrid grid;
   Image<float> depth;                             ///< z of the front-most skin [m]; 0 = no skin
   Image<std::int32_t> vertex;                     ///< skin vertex that carries the cell; -1 = no skin
-  std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]
+  std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]; normals may be left out
   std::array<int, kSegmentCount> projected{};     ///< cells that a segment's camera-facing skin covers, hidden or not
 };
 
+/// A mere score needs no normals of the skin.
+enum class Normals { computed, left_out };
+
 /// Z-buffer rendering of the skin triangles that face the camera (paper Sec. 4.1 "rendered into a depth image").
 void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camera, const CellGrid& grid,
-                 RenderedHand& out);
+                 RenderedHand& out, Normals normals = Normals::computed);
 
 }  // namespace barehand

@@ -28,6 +28,7 @@ class Comparer {
     out_.correspondences.clear();
     out_.visible.fill(0);
     out_.matched.fill(0);
+    out_.rays.reset(obs_.frame->camera, obs_.u0, obs_.v0, obs_.depth.width(), obs_.depth.height());
     out_.nearest_model.index(rendered_.vertex);
     const CellGrid& g = rendered_.grid;
     for (int j = 0; j < g.height; ++j)
@@ -43,18 +44,16 @@ class Comparer {
 
  private:
   Vector3f model_point(int i, int j) const {
-    const Intrinsics& c = obs_.frame->camera;
-    const CellGrid& g = rendered_.grid;
-    const float z = rendered_.depth.at(i, j);
-    return {static_cast<float>((g.u0 + i * g.stride - c.cx) / c.fx) * z,
-            static_cast<float>((g.v0 + j * g.stride - c.cy) / c.fy) * z, z};
+    return out_.rays.point(i * rendered_.grid.stride, j * rendered_.grid.stride, rendered_.depth.at(i, j));
   }
+  Vector3f data_point(int u, int v) const { return out_.rays.point(u, v, obs_.depth.at(u, v)); }
 
   void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
     const int vertex = rendered_.vertex.at(i, j);
     const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
     const float weight = cell_area_per_z_sq_ * z * z;
-    out_.correspondences.push_back({kind, vertex, model_point(i, j), rendered_.normal[vertex], data, weight});
+    const Vector3f normal = rendered_.normal.empty() ? Vector3f(Vector3f::Zero()) : rendered_.normal[vertex];
+    out_.correspondences.push_back({kind, vertex, model_point(i, j), normal, data, weight});
     total_ += weight * std::min<double>(cost_distance, params_.distance_cap);
     total_weight_ += weight;
   }
@@ -70,7 +69,7 @@ class Comparer {
     if (label == PixelLabel::hand) {
       ++out_.visible[segment];
       if (std::abs(z_data - z_model) < params_.self_occlusion) ++out_.matched[segment];
-      add(Kind::surface, i, j, obs_.point(u, v), std::abs(z_data - z_model));
+      add(Kind::surface, i, j, data_point(u, v), std::abs(z_data - z_model));
       return;
     }
     // What is not hand and in front of the model hides it; behind the model it contradicts it.
@@ -79,12 +78,12 @@ class Comparer {
     ++out_.visible[segment];
     const std::int32_t nearest = obs_.nearest_hand.at(u, v);
     if (nearest < 0) return;
-    const Vector3f data = obs_.point(nearest);
+    const Vector3f data = out_.rays.point(nearest, obs_.depth);
     add(Kind::outside, i, j, data, (data - model_point(i, j)).norm());  // Eq. 1
   }
 
   void judge_unexplained(int i, int j, int u, int v) {
-    const Vector3f data = obs_.point(u, v);
+    const Vector3f data = data_point(u, v);
     if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // forearm
     const std::int32_t nearest = out_.nearest_model.find(i, j);
     if (nearest < 0) return;

@@ -6,6 +6,7 @@
 #include "observe/hand_renderer.h"
 #include "observe/nearest_cell.h"
 #include "observe/observation.h"
+#include "observe/pixel_rays.h"
 
 namespace barehand {
 
@@ -31,7 +32,7 @@ struct Correspondence {
   enum class Kind { surface, outside, unexplained };
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
-  Eigen::Vector3f model, normal, data;  ///< camera frame [m]
+  Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero where it was left out
   float weight;                         ///< skin area of the cell relative to 5 mm^2
 };
 
@@ -43,6 +44,7 @@ struct ModelComparison {
   std::array<int, kSegmentCount> visible{};  ///< cells in which a segment is front-most and not behind an object
   std::array<int, kSegmentCount> matched{};  ///< of these, cells with hand data near the model
   NearestCell nearest_model;                 ///< scratch: where the rendered hand is
+  PixelRays rays;                            ///< scratch
 };
 
 /// Cells of the whole region of interest.

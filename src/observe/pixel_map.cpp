@@ -3,30 +3,46 @@
 #include <algorithm>
 #include <limits>
 
+#include "observe/pixel_rays.h"
+
 namespace barehand {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr PixelMap::Cell kSilent{0, 0, -1, -kInfinity};
 
-PixelMap::Cell not_hand(const HandObservation& o, std::size_t pixel, float occluder_z) {
-  const std::int32_t nearest = o.nearest_hand[pixel];
-  if (nearest < 0) return kSilent;  // no hand pixel anywhere: Eq. 1 is undefined
-  const Eigen::Vector3f p = o.point(nearest);
-  return {p.x(), p.y(), -p.z(), occluder_z};
-}
-
-PixelMap::Cell cell_of(const HandObservation& o, int u, int v, bool missing_is_background) {
-  const std::size_t pixel = o.label.index(u, v);
-  const float z = o.depth[pixel];
-  if (o.label[pixel] == PixelLabel::hand) {
-    const Eigen::Vector3f p = o.point(u, v);
-    return {p.x(), p.y(), p.z(), kInfinity};
+/// One frame's pixels as cells.
+class Cells {
+ public:
+  Cells(const HandObservation& observation, bool missing_is_background)
+      : o_(observation), missing_is_background_(missing_is_background) {
+    rays_.reset(o_.frame->camera, o_.u0, o_.v0, o_.label.width(), o_.label.height());
   }
-  if (o.label[pixel] == PixelLabel::unknown && !missing_is_background) return kSilent;
-  // Any depth that is not skin hides what lies behind it.
-  return not_hand(o, pixel, z > 0 ? z : kInfinity);
-}
+
+  PixelMap::Cell at(int u, int v) const {
+    const std::size_t pixel = o_.label.index(u, v);
+    const float z = o_.depth[pixel];
+    if (o_.label[pixel] == PixelLabel::hand) {
+      const Eigen::Vector3f p = rays_.point(u, v, z);
+      return {p.x(), p.y(), p.z(), kInfinity};
+    }
+    if (o_.label[pixel] == PixelLabel::unknown && !missing_is_background_) return kSilent;
+    // Any depth that is not skin hides what lies behind it.
+    return not_hand(pixel, z > 0 ? z : kInfinity);
+  }
+
+  PixelMap::Cell not_hand(std::size_t pixel, float occluder_z) const {
+    const std::int32_t nearest = o_.nearest_hand[pixel];
+    if (nearest < 0) return kSilent;  // no hand pixel anywhere: Eq. 1 is undefined
+    const Eigen::Vector3f p = rays_.point(nearest, o_.depth);
+    return {p.x(), p.y(), -p.z(), occluder_z};
+  }
+
+ private:
+  const HandObservation& o_;
+  const bool missing_is_background_;
+  PixelRays rays_;
+};
 
 }  // namespace
 
@@ -44,14 +60,15 @@ PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Wo
   map.hidden.assign(map.cells.size(), 0);
   if (w == 0 || h == 0) return map;
 
+  const Cells cells(o, missing_is_background);
   workers.for_each_index(map.height, [&](int row) {
     const int v = row - 1;
     for (int u = -1; u <= w; ++u) {
       PixelMap::Cell& cell = map.cells[map.index(u + 1, row)];
       if (o.label.contains(u, v)) {
-        cell = cell_of(o, u, v, missing_is_background);
+        cell = cells.at(u, v);
       } else if (u + o.u0 >= 0 && u + o.u0 < camera.width && v + o.v0 >= 0 && v + o.v0 < camera.height) {
-        cell = not_hand(o, o.label.index(std::clamp(u, 0, w - 1), std::clamp(v, 0, h - 1)), kInfinity);
+        cell = cells.not_hand(o.label.index(std::clamp(u, 0, w - 1), std::clamp(v, 0, h - 1)), kInfinity);
       }
     }
   });

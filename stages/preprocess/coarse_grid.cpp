@@ -12,27 +12,46 @@ constexpr int kGreyTolerance = 6;  // channels of a grey image differ by less (c
 constexpr float kClearOdds = 2.f;  // of one pixel: the rest of its cell need not be asked
 constexpr double kFewestTinted = 0.01;
 
-struct Sample {
-  std::uint16_t depth;
-  int u, v;
+constexpr int kSamples = 5;
+
+/// Where in a cell it is sampled.
+struct Pattern {
+  std::array<int, kSamples> du, dv;
+  explicit Pattern(int step) {
+    const int near_edge = step / 4, far_edge = step - 1 - near_edge;
+    du = {step / 2, near_edge, far_edge, near_edge, far_edge};
+    dv = {step / 2, near_edge, near_edge, far_edge, far_edge};
+  }
 };
 
-/// Samples of one cell with a measurement in range, sorted by depth; ties by position.
-int cell_samples(const RgbdFrame& frame, int u0, int v0, int step, std::uint16_t lowest, std::uint16_t highest,
-                 std::array<Sample, 5>& samples) {
-  const int near_edge = step / 4, far_edge = step - 1 - near_edge;
-  const int du[5] = {step / 2, near_edge, far_edge, near_edge, far_edge};
-  const int dv[5] = {step / 2, near_edge, near_edge, far_edge, far_edge};
-  int count = 0;
-  for (int k = 0; k < 5; ++k) {
-    const std::uint16_t d = frame.depth.at(u0 + du[k], v0 + dv[k]);
-    if (d < lowest || d > highest) continue;
-    int i = count++;
-    for (; i > 0 && samples[i - 1].depth > d; --i) samples[i] = samples[i - 1];
-    samples[i] = {d, u0 + du[k], v0 + dv[k]};
+/// Samples of one cell with a measurement in range, sorted by depth; ties by position. Sorted without a branch, which
+/// noise would make unpredictable: depth above, number of the sample below in one word.
+class CellSamples {
+ public:
+  CellSamples(const RgbdFrame& frame, const Pattern& pattern, int u0, int v0, std::uint32_t lowest,
+              std::uint32_t highest) {
+    for (std::uint32_t k = 0; k < kSamples; ++k) {
+      const std::uint32_t d = frame.depth.at(u0 + pattern.du[k], v0 + pattern.dv[k]);
+      const bool valid = (d >= lowest) & (d <= highest);
+      words_[k] = valid ? d << 3 | k : ~0u;
+      count_ += valid;
+    }
+    const auto order = [this](int a, int b) {
+      const auto [low, high] = std::minmax({words_[a], words_[b]});
+      words_[a] = low;
+      words_[b] = high;
+    };
+    order(0, 1), order(3, 4), order(2, 4), order(2, 3), order(1, 4), order(0, 3), order(0, 2), order(1, 3), order(1, 2);
   }
-  return count;
-}
+  int count() const { return count_; }
+  std::uint32_t depth(int i) const { return words_[i] >> 3; }
+  /// Number in the pattern.
+  int place(int i) const { return static_cast<int>(words_[i] & 7); }
+
+ private:
+  std::array<std::uint32_t, kSamples> words_;
+  int count_ = 0;
+};
 
 bool tinted(Rgb c) { return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > kGreyTolerance; }
 
@@ -54,19 +73,24 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
   const std::uint16_t lowest = counts(params.min_depth), highest = counts(params.max_depth);
   const bool colour = params.use_colour && !frame.colour.empty();
   int seen = 0, tints = 0;
-  std::array<Sample, 5> samples;
+  const Pattern pattern(grid.step);
   for (int r = 0; r < height; ++r)
     for (int c = 0; c < width; ++c) {
-      const int count = cell_samples(frame, c * grid.step, r * grid.step, grid.step, lowest, highest, samples);
+      const int u0 = c * grid.step, v0 = r * grid.step;
+      const CellSamples samples(frame, pattern, u0, v0, lowest, highest);
+      const int count = samples.count(), median = (count - 1) / 2;
       if (count == 0) continue;
-      const Sample& median = samples[(count - 1) / 2];
-      grid.z.at(c, r) = static_cast<float>(median.depth * frame.depth_unit);
+      grid.z.at(c, r) = static_cast<float>(samples.depth(median) * frame.depth_unit);
       if (!colour) continue;
-      grid.colour.at(c, r) = frame.colour.at(median.u, median.v);
+      const auto colour_of = [&](int i) {
+        const int k = samples.place(i);
+        return frame.colour.at(u0 + pattern.du[k], v0 + pattern.dv[k]);
+      };
+      grid.colour.at(c, r) = colour_of(median);
       float odds = skin.log_odds(grid.colour.at(c, r));
       if (std::abs(odds) < kClearOdds) {
         float mean = 0;
-        for (int k = 0; k < count; ++k) mean += skin.log_odds(frame.colour.at(samples[k].u, samples[k].v));
+        for (int k = 0; k < count; ++k) mean += skin.log_odds(colour_of(k));
         mean /= static_cast<float>(count);
         odds = std::abs(mean) < std::abs(odds) ? mean : odds;  // a border through the cell must not sway it
       }

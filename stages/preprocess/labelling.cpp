@@ -14,6 +14,14 @@ bool joined(float a, float b, float fx) { return std::abs(a - b) < same_surface_
 
 }  // namespace
 
+void HandMask::tabulate(const Intrinsics& camera, const CoarseGrid& grid, const Region& region) {
+  rays_.reset(camera, region.u0, region.v0, region.width, region.height);
+  column_.resize(region.width);
+  row_.resize(region.height);
+  for (int u = 0; u < region.width; ++u) column_[u] = std::min((u + region.u0) / grid.step, grid.z.width() - 1);
+  for (int v = 0; v < region.height; ++v) row_[v] = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
+}
+
 void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
   const int width = grid.z.width(), height = grid.z.height();
   const float fx = static_cast<float>(grid.camera.fx);
@@ -31,18 +39,18 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
     }
 }
 
-void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, int step, const Region& region) {
+void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
   own_odds_.create(region.height, region.width, CV_32F);
   present_.create(region.height, region.width, CV_32F);
   colours_.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
     std::copy_n(colour, region.width, colours_.row(v));
-    const float* nearest = lowest_.row(std::min((v + region.v0) / step, lowest_.height() - 1));
+    const float* nearest = lowest_.row(row_[v]);
     float* odds = own_odds_.ptr<float>(v);
     float* present = present_.ptr<float>(v);
     for (int u = 0; u < region.width; ++u) {
-      const bool beside_hand = nearest[std::min((u + region.u0) / step, lowest_.width() - 1)] < INFINITY;
+      const bool beside_hand = nearest[column_[u]] < INFINITY;
       odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
       present[u] = odds[u] != 0.f ? 1.f : 0.f;
     }
@@ -71,10 +79,8 @@ void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, 
   }
 }
 
-bool HandMask::supported(const CoarseGrid& grid, const Region& region, int u, int v, float z) const {
-  const int c = std::min((u + region.u0) / grid.step, grid.z.width() - 1);
-  const int r = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
-  return z > lowest_.at(c, r) && z < highest_.at(c, r);
+bool HandMask::supported(int u, int v, float z) const {
+  return z > lowest_.at(column_[u], row_[v]) && z < highest_.at(column_[u], row_[v]);
 }
 
 Evidence HandMask::judge(bool possible, int u, int v) const {
@@ -92,9 +98,10 @@ Evidence HandMask::judge(bool possible, int u, int v) const {
 void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                        const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
                        Image<std::uint8_t>& mask) {
+  tabulate(frame.camera, grid, region);
   support(grid, hand);
   if (grid.coloured) {
-    colour_evidence(frame, skin, grid.step, region);
+    colour_evidence(frame, skin, region);
     const cv::Mat edges(region.height, region.width, CV_8U, const_cast<std::uint8_t*>(edge.data()));
     const int side = 2 * params_.skew_px + 1;
     cv::dilate(edges, edges_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
@@ -104,7 +111,7 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     for (int u = 0; u < region.width; ++u) {
       const float z = depth.at(u, v);
       if (z <= 0) continue;
-      const bool possible = supported(grid, region, u, v, z);
+      const bool possible = supported(u, v, z);
       evidence_.at(u, v) = grid.coloured ? judge(possible, u, v) : (possible ? Evidence::hand : Evidence::other);
     }
   if (grid.coloured) {
@@ -112,16 +119,13 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
   }
   mask.reset(region.width, region.height);
-  const Intrinsics& camera = frame.camera;
   for (int v = 0; v < region.height; ++v)
     for (int u = 0; u < region.width; ++u) {
       const Evidence own = evidence_.at(u, v);
       if (own != Evidence::hand && own != Evidence::open) continue;
       const float z = depth.at(u, v);
-      if (!supported(grid, region, u, v, z) || (own == Evidence::open && odds_.at<float>(v, u) < 0)) continue;
-      const Eigen::Vector3f p(static_cast<float>((u + region.u0 - camera.cx) / camera.fx) * z,
-                              static_cast<float>((v + region.v0 - camera.cy) / camera.fy) * z, z);
-      mask.at(u, v) = !hand.wrist || hand.wrist->behind(p) <= 0;
+      if (!supported(u, v, z) || (own == Evidence::open && odds_.at<float>(v, u) < 0)) continue;
+      mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, z)) <= 0;
     }
   remove_specks(frame, depth, mask);
 }
@@ -130,6 +134,8 @@ void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, dou
   out.label.reset(mask.width(), mask.height(), PixelLabel::unknown);
   const float reach_sq = static_cast<float>(reach * reach);
   const float per_pixel_sq = static_cast<float>(1 / (camera.fx * camera.fy));
+  PixelRays rays;
+  rays.reset(camera, out.u0, out.v0, mask.width(), mask.height());
   for (int v = 0; v < mask.height(); ++v)
     for (int u = 0; u < mask.width(); ++u) {
       const float z = out.depth.at(u, v);
@@ -141,7 +147,8 @@ void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, dou
       }
       const std::int32_t i = out.nearest_hand.at(u, v);
       const float dz = z - out.depth[i];
-      const float du = static_cast<float>(i % mask.width() - u), dv = static_cast<float>(i / mask.width() - v);
+      const int row = rays.row_of(i);
+      const float du = static_cast<float>(i - row * mask.width() - u), dv = static_cast<float>(row - v);
       const float distance_sq = dz * dz + (du * du + dv * dv) * z * z * per_pixel_sq;
       label = dz < -kInFront || distance_sq < reach_sq ? PixelLabel::object : PixelLabel::background;
     }

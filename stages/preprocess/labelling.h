@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "observe/observation.h"
+#include "observe/pixel_rays.h"
 #include "stages/preprocess/depth_map.h"
 #include "stages/preprocess/hand_search.h"
 
@@ -20,13 +21,16 @@ class HandMask {
                Image<std::uint8_t>& mask);
 
  private:
+  void tabulate(const Intrinsics& camera, const CoarseGrid& grid, const Region& region);
   void support(const CoarseGrid& grid, const CoarseHand& hand);
-  void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, int step, const Region& region);
-  bool supported(const CoarseGrid& grid, const Region& region, int u, int v, float z) const;
+  void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
+  bool supported(int u, int v, float z) const;
   Evidence judge(bool possible, int u, int v) const;
   void remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask);
 
   PreprocessParams params_;
+  PixelRays rays_;
+  std::vector<int> column_, row_;  // of the grid's cell in which a pixel of the region lies
   Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
   cv::Mat own_odds_, odds_, present_, edges_, labels_, stats_, centroids_;
   Image<Rgb> colours_;  // of the region
