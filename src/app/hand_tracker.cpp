@@ -27,6 +27,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       skin_(std::make_shared<const Skin>(make_blended_skin(*profile_, params_.skin_cell))),
       surface_(make_surface(params_, *profile_, *skin_)),
       seed_(seed),
+      workers_(workers),
       segment_tracker_(params_.segment_tracker, surface_, workers,
                        make_observer(params_.segment_tracker, surface_, workers, std::move(log))),
       fusion_(params_.fusion, profile_, workers),
@@ -132,12 +133,17 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   Fit fit;
   fit.prediction = motion_.predict(observation, *surface_);
   const bool refine = params_.refinement.enabled;
-  if (refine) fit.refined = refine_best_start(observation, *fit.prediction);
+  FusedPose fused;
+  // Neither needs the other. The sampler comes first: it spreads over idle cores itself, which a thread that waits for
+  // it inside its own work could not help.
+  workers_.for_each_index(2, [&](int i) {
+    if (i == 0 && (params_.sampling || !refine)) fused = sample(observation, *fit.prediction);
+    if (i == 1 && refine) fit.refined = refine_best_start(observation, *fit.prediction);
+  });
   if (refine && !params_.sampling) {
     fit.joint_gap = raw_gap(fit.refined.pose);
     return fit;
   }
-  const FusedPose fused = sample(observation, *fit.prediction);
   fit.joint_gap = raw_gap(fused.pose);
   if (!refine) {
     fit.refined = refinement_.evaluate(observation, fused.pose);
@@ -155,10 +161,11 @@ std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& obser
   const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
   const auto starts = initialiser_.propose(observation, effort, seed_ + frame_, last_good_ ? &*last_good_ : nullptr);
   std::optional<Fit> best;
-  const int count = std::min<int>(params_.search_refined, static_cast<int>(starts.size()));
-  for (int i = 0; i < count; ++i) {
-    Fit fit;
-    fit.refined = refinement_.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
+  std::vector<Fit> fits(std::min<std::size_t>(params_.search_refined, starts.size()));
+  workers_.for_each_index(static_cast<int>(fits.size()), [&](int i) {
+    fits[i].refined = refinement_.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
+  });
+  for (Fit& fit : fits) {
     fit.joint_gap = raw_gap(fit.refined.pose);
     if (!best || fit.refined.score < best->refined.score) best = fit;
   }

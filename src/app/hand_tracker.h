@@ -54,6 +54,7 @@ class HandTracker {
   std::shared_ptr<const Skin> skin_;
   std::shared_ptr<const HandSurface> surface_;
   std::uint64_t seed_;
+  Workers& workers_;
   SegmentTracker segment_tracker_;
   Fusion fusion_;
   Refinement refinement_;

@@ -24,32 +24,35 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
       skin_(std::move(skin)),
       limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)) {}
 
-void Refinement::compare_at(const HandObservation& observation, const HandPose& pose) {
-  render_hand(*skin_, pose, observation.frame->camera, grid_of(observation, params_.comparison.stride), rendered_);
-  compare(observation, *skin_, pose, rendered_, params_.comparison, comparison_);
+void Refinement::compare_at(const HandObservation& observation, const HandPose& pose, Normals normals,
+                            Workspace& work) const {
+  render_hand(*skin_, pose, observation.frame->camera, grid_of(observation, params_.comparison.stride), work.rendered,
+              normals);
+  compare(observation, *skin_, pose, work.rendered, params_.comparison, work.comparison);
 }
 
-void Refinement::summarise(RefinedPose& result) const {
-  result.score = comparison_.score;
+void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
+  result.score = work.comparison.score;
   for (int s = 0; s < kSegmentCount; ++s) {
-    const double projected = std::max(1, rendered_.projected[s]);
-    result.visible[s] = std::min(1.0, comparison_.visible[s] / projected);
-    result.matched[s] = std::min(1.0, comparison_.matched[s] / projected);
+    const double projected = std::max(1, work.rendered.projected[s]);
+    result.visible[s] = std::min(1.0, work.comparison.visible[s] / projected);
+    result.matched[s] = std::min(1.0, work.comparison.matched[s] / projected);
   }
 }
 
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening,
-                      HandPose& pose) {
-  tree_.set_zero();
-  add_data_terms(*skin_, pose, comparison_, params_.energy, widening, tree_);
-  add_joint_terms(*profile_, limits_, pose, params_.energy, tree_);
-  add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree_);
+                      Workspace& work, HandPose& pose) const {
+  GaussianTree& tree = work.tree;
+  tree.set_zero();
+  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, tree);
+  add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
+  add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
-    tree_.H_self[s].diagonal() *= 1 + params_.damping;
-    tree_.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
+    tree.H_self[s].diagonal() *= 1 + params_.damping;
+    tree.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
   }
   std::array<Vector6d, kSegmentCount> x;
-  if (!tree_.solve(x)) return false;
+  if (!tree.solve(x)) return false;
   // One scale for the whole hand, so that a long step keeps the joints closed.
   double scale = 1;
   for (const Vector6d& twist : x) {
@@ -63,29 +66,32 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   return true;
 }
 
-RefinedPose Refinement::evaluate(const HandObservation& observation, const HandPose& pose) {
+RefinedPose Refinement::evaluate(const HandObservation& observation, const HandPose& pose) const {
+  const auto work = workspaces_.take();
   RefinedPose result;
   result.pose = pose;
-  compare_at(observation, pose);
-  summarise(result);
+  compare_at(observation, pose, Normals::left_out, *work);
+  summarise(*work, result);
   return result;
 }
 
 RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                               int iterations) {
+                               int iterations) const {
+  const auto work = workspaces_.take();
   HandPose pose = start;
-  compare_at(observation, pose);
+  compare_at(observation, pose, Normals::computed, *work);
   RefinedPose result;
-  summarise(result);
+  summarise(*work, result);
   const std::array<double, kSegmentCount> seen = freedom(result);
+  work->tree.set_zero();  // what it holds if there is no step
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
-    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), pose)) break;
-    compare_at(observation, pose);
+    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), *work, pose)) break;
+    compare_at(observation, pose, i + 1 < iterations ? Normals::computed : Normals::left_out, *work);
   }
   result.pose = pose;
-  summarise(result);
-  if (!tree_.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);
+  summarise(*work, result);
+  if (!work->tree.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);
   return result;
 }
 

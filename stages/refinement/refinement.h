@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/pool.h"
 #include "stages/refinement/hand_energy.h"
 
 namespace barehand {
@@ -39,7 +40,7 @@ struct RefinedPose {
 };
 
 /// Robust Gauss-Newton on all 96 numbers with the paper's soft joints: one model with the sampler, since the energy is
-/// the negative log of Eq. 3 and Eq. 4-6. Not thread-safe: keeps its buffers.
+/// the negative log of Eq. 3 and Eq. 4-6. Both functions may be called from several threads at once.
 class Refinement {
  public:
   Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
@@ -48,22 +49,27 @@ class Refinement {
   /// Moves `start` to a nearby optimum. `predicted` is the weak prior: a segment may leave it the more freely, the more
   /// of its skin agrees with data at `start`.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                     int iterations);
+                     int iterations) const;
   /// Score and visibility of a pose as it is.
-  RefinedPose evaluate(const HandObservation& observation, const HandPose& pose);
+  RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
 
  private:
-  void compare_at(const HandObservation& observation, const HandPose& pose);
-  void summarise(RefinedPose& result) const;
-  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, HandPose& pose);
+  /// Buffers of one call.
+  struct Workspace {
+    RenderedHand rendered;
+    ModelComparison comparison;
+    GaussianTree tree;
+  };
+  void compare_at(const HandObservation& observation, const HandPose& pose, Normals normals, Workspace& work) const;
+  void summarise(const Workspace& work, RefinedPose& result) const;
+  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, Workspace& work,
+            HandPose& pose) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
   std::array<JointLimits, kSegmentCount> limits_;
-  RenderedHand rendered_;
-  ModelComparison comparison_;
-  GaussianTree tree_;
+  mutable Pool<Workspace> workspaces_;
 };
 
 }  // namespace barehand
