@@ -1,21 +1,13 @@
-#include <cstdio>
-
 #include "app/bench_report.h"
+#include "core/format.h"
 
 namespace barehand {
 namespace {
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
-
 std::string time_row(const std::string& name, const TimeSummary& time) {
   if (time.count == 0) return "";
-  return format("  %-20s %8.2f %8.2f %8.2f %8.2f %8.2f\n", name.c_str(), time.mean * 1e3, time.p50 * 1e3,
-                time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
+  return formatted("  %-20s %8.2f %8.2f %8.2f %8.2f %8.2f\n", name.c_str(), time.mean * 1e3, time.p50 * 1e3,
+                   time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
 }
 
 }  // namespace
@@ -23,13 +15,13 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
 std::string bench_text(const BenchRow& row) {
   constexpr double kMegabyte = 1e6;
   const BenchResult& r = row.result;
-  std::string text = format("%s, %dx%d, %d threads", row.config.c_str(), row.width, row.height, row.threads);
-  if (!row.sweep.empty()) text += format(", %s = %g", row.sweep.c_str(), row.value);
-  text += format(": %.1f frames/s, %.2f ms CPU per frame, tracked in %.0f %%, %lld dropped\n", r.frames_per_second,
-                 r.cpu_seconds_per_frame * 1e3, r.tracked_share * 100, static_cast<long long>(r.health.dropped));
-  text += format("  resident: peak %.0f MB, of which %.0f MB are the stored frames\n", r.peak_bytes / kMegabyte,
-                 r.frame_bytes / kMegabyte);
-  text += format("  %-20s %8s %8s %8s %8s %8s\n", "time [ms]", "mean", "median", "p95", "p99", "max");
+  std::string text = formatted("%s, %dx%d, %d threads", row.config.c_str(), row.width, row.height, row.threads);
+  if (!row.sweep.empty()) text += formatted(", %s = %g", row.sweep.c_str(), row.value);
+  text += formatted(": %.1f frames/s, %.2f ms CPU per frame, tracked in %.0f %%, %lld dropped\n", r.frames_per_second,
+                    r.cpu_seconds_per_frame * 1e3, r.tracked_share * 100, static_cast<long long>(r.health.dropped));
+  text += formatted("  resident: peak %.0f MB, of which %.0f MB are the stored frames\n", r.peak_bytes / kMegabyte,
+                    r.frame_bytes / kMegabyte);
+  text += formatted("  %-20s %8s %8s %8s %8s %8s\n", "time [ms]", "mean", "median", "p95", "p99", "max");
   for (const StageHealth& stage : r.health.stages) text += time_row(stage.name, stage.time);
   for (const QueueHealth& queue : r.health.queues) text += time_row("wait " + queue.name, queue.wait);
   return text + time_row("capture to publish", r.health.latency) + time_row("capture to reception", r.received);

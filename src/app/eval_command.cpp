@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/eval_report.h"
+#include "app/exit_code.h"
 #include "io/hand_json.h"
 #include "io/recording.h"
 
@@ -77,15 +78,24 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   return report;
 }
 
-Result<void> run(const EvalOptions& o) {
-  if (const auto good = check(o); !good) return good;
-  const auto report = evaluate_all(o);
-  if (!report) return tl::unexpected(report.error());
-  std::fputs(text_report(*report).c_str(), stdout);
+Result<void> write(const EvalReport& report, const EvalOptions& o) {
   if (!o.json.empty())
-    if (const auto written = write_json_report(*report, o.json); !written) return written;
-  if (!o.plots.empty()) return write_plots(*report, o.plots);
+    if (const auto written = write_json_report(report, o.json); !written) return written;
+  if (!o.plots.empty()) return write_plots(report, o.plots);
   return {};
+}
+
+int fail_with(const Error& error, int code) {
+  std::fprintf(stderr, "barehand eval: %s\n", error.message().c_str());
+  return code;
+}
+
+int run(const EvalOptions& o) {
+  const auto report = check(o).and_then([&] { return evaluate_all(o); });
+  if (!report) return fail_with(report.error(), kExitUsage);
+  std::fputs(text_report(*report).c_str(), stdout);
+  const auto written = write(*report, o);
+  return written ? kExitOk : fail_with(written.error(), kExitFailure);
 }
 
 }  // namespace
@@ -103,11 +113,7 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   eval->add_option("--json", o->json, "file for the figures");
   eval->add_option("--fingertips", o->fingertips, "fingertips labelled in the image: frame,finger,u,v,visible");
   eval->add_option("--recording", o->recording, "the recording that --fingertips belongs to");
-  eval->callback([o, &exit_code] {
-    const auto done = run(*o);
-    exit_code = done ? 0 : 1;
-    if (!done) std::fprintf(stderr, "barehand eval: %s\n", done.error().message().c_str());
-  });
+  eval->callback([o, &exit_code] { exit_code = run(*o); });
 }
 
 }  // namespace barehand

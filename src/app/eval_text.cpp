@@ -1,35 +1,24 @@
-#include <cstdarg>
-#include <cstdio>
-
 #include "app/eval_report.h"
+#include "core/format.h"
 
 namespace barehand {
 namespace {
 
 constexpr double kMillimetre = 1000;
 
-__attribute__((format(printf, 2, 3))) void print(std::string& out, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
-
 void print_head(std::string& out, const char* unit) {
-  print(out, "  %-22s %7s %7s %7s %7s %7s %7s %7s %7s %7s\n", unit, "count", "mean", "median", "min", "q1", "q3", "90%",
-        "95%", "max");
+  out += formatted("  %-22s %7s %7s %7s %7s %7s %7s %7s %7s %7s\n", unit, "count", "mean", "median", "min", "q1", "q3",
+                   "90%", "95%", "max");
 }
 
 void print_row(std::string& out, const std::string& name, const Distribution& d, double scale) {
   if (d.count == 0) {
-    print(out, "  %-22s %7d       -\n", name.c_str(), 0);
+    out += formatted("  %-22s %7d       -\n", name.c_str(), 0);
     return;
   }
-  print(out, "  %-22s %7zu %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f\n", name.c_str(), d.count, d.mean * scale,
-        d.median * scale, d.min * scale, d.quartile1 * scale, d.quartile3 * scale, d.p90 * scale, d.p95 * scale,
-        d.max * scale);
+  out += formatted("  %-22s %7zu %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f %7.2f\n", name.c_str(), d.count,
+                   d.mean * scale, d.median * scale, d.min * scale, d.quartile1 * scale, d.quartile3 * scale,
+                   d.p90 * scale, d.p95 * scale, d.max * scale);
 }
 
 /// "3, 7-12, 20"
@@ -48,11 +37,11 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
 
 void print_run(std::string& out, const EvaluatedRun& run, const std::optional<double>& hand_length) {
   const Evaluation& e = run.evaluation;
-  print(out, "%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
-  if (run.truncated) print(out, "  the result was cut short; its last frame is left out\n");
-  print(out, "  frames %zu, tracked %zu, lost %zu (%zu without a hand, %zu off by more than %.0f mm)\n",
-        e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked, e.lost.size() - e.untracked,
-        kLostFrameError * kMillimetre);
+  out += formatted("%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
+  if (run.truncated) out += formatted("  the result was cut short; its last frame is left out\n");
+  out += formatted("  frames %zu, tracked %zu, lost %zu (%zu without a hand, %zu off by more than %.0f mm)\n",
+                   e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked,
+                   e.lost.size() - e.untracked, kLostFrameError * kMillimetre);
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
   print_head(out, "error [mm]");
   print_row(out, "frame", e.frame_error, kMillimetre);
@@ -62,16 +51,16 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
   print_row(out, "segment hidden", e.hidden, kMillimetre);
   for (int s = 0; s < kSegmentCount; ++s) print_row(out, std::string(kSegmentNames[s]), e.per_segment[s], kMillimetre);
   if (hand_length && e.frame_error.count > 0)
-    print(out, "  mean frame error = %.2f %% of a hand length of %.0f mm\n", e.frame_error.mean / *hand_length * 100,
-          *hand_length * kMillimetre);
+    out += formatted("  mean frame error = %.2f %% of a hand length of %.0f mm\n",
+                     e.frame_error.mean / *hand_length * 100, *hand_length * kMillimetre);
   if (e.joint_gap.count > 0)
-    print(out, "  joint gap of the result: mean %.3f mm, deviation %.3f mm (0 for a closed chain)\n",
-          e.joint_gap.mean * kMillimetre, e.joint_gap.deviation * kMillimetre);
+    out += formatted("  joint gap of the result: mean %.3f mm, deviation %.3f mm (0 for a closed chain)\n",
+                     e.joint_gap.mean * kMillimetre, e.joint_gap.deviation * kMillimetre);
   out += "\n";
 }
 
 void print_fingertips(std::string& out, const FingertipEvaluation& e) {
-  print(out, "fingertips: %zu labels, %zu in frames without a hand\n", e.labels, e.missing);
+  out += formatted("fingertips: %zu labels, %zu in frames without a hand\n", e.labels, e.missing);
   print_head(out, "distance [px]");
   print_row(out, "all", e.all, 1);
   for (int f = 0; f < kFingerCount; ++f) print_row(out, std::string(kFingerNames[f]), e.per_finger[f], 1);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
+#include "core/format.h"
 #include "io/chart.h"
 #include "io/json_fields.h"
 
@@ -36,9 +36,7 @@ std::vector<Figure> figures_of(const ExperimentRow& row) {
 
 std::string decimal(const Figure& figure, const char* none) {
   if (!std::isfinite(figure.value)) return none;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", figure.decimals, figure.value);
-  return text;
+  return formatted("%.*f", figure.decimals, figure.value);
 }
 
 std::string padded(const std::string& text, std::size_t width) {

@@ -1,6 +1,5 @@
 #include "app/experiment_run.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -113,7 +112,7 @@ tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::stri
   if (!options_.search_start) options.init = recording(sequence) + "/start_pose.json";
   options.result = options_.out + "/results/" + name + ".csv";
   options.overlay = options_.out + "/snapshots/" + name;
-  options.overlay_every = static_cast<int>(std::max<std::int64_t>(1, frames / kSnapshots));
+  options.overlay_every = static_cast<int>((frames + kSnapshots - 1) / kSnapshots);
   options.threads = options_.threads;
   options.no_publish = true;
   const auto tracked = track(options, variant.config);

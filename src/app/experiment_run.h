@@ -19,10 +19,11 @@ struct ExperimentOptions {
 };
 
 /// Renders the plan's sequences, tracks each with every variant, compares with the truth. In `out`:
-/// recordings/SEQUENCE; results/SEQUENCE.VARIANT.csv; snapshots/SEQUENCE.VARIANT/, eight of the frames with the tracked
-/// hand drawn over them; plots/SEQUENCE/ and figures/SEQUENCE.json, as `barehand eval` writes them; then the report
-/// (write_experiment). Progress on standard error. Fails at the first thing that goes wrong, or with kExitInterrupted;
-/// what was finished until then stays. A wrong hand, key or folder is noticed before anything is written.
+/// recordings/SEQUENCE; results/SEQUENCE.VARIANT.csv; snapshots/SEQUENCE.VARIANT/, up to eight of the frames with the
+/// tracked hand drawn over them; plots/SEQUENCE/ and figures/SEQUENCE.json, as `barehand eval` writes them; then the
+/// report (write_experiment). Progress on standard error. Fails at the first thing that goes wrong, or with
+/// kExitInterrupted; what was finished until then stays. A wrong hand, key or folder is noticed before anything is
+/// written.
 tl::expected<ExperimentReport, TrackFailure> run_experiment(const ExperimentPlan& plan,
                                                             const ExperimentOptions& options);
 

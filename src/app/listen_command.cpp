@@ -13,6 +13,7 @@
 #include "app/interrupt.h"
 #include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_listener.h"
+#include "hand/status_name.h"
 #include "math/angles.h"
 
 namespace barehand {
@@ -24,8 +25,7 @@ struct ListenOptions {
 };
 
 const char* status_text(int status) {
-  constexpr const char* kText[] = {"searching", "tracking", "holding", "lost"};
-  return status >= 0 && status < 4 ? kText[status] : "?";
+  return status >= 0 && status < 4 ? to_string(static_cast<TrackStatus>(status)).data() : "?";
 }
 
 /// One line: frame, hand, status and, with a pose, where the palm is and how sure the tracker is of it.

@@ -1,18 +1,15 @@
 #include "app/progress.h"
 
-#include <cstdio>
 #include <ostream>
+
+#include "core/format.h"
+#include "hand/status_name.h"
 
 namespace barehand {
 namespace {
 constexpr std::int64_t kTerminalPeriodUs = 250'000;
 constexpr std::int64_t kLogPeriodUs = 10'000'000;
 }  // namespace
-
-std::string_view to_string(TrackStatus status) {
-  constexpr std::array<std::string_view, 4> kNames = {"searching", "tracking", "holding", "lost"};
-  return kNames[static_cast<int>(status)];
-}
 
 ProgressSink::ProgressSink(std::ostream& out, Options options, const Clock& clock)
     : out_(out), options_(options), clock_(clock), last_us_(clock.steady_us()) {}
@@ -28,9 +25,9 @@ Result<void> ProgressSink::consume(const TrackedFrame& tracked) {
 void ProgressSink::print(const HandEstimate& estimate, std::int64_t now_us) {
   const double rate = (done_ - last_done_) * 1e6 / static_cast<double>(now_us - last_us_);
   const std::string total = options_.frames ? "/" + std::to_string(*options_.frames) : "";
-  char line[160];
-  std::snprintf(line, sizeof line, "%lld%s frames, %.1f frames/s, frame %lld: %s", static_cast<long long>(done_),
-                total.c_str(), rate, static_cast<long long>(estimate.number), to_string(estimate.status).data());
+  const std::string line =
+      formatted("%lld%s frames, %.1f frames/s, frame %lld: %s", static_cast<long long>(done_), total.c_str(), rate,
+                static_cast<long long>(estimate.number), to_string(estimate.status).data());
   out_ << (options_.terminal ? "\r\x1b[K" : "") << line << (options_.terminal ? "" : "\n") << std::flush;
   line_open_ = options_.terminal;
   last_us_ = now_us;

@@ -16,8 +16,6 @@ struct StatusCounts {
   std::int64_t of(TrackStatus status) const { return frames[static_cast<int>(status)]; }
 };
 
-std::string_view to_string(TrackStatus status);
-
 /// Says how a run is going: one line that is rewritten on a terminal, now and then a line elsewhere.
 class ProgressSink : public Sink {
  public:

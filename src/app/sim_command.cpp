@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/exit_code.h"
 #include "app/render_progress.h"
 #include "app/sim_run.h"
 #include "drivers/synthetic/synthetic_spec.h"
@@ -46,19 +47,19 @@ int fail_with(const Error& error, int code) {
 int run(const SimArguments& a) {
   if (a.list) {
     print_list();
-    return 0;
+    return kExitOk;
   }
-  if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, 2);
+  if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
-    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, 2);
+    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
   std::int64_t done = 0;
   const auto frames = run_sim({spec_of(a), a.out}, [&](std::int64_t now, std::int64_t all) {
     done = now;
     return render_progress(now, all);
   });
-  if (!frames) return fail_with(frames.error(), done > 0 ? 1 : 2);
+  if (!frames) return fail_with(frames.error(), done > 0 ? kExitFailure : kExitUsage);
   std::printf("%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
-  return 0;
+  return kExitOk;
 }
 
 }  // namespace

@@ -1,21 +1,14 @@
 #include "app/summary.h"
 
-#include <cstdio>
+#include "core/format.h"
 
 namespace barehand {
 namespace {
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
-
 std::string time_row(const std::string& name, const TimeSummary& time) {
   if (time.count == 0) return "";
-  return format("  %-16s %8lld %8.2f %8.2f %8.2f %8.2f %8.2f\n", name.c_str(), static_cast<long long>(time.count),
-                time.mean * 1e3, time.p50 * 1e3, time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
+  return formatted("  %-16s %8lld %8.2f %8.2f %8.2f %8.2f %8.2f\n", name.c_str(), static_cast<long long>(time.count),
+                   time.mean * 1e3, time.p50 * 1e3, time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
 }
 
 /// "dropped by transit 12, door 2", a line; empty if nothing was.
@@ -30,31 +23,32 @@ std::string drops(const std::vector<QueueHealth>& queues) {
 }  // namespace
 
 std::string summary(const PipelineHealth& health, const StatusCounts& status, double seconds) {
-  std::string text = format("%lld frames in %.1f s (%.1f frames/s): %lld published, %lld dropped, %lld failed",
-                            static_cast<long long>(health.captured), seconds,
-                            seconds > 0 ? static_cast<double>(health.published) / seconds : 0.0,
-                            static_cast<long long>(health.published), static_cast<long long>(health.dropped),
-                            static_cast<long long>(health.failed));
-  text += format("; %lld unreadable ones skipped\n", static_cast<long long>(health.skipped)) + drops(health.queues);
-  text += format(
+  std::string text = formatted("%lld frames in %.1f s (%.1f frames/s): %lld published, %lld dropped, %lld failed",
+                               static_cast<long long>(health.captured), seconds,
+                               seconds > 0 ? static_cast<double>(health.published) / seconds : 0.0,
+                               static_cast<long long>(health.published), static_cast<long long>(health.dropped),
+                               static_cast<long long>(health.failed));
+  text += formatted("; %lld unreadable ones skipped\n", static_cast<long long>(health.skipped)) + drops(health.queues);
+  text += formatted(
       "hand: tracked in %lld frames, held in %lld, lost in %lld, searched for in %lld\n",
       static_cast<long long>(status.of(TrackStatus::tracking)), static_cast<long long>(status.of(TrackStatus::holding)),
       static_cast<long long>(status.of(TrackStatus::lost)), static_cast<long long>(status.of(TrackStatus::searching)));
-  text += format("  %-16s %8s %8s %8s %8s %8s %8s\n", "time [ms]", "frames", "mean", "median", "p95", "p99", "max");
+  text += formatted("  %-16s %8s %8s %8s %8s %8s %8s\n", "time [ms]", "frames", "mean", "median", "p95", "p99", "max");
   for (const StageHealth& stage : health.stages) text += time_row(stage.name, stage.time);
   return text + time_row("latency", health.latency);
 }
 
 std::string health_line(const PipelineHealth& health) {
-  std::string text = format("captured %lld, published %lld, dropped %lld, failed %lld, skipped %lld; latency %.1f ms;",
-                            static_cast<long long>(health.captured), static_cast<long long>(health.published),
-                            static_cast<long long>(health.dropped), static_cast<long long>(health.failed),
-                            static_cast<long long>(health.skipped), health.latency.p50 * 1e3);
+  std::string text =
+      formatted("captured %lld, published %lld, dropped %lld, failed %lld, skipped %lld; latency %.1f ms;",
+                static_cast<long long>(health.captured), static_cast<long long>(health.published),
+                static_cast<long long>(health.dropped), static_cast<long long>(health.failed),
+                static_cast<long long>(health.skipped), health.latency.p50 * 1e3);
   for (const StageHealth& stage : health.stages)
-    text += format(" %s %.1f ms", stage.name.c_str(), stage.time.p50 * 1e3);
+    text += formatted(" %s %.1f ms", stage.name.c_str(), stage.time.p50 * 1e3);
   for (const QueueHealth& queue : health.queues) {
-    text += format(" [%s %zu/%zu", queue.name.c_str(), queue.depth, queue.capacity);
-    if (queue.dropped > 0) text += format(", %lld dropped", static_cast<long long>(queue.dropped));
+    text += formatted(" [%s %zu/%zu", queue.name.c_str(), queue.depth, queue.capacity);
+    if (queue.dropped > 0) text += formatted(", %lld dropped", static_cast<long long>(queue.dropped));
     text += "]";
   }
   return text;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "core/format.h"
 #include "io/image_file.h"
 
 namespace barehand {
@@ -21,10 +21,8 @@ const std::array<cv::Scalar, 8> kColours = {cv::Scalar(178, 114, 0), {0, 94, 213
                                             {0, 159, 230},           {233, 180, 86}, {66, 228, 240}, {90, 90, 90}};
 
 std::string number_text(double value, double step) {
-  char text[32];
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return formatted("%.*f", decimals, value);
 }
 
 cv::Size text_size(const std::string& text, double scale) {

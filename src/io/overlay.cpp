@@ -1,10 +1,10 @@
 #include "io/overlay.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "core/format.h"
 #include "io/image_file.h"
 #include "io/overlay_drawing.h"
 
@@ -22,9 +22,7 @@ class OverlayWriter::Folder : public OverlayWriter::Output {
  public:
   explicit Folder(std::string path) : path_(std::move(path)) {}
   Result<void> write(const Image<Rgb>& picture, std::int64_t number) override {
-    char name[40];
-    std::snprintf(name, sizeof name, "/%06lld.jpg", static_cast<long long>(number));
-    return write_colour(path_ + name, picture);
+    return write_colour(path_ + formatted("/%06lld.jpg", static_cast<long long>(number)), picture);
   }
 
  private:

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
+#include "core/format.h"
+#include "hand/status_name.h"
 #include "io/colour_map.h"
 
 namespace barehand {
@@ -128,16 +129,12 @@ struct Caption {
 };
 
 Caption caption_of(const HandEstimate& e) {
-  constexpr std::array<const char*, 4> kStatus = {"searching", "tracking", "holding", "lost"};
   const std::array<cv::Scalar, 4> kColour = {cv::Scalar(170, 170, 170), {90, 220, 90}, {255, 180, 60}, {255, 80, 80}};
-  const auto status = static_cast<std::size_t>(e.status);
-  char text[160];
-  int length = std::snprintf(text, sizeof text, "frame %lld   %.3f s   %s", static_cast<long long>(e.number),
-                             static_cast<double>(e.utime) * 1e-6, kStatus[status]);
+  std::string text = formatted("frame %lld   %.3f s   %s", static_cast<long long>(e.number),
+                               static_cast<double>(e.utime) * 1e-6, to_string(e.status).data());
   if (e.has_pose())
-    std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), "   %s hand   mismatch %.1f mm",
-                  std::string(to_string(e.handedness)).c_str(), e.score * 1000);
-  return {text, kColour[status]};
+    text += formatted("   %s hand   mismatch %.1f mm", std::string(to_string(e.handedness)).c_str(), e.score * 1000);
+  return {text, kColour[static_cast<std::size_t>(e.status)]};
 }
 
 /// A view of the image: drawing into it draws into the image. Channels are R, G, B.

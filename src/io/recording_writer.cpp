@@ -1,9 +1,9 @@
 #include "io/recording_writer.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
+#include "core/format.h"
 #include "io/image_file.h"
 #include "io/json_fields.h"
 
@@ -13,16 +13,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string image_name(const char* folder, std::int64_t number, const std::string& ending) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s/%06lld.", folder, static_cast<long long>(number));
-  return text + ending;
+  return formatted("%s/%06lld.", folder, static_cast<long long>(number)) + ending;
 }
 
 std::string stamp_text(std::int64_t utime) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%lld.%06lld", static_cast<long long>(utime / 1'000'000),
-                static_cast<long long>(utime % 1'000'000));
-  return text;
+  return formatted("%lld.%06lld", static_cast<long long>(utime / 1'000'000), static_cast<long long>(utime % 1'000'000));
 }
 
 }  // namespace

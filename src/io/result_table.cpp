@@ -3,11 +3,11 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "core/format.h"
 #include "hand/joint_angles.h"
 
 namespace barehand {
@@ -88,11 +88,9 @@ class TableBuilder {
 
 std::string format_row(const TableFrame& frame, int segment) {
   const TableRow& row = frame.rows[segment];
-  char text[512];
-  std::snprintf(text, sizeof text, "%lld,%.6f,%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n",
-                static_cast<long long>(frame.number), frame.timestamp, kSegmentNames[segment].data(), row.proximal.x(),
-                row.proximal.y(), row.proximal.z(), row.distal.x(), row.distal.y(), row.distal.z(), row.visible);
-  return text;
+  return formatted("%lld,%.6f,%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", static_cast<long long>(frame.number),
+                   frame.timestamp, kSegmentNames[segment].data(), row.proximal.x(), row.proximal.y(), row.proximal.z(),
+                   row.distal.x(), row.distal.y(), row.distal.z(), row.visible);
 }
 
 }  // namespace

@@ -87,16 +87,16 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
 }
 
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
-  EXPECT_EQ(run("eval --result %/out.csv"), 1);
+  EXPECT_EQ(run("eval --result %/out.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("give --truth"));
-  EXPECT_EQ(run("eval --result %/out.csv --fingertips tips.csv"), 1);
+  EXPECT_EQ(run("eval --result %/out.csv --fingertips tips.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("--recording"));
-  EXPECT_EQ(run("eval --result %/none.csv --truth %/truth.csv"), 1);
+  EXPECT_EQ(run("eval --result %/none.csv --truth %/truth.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("none.csv: cannot be read"));
   EXPECT_EQ(run("eval --result %/out.csv --truth %/truth.csv --json /no/such/place.json"), 1);
   EXPECT_THAT(err_, HasSubstr("/no/such/place.json: cannot be written"));
   EXPECT_THAT(out_, HasSubstr("frames 3")) << "what was computed is printed all the same";
-  EXPECT_EQ(run("eval --result %/out.csv %/out.csv --truth %/truth.csv --label one"), 1);
+  EXPECT_EQ(run("eval --result %/out.csv %/out.csv --truth %/truth.csv --label one"), 2);
   EXPECT_THAT(err_, HasSubstr("--label"));
 }
 

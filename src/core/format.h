@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace barehand {
+
+/// What printf would print.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
+}  // namespace barehand

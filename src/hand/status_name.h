@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "hand/hand_pose.h"
+
+namespace barehand {
+
+/// "searching", for messages and pictures.
+constexpr std::string_view to_string(TrackStatus status) {
+  constexpr std::array<std::string_view, 4> kNames = {"searching", "tracking", "holding", "lost"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+}  // namespace barehand
