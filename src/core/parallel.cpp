@@ -14,8 +14,9 @@ namespace {
 
 /// TBB orders everything that has to be ordered, but inside a library that the thread sanitizer cannot look into;
 /// these two atomics say the same where it can.
+template <typename Call>
 struct Job {
-  const std::function<void(int)>& fn;
+  const Call& fn;
   std::atomic<bool> started = false;
   std::atomic<int> finished = 0;
 
@@ -40,16 +41,16 @@ Workers::Workers(int threads) : threads_(threads) {
 
 Workers::~Workers() = default;
 
-void Workers::for_each_index(int n, const std::function<void(int)>& fn) {
+void Workers::run(int n, Call call) {
   if (!arena_ || n <= 1) {
-    for (int i = 0; i < n; ++i) fn(i);
+    for (int i = 0; i < n; ++i) call(i);
     return;
   }
-  Job job{fn};
+  Job<Call> job{call};
   job.started.store(true, std::memory_order_release);
   const auto settle = [&] { [[maybe_unused]] const int finished = job.finished.load(std::memory_order_acquire); };
   try {
-    arena_->for_each_index(n, &Job::run, &job);
+    arena_->for_each_index(n, &Job<Call>::run, &job);
   } catch (...) {
     settle();
     throw;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <type_traits>
 
 #include "core/error.h"
 
@@ -24,10 +24,21 @@ class Workers {
   /// Calls fn(0) ... fn(n-1), each once, in any order and on any thread, and returns when all are done. The result is
   /// the same for every number of threads if fn(i) writes only what belongs to i; sums are taken afterwards, in order.
   /// What fn throws is thrown here. May be called from several threads, and from within fn.
-  void for_each_index(int n, const std::function<void(int)>& fn);
+  template <typename Fn>
+  void for_each_index(int n, Fn&& fn) {
+    run(n, {[](const void* f, int i) { (*static_cast<const std::remove_reference_t<Fn>*>(f))(i); }, &fn});
+  }
   int threads() const { return threads_; }
 
  private:
+  /// A function that someone else owns: std::function would allocate for most lambdas.
+  struct Call {
+    void (*function)(const void* self, int i);
+    const void* self;
+    void operator()(int i) const { function(self, i); }
+  };
+  void run(int n, Call call);
+
   int threads_;
   std::unique_ptr<TbbArena> arena_;  ///< none for one thread
 };

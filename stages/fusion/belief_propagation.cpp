@@ -24,7 +24,8 @@ std::vector<float> relative_to_best(const Log& h) {
 /// Eq. 7 from a child, whose gathered log evidence is h, to its parent.
 Log message_up(const Log& h, const EdgeEnergy& e, Marginals marginals) {
   const std::vector<float> from = relative_to_best(h);
-  std::vector<float> best(e.parents, kLowest), sum(e.parents, 0.0f);
+  std::vector<float> best_and_sum(2 * e.parents, kLowest);
+  float *best = best_and_sum.data(), *sum = best + e.parents;
   for (std::size_t c = 0; c < e.children; ++c) {
     const float* row = e.row(c);
     for (std::size_t p = 0; p < e.parents; ++p) {
@@ -32,10 +33,12 @@ Log message_up(const Log& h, const EdgeEnergy& e, Marginals marginals) {
       best[p] = best[p] > x ? best[p] : x;
     }
   }
-  Log message(best.begin(), best.end());
+  Log message(best, best + e.parents);
   if (marginals == Marginals::max) return message;
+  std::fill_n(sum, e.parents, 0.0f);
   for (std::size_t c = 0; c < e.children; ++c) {
     const float* row = e.row(c);
+#pragma omp simd
     for (std::size_t p = 0; p < e.parents; ++p) sum[p] += fast_exp(from[c] - row[p] - best[p]);
   }
   for (std::size_t p = 0; p < e.parents; ++p) message[p] += std::log(static_cast<double>(sum[p]));

@@ -61,6 +61,7 @@ Proposals Fusion::next_proposals(const SegmentSamples& samples, const HandBelief
   Proposals proposals;
   for (int s = 0; s < kSegmentCount; ++s) {
     const Vector6d width = half_width(s, level + 1, interval_factor);
+    proposals[s].reserve(params_.kernels);
     for (const std::size_t i :
          best_distinct(samples.poses[s], belief.log_belief[s], params_.kernels, width, params_.kernel_separation))
       proposals[s].push_back({samples.poses[s][i], width});

@@ -20,9 +20,11 @@ std::vector<std::size_t> best_distinct(const std::vector<SE3>& poses, const std:
                                        const Vector6d& half_width, double separation) {
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return log_belief[a] > log_belief[b]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return log_belief[a] > log_belief[b] || (log_belief[a] == log_belief[b] && a < b);
+  });
   std::vector<std::size_t> chosen;
+  chosen.reserve(count);
   for (const std::size_t i : order) {
     if (static_cast<int>(chosen.size()) == count) break;
     const bool distinct = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t k) {
