@@ -12,7 +12,7 @@ TEST(ProcessUsage, ComputingTakesCpuSeconds) {
   const double before = cpu_seconds();
   volatile double sum = 0;
   while (cpu_seconds() < before + 0.02) sum = sum + 1;
-  EXPECT_GE(cpu_seconds() - before, 0.02);
+  EXPECT_GT(cpu_seconds() - before, 0.019);  // the sum rounds
 }
 
 /// Fills so much memory and gives it back to the kernel, which an allocator may put off.
