@@ -60,6 +60,7 @@ CoarseScorer::CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const 
   for (const CoarseSkin::Part& part : skin.parts) largest = std::max(largest, part.size());
   for (auto* buffer : {&u_, &v_, &z_, &facing_}) buffer->resize(largest);
   visible_.resize(largest);
+  drawn_.resize(largest);
 }
 
 void CoarseScorer::prepare(const ScoreGrid& grid) {
@@ -160,6 +161,7 @@ void CoarseScorer::project(const CoarseSkin::Part& part, const SE3& T) {
 }
 
 double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
+  if (!leaves_grid_) return 0;  // nearly always
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   double beyond_region = 0;
   int beyond_image = 0;
@@ -183,13 +185,28 @@ double CoarseScorer::border_cost(float u, float v, float z) const {
   return z < costs_.data[cell] ? costs_.front[cell] : costs_.behind[cell];
 }
 
+/// Which points are drawn; true if any that faces the camera comes off the grid. Apart from what follows: it
+/// vectorises.
+bool CoarseScorer::judge(std::size_t count, float w, float h) {
+  const float *u = u_.data(), *v = v_.data(), *z = z_.data(), *facing = facing_.data();
+  std::int32_t* drawn = drawn_.data();
+  std::int32_t off_grid = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool front = facing[i] < 0;
+    drawn[i] = front & (z[i] > kNearest) & (u[i] >= 0) & (v[i] >= 0) & (u[i] < w) & (v[i] < h);
+    off_grid |= front & ((u[i] < 0.5f) | (v[i] < 0.5f) | (u[i] > w - 0.5f) | (v[i] > h - 0.5f));
+  }
+  return off_grid != 0;
+}
+
 void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer) {
   project(part, T);
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
+  leaves_grid_ = judge(part.size(), w, h);
   int visible = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
     visible_[visible] = static_cast<std::int32_t>(i);
-    visible += (facing_[i] < 0) & (z_[i] > kNearest) & (u_[i] >= 0) & (v_[i] >= 0) & (u_[i] < w) & (v_[i] < h);
+    visible += drawn_[i];
   }
   const std::size_t stride = camera_.width;
   for (int k = 0; k < visible; ++k) {

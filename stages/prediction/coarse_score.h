@@ -53,6 +53,7 @@ class CoarseScorer {
   void prepare(const ScoreGrid& grid);
   void prepare_cell(const ScoreGrid& grid, std::size_t from, std::size_t to);
   void project(const CoarseSkin::Part& part, const SE3& T);
+  bool judge(std::size_t count, float w, float h);
   void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
   double outside_cost(const CoarseSkin::Part& part) const;
   double border_cost(float u, float v, float z) const;
@@ -65,9 +66,10 @@ class CoarseScorer {
   float image_lo_u_ = 0, image_lo_v_ = 0, image_hi_u_ = 0, image_hi_v_ = 0;
   int hand_cells_ = 0;
   CellCosts costs_;
-  std::vector<float> hand_z_, forearm_z_;  // z-buffers; infinite where nothing was drawn
-  std::vector<float> u_, v_, z_, facing_;  // of the part being splatted; facing < 0: towards the camera
-  std::vector<std::int32_t> visible_;
+  std::vector<float> hand_z_, forearm_z_;      // z-buffers; infinite where nothing was drawn
+  std::vector<float> u_, v_, z_, facing_;      // of the part being splatted; facing < 0: towards the camera
+  std::vector<std::int32_t> drawn_, visible_;  // of that part: 1 where it is drawn; indices of those
+  bool leaves_grid_ = false;
 };
 
 }  // namespace barehand
