@@ -12,30 +12,48 @@ namespace {
 
 // The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
 // known poses. Factors multiply the profile's own sections.
-constexpr double kPalmBlend = 0.008;     // m, between the metacarpals
-constexpr double kThenarBlend = 0.0125;   // m, between thumb and palm: the fold of skin
-constexpr double kFingerBlend = 0.004;  // m, between fingers and palm: the webs
-constexpr double kKnuckleTaper = 0.63;   // a phalanx next to the palm has lost this much of its taper at kMiddle
-constexpr double kMiddle = 0.48;         // of a phalanx
-constexpr double kWristSpread = 0.42;    // of the wrist's half width: where the outer metacarpals begin
-constexpr double kWristWidth = 0.515;     // of one metacarpal tube at the wrist
-constexpr double kWristThickness = 0.51;
-constexpr double kWristOffset = 0.25;
-constexpr double kHeelAt = 0.38;         // the heel of the hand, as a fraction of the metacarpals
-constexpr double kHeelThickness = 0.72;  // of the wrist's section, which includes the root of the thumb
-constexpr double kHeelOffset = 0.78;
-constexpr double kKnuckleThickness = 0.88;
-constexpr double kKnuckleOffset = 0.85;
-constexpr double kThenarRoot = 0.94;
-constexpr double kThenarTaper = 0.67;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
-constexpr double kThenarMiddle = 0.365;
-constexpr double kBorder = 1.15;          // the palm's border lies outside the outer knuckles' sections
-constexpr double kProximalOffset = 0.89;  // flesh under a proximal phalanx at its middle
-constexpr double kWebBlend = 0.0045;      // m, between a web and its fingers
-constexpr double kWebAt = 0.23;           // of the proximal phalanges: where the fold of skin between them lies
-constexpr double kWebHalfLength = 1.09;   // along the fingers, of their thickness at the next joint
-constexpr double kWebThickness = 0.95;
-constexpr double kWebOffset = 1.57;       // towards the palm, of the knuckles' flesh offset
+constexpr double kPalmBlend = 0.009;      // m, between the metacarpals
+constexpr double kThenarBlend = 0.0134;   // m, between thumb and palm: the fold of skin
+constexpr double kFingerBlend = 0.00206;  // m, between fingers and palm: the webs
+constexpr double kKnuckleTaper = 0.759;   // a phalanx next to the palm has lost this much of its taper at kMiddle
+constexpr double kMiddle = 0.527;         // of a phalanx
+constexpr double kWristSpread = 0.353;    // of the wrist's half width: where the outer metacarpals begin
+constexpr double kWristWidth = 0.607;     // of one metacarpal tube at the wrist
+constexpr double kWristThickness = 0.463;
+constexpr double kWristOffset = 0.232;
+constexpr double kWristShift = 0.0584;  // of the wrist's half width, towards the little finger
+// Slopes: what is added below the little finger and subtracted below the index finger.
+constexpr double kWristThicknessSlope = -0.0774;
+constexpr double kWristOffsetSlope = -0.0519;
+constexpr double kHeelThicknessSlope = -0.0598;
+constexpr double kHeelWidth = 0.918;
+constexpr double kHeelAt = 0.362;         // the heel of the hand, as a fraction of the metacarpals
+constexpr double kHeelThickness = 0.729;  // of the wrist's section, which includes the root of the thumb
+constexpr double kHeelOffset = 0.808;
+constexpr double kKnuckleThickness = 0.904;
+constexpr double kKnuckleOffset = 0.935;
+constexpr double kThenarRootWidth = 1.01;
+constexpr double kThenarRootThickness = 0.901;
+constexpr double kThenarRootOffset = 0.824;
+constexpr double kThenarRootShift = 0.0927;  // of its half width, away from the palm
+constexpr double kThenarMiddleThickness = 1.1;
+constexpr double kThenarTaper = 0.745;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
+constexpr double kThenarMiddle = 0.465;
+constexpr double kBorderThumb = 1.24;  // the palm's borders lie outside the outer knuckles' sections
+constexpr double kBorderLittle = 1.17;
+constexpr double kProximalOffset = 0.889;  // flesh under a proximal phalanx at its middle
+constexpr double kWebBlend = 0.00466;      // m, between a web and its fingers
+constexpr double kWebAt = 0.251;           // of the proximal phalanges: where the fold of skin between them lies
+constexpr double kWebHalfLength = 1.07;    // along the fingers, of their thickness at the next joint
+constexpr double kWebThickness = 0.946;
+constexpr double kWebOffset = 1.57;  // towards the palm, of the knuckles' flesh offset
+
+constexpr double kThumbWebAlongThumb = 0.795;  // of its metacarpal: where the web of the thumb begins
+constexpr double kThumbWebAlongPalm = 0.73;    // from the wrist to the index knuckle: where it ends
+constexpr double kThumbWebThickness = 0.662;   // of the thumb's next joint
+constexpr double kThumbWebHalfLength = 0.675;
+constexpr double kThumbWebOffset = -0.144;  // out of the back of the hand, at the palm's end
+constexpr double kThumbWebBlend = 0.00647;  // m
 
 // Polynomial smooth minimum: differs from min only where |a - b| < k, by at most k / 4.
 double smooth_min(double a, double b, double k) {
@@ -84,14 +102,18 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
   EllipticSection proximal = section_at(s, 0), distal = section_at(s, 1);
   double taper = kMiddle;
   if (segment == segment_of(0, 0)) {
-    proximal.half_x *= kThenarRoot;
-    proximal.half_y *= kThenarRoot;
+    const double outward = profile.handedness == Handedness::right ? 1.0 : -1.0;
+    proximal.half_x *= kThenarRootWidth;
+    proximal.half_y *= kThenarRootThickness;
+    proximal.centre_x += outward * kThenarRootShift * proximal.half_x;
+    proximal.centre_y *= kThenarRootOffset;
     distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
     taper = kThenarMiddle;
   } else if (parent_of(segment) == kPalm) {
     taper = kKnuckleTaper;  // flesh around a knuckle thins out fast
   }
   tube.sections = {proximal, mix(proximal, distal, taper), distal};
+  if (segment == segment_of(0, 0)) tube.sections[1].half_y *= kThenarMiddleThickness;
   if (parent_of(segment) == kPalm && segment != segment_of(0, 0)) {
     tube.sections[0].half_y *= kKnuckleThickness;
     tube.sections[0].centre_y *= kKnuckleOffset;
@@ -114,11 +136,14 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
 
   const double little_side = knuckle(4).x() > knuckle(1).x() ? 1.0 : -1.0;
   // Towards a neighbour the tube runs on to that neighbour's bone: no groove between metacarpals.
-  const double reach_little = finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorder;
-  const double reach_thumb = finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x * kBorder;
+  const double reach_little =
+      finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorderLittle;
+  const double reach_thumb =
+      finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x * kBorderThumb;
 
   // At the wrist the four tubes share the wrist's section.
-  const double slot = (finger - 2.5) / 4 * 2 * wrist.half_x * kWristSpread * little_side;
+  const double across = (finger - 2.5) / 1.5;  // -1 below the index finger, 1 below the little one
+  const double slot = (0.75 * across * kWristSpread + kWristShift) * wrist.half_x * little_side;
   const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
   const Eigen::Vector3d end = knuckle(finger);
 
@@ -126,13 +151,15 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   tube.T_tube_hand = (T_hand_palm * frame_along(start, end, Eigen::Vector3d::UnitY())).inverse();
   tube.length = (end - start).norm();
   tube.middle = kHeelAt;
-  tube.sections[0] = {wrist.half_x * kWristWidth, wrist.half_y * kWristThickness, 0, wrist.centre_y * kWristOffset};
+  tube.sections[0] = {wrist.half_x * kWristWidth, wrist.half_y * (kWristThickness + kWristThicknessSlope * across), 0,
+                      wrist.centre_y * (kWristOffset + kWristOffsetSlope * across)};
   tube.sections[2] = {0.5 * (reach_little + reach_thumb), root.half_y * kKnuckleThickness,
                       little_side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5,
                       root.centre_y * kKnuckleOffset};
   // The heel of the hand is thicker than the wrist and than a straight line to the knuckles.
   tube.sections[1] = mix(tube.sections[0], tube.sections[2], tube.middle);
-  tube.sections[1].half_y = wrist.half_y * kHeelThickness;
+  tube.sections[1].half_x *= kHeelWidth;
+  tube.sections[1].half_y = wrist.half_y * (kHeelThickness + kHeelThicknessSlope * across);
   tube.sections[1].centre_y = wrist.centre_y * kHeelOffset;
   tube.cap = {0.004, std::min(root.half_x, root.half_y) * 0.8};
   return tube;
@@ -143,14 +170,31 @@ EllipticTube web_tube(const HandProfile& profile, const HandPose& pose, int fing
   const int a = segment_of(finger, 0), b = segment_of(finger + 1, 0);
   const auto anchor = [&](int s) {
     const SegmentProfile& proximal = profile.segments[s];
-    return Eigen::Vector3d(
-        pose[s] * (Eigen::Vector3d(0, kWebOffset * proximal.flesh_offset_y[0], 0) + kWebAt * proximal.distal));
+    return Eigen::Vector3d(pose[s] *
+                           (Eigen::Vector3d(0, kWebOffset * proximal.flesh_offset_y[0], 0) + kWebAt * proximal.distal));
   };
   const Eigen::Vector3d start = anchor(a), end = anchor(b);
   const double thin = std::min(profile.segments[a].half_thickness[1], profile.segments[b].half_thickness[1]);
   const EllipticSection section{kWebHalfLength * thin, kWebThickness * thin, 0, 0};
   EllipticTube tube;
   tube.T_tube_hand = frame_along(start, end, pose[a].R.col(1) + pose[b].R.col(1)).inverse();
+  tube.length = (end - start).norm();
+  tube.sections = {section, section, section};
+  tube.cap = {0.002, 0.002};
+  return tube;
+}
+
+// The muscle and the fold of skin between thumb and index finger.
+EllipticTube thumb_web_tube(const HandProfile& profile, const HandPose& pose) {
+  const int thumb = segment_of(0, 0), index = segment_of(1, 0);
+  const double thick = profile.segments[segment_of(0, 1)].half_thickness[0];
+  const Eigen::Vector3d up = pose[kPalm].R.col(1);
+  const Eigen::Vector3d start = pose[thumb] * (kThumbWebAlongThumb * profile.segments[thumb].distal);
+  const Eigen::Vector3d end =
+      pose[kPalm].t + kThumbWebAlongPalm * (pose[index].t - pose[kPalm].t) + kThumbWebOffset * thick * up;
+  const EllipticSection section{kThumbWebHalfLength * thick, kThumbWebThickness * thick, 0, 0};
+  EllipticTube tube;
+  tube.T_tube_hand = frame_along(start, end, up).inverse();
   tube.length = (end - start).norm();
   tube.sections = {section, section, section};
   tube.cap = {0.002, 0.002};
@@ -179,6 +223,7 @@ ImplicitHand::ImplicitHand(const HandProfile& profile) : pose_(spread_pose(profi
   palm_tubes_ = static_cast<int>(tubes_.size());
   for (int s = 1; s < kSegmentCount; ++s) tubes_.push_back(phalanx_tube(profile, pose_, s));
   for (int finger = 1; finger + 1 < kFingerCount; ++finger) tubes_.push_back(web_tube(profile, pose_, finger));
+  tubes_.push_back(thumb_web_tube(profile, pose_));
 }
 
 double ImplicitHand::segment_distance(int segment, const Eigen::Vector3d& p) const {
@@ -200,9 +245,9 @@ double ImplicitHand::distance(const Eigen::Vector3d& p) const {
       fingers = std::min(fingers, chain);
   }
   d = smooth_min(d, fingers, kFingerBlend);
-  for (std::size_t web = palm_tubes_ + kSegmentCount - 1; web < tubes_.size(); ++web)
+  for (std::size_t web = palm_tubes_ + kSegmentCount - 1; web + 1 < tubes_.size(); ++web)
     d = smooth_min(d, tubes_[web].distance(p), kWebBlend);
-  return d;
+  return smooth_min(d, tubes_.back().distance(p), kThumbWebBlend);
 }
 
 }  // namespace barehand

@@ -41,7 +41,7 @@ class ImplicitHand {
 
  private:
   HandPose pose_;
-  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15, then the webs
+  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15, then the webs, the thumb's last
   int palm_tubes_ = 0;
 };
 

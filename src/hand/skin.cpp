@@ -29,7 +29,7 @@ struct Binding {
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
   const double along = -(pose[distal].inverse() * p).z();
   const SegmentProfile& s = profile.segments[distal];
-  const double reach = 0.75 * std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
+  const double reach = 0.79 * std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
   return smoothstep(0.5 + along / (2 * reach));
 }
 
@@ -41,7 +41,7 @@ Binding blended(int parent, int child, double share_child) {
 
 // Thumb and palm melt over a wide fold: bind by the relative depth inside both.
 Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
-  constexpr double kRange = 0.012;
+  constexpr double kRange = 0.0147;
   const int thumb = segment_of(0, 0);
   const double difference = hand.segment_distance(kPalm, p) - hand.segment_distance(thumb, p);
   return blended(kPalm, thumb, smoothstep(0.5 + difference / (2 * kRange)));
