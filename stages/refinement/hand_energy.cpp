@@ -38,25 +38,27 @@ class DataTerm {
       : surface_{scale_sq(p.robust_scale, widening), scale_sq(p.gate, widening), information(p, 1)},
         outside_{scale_sq(p.silhouette_scale, widening), scale_sq(p.silhouette_gate, widening),
                  information(p, p.weight_outside)},
-        unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)} {}
+        unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
+        palm_trust_(static_cast<float>(p.palm_trust)) {}
 
   /// Adds the residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out.
   double add(const Correspondence& c, const SkinVertex& v, ResidualMoments& sums) const {
     const Vector3f r = c.model - c.data;
+    const float share = c.weight * trust(v);
     if (c.kind == Kind::surface) {
       const float along = c.normal.dot(r), distance_sq = sq(along);
       if (distance_sq > surface_.gate_sq) return 0;
-      sums.add(v, c.model, c.normal, along, c.weight * surface_.weight(distance_sq));
-      return c.weight * surface_.energy(distance_sq);
+      sums.add(v, c.model, c.normal, along, share * surface_.weight(distance_sq));
+      return share * surface_.energy(distance_sq);
     }
     // Outside: the silhouette says nothing about depth. Unexplained: the data is a point of the skin.
     const Robust& robust = c.kind == Kind::outside ? outside_ : unexplained_;
     const int axes = c.kind == Kind::outside ? 2 : 3;
     const float distance_sq = r.head(axes).squaredNorm();
     if (distance_sq > robust.gate_sq) return 0;
-    const float weight = c.weight * robust.weight(distance_sq);
+    const float weight = share * robust.weight(distance_sq);
     for (int axis = 0; axis < axes; ++axis) sums.add(v, c.model, Vector3f::Unit(axis), r[axis], weight);
-    return c.weight * robust.energy(distance_sq);
+    return share * robust.energy(distance_sq);
   }
 
  private:
@@ -66,12 +68,15 @@ class DataTerm {
     float weight(float distance_sq) const { return information * sq(scale_sq / (scale_sq + distance_sq)); }
     float energy(float distance_sq) const { return information * scale_sq * distance_sq / (scale_sq + distance_sq); }
   };
+  float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
+  float trust(const SkinVertex& v) const { return (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b); }
   static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }
   static float information(const EnergyParams& p, double weight) {
     return static_cast<float>(weight / sq(p.sigma_depth));
   }
 
   Robust surface_, outside_, unexplained_;
+  float palm_trust_;
 };
 
 }  // namespace

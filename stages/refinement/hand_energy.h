@@ -18,6 +18,7 @@ struct EnergyParams {
   double silhouette_gate = 0.040;    ///< m, larger silhouette distances are ignored
   double weight_outside = 0.5;       ///< of model pixels where the data shows no hand
   double weight_unexplained = 1.0;   ///< of hand data that no model pixel explains
+  double palm_trust = 0.1;           ///< information of skin on palm and thumb root, relative to a phalanx's
   double sigma_gap = 0.0005;         ///< m, joint gap (Eq. 5)
   double sigma_angle_deg = 2.0;      ///< angles beyond the limits, and twist (Eq. 6)
   double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (Sec. 4.3)
@@ -35,6 +36,8 @@ void visit(V& v, EnergyParams& p) {
   v("silhouette_gate", p.silhouette_gate, 1e-3, 0.5, "m, larger silhouette distances are ignored");
   v("weight_outside", p.weight_outside, 0.0, 10.0, "of model pixels where the data shows no hand");
   v("weight_unexplained", p.weight_unexplained, 0.0, 10.0, "of hand data that no model pixel explains");
+  v("palm_trust", p.palm_trust, 0.0, 1.0,
+    "information of skin on palm and thumb root relative to a phalanx's: its shape differs most between people");
   v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, joint gap (Eq. 5)");
   v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0, "degrees, angles beyond the limits and twist (Eq. 6)");
   v("limit_widening_deg", p.limit_widening_deg, 0.0, 60.0, "degrees, joint limits widened for contact (Sec. 4.3)");

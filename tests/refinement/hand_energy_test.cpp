@@ -85,6 +85,21 @@ TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
   EXPECT_GT(gradient_error(energy, tree, 2e-4), 0.05) << "the check must notice a wrong gradient";
 }
 
+TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
+  const auto information = [&](double palm_trust) {
+    params_.palm_trust = palm_trust;
+    GaussianTree tree;
+    tree.set_zero();
+    add_data_terms(skin_, pose_, evidence(), params_, 1, tree);
+    return tree;
+  };
+  const GaussianTree equal = information(1), trusted_less = information(0.1);
+  const int tip = segment_of(2, 2), thumb_root = segment_of(0, 0);
+  EXPECT_TRUE(trusted_less.H_self[tip].isApprox(equal.H_self[tip]));
+  EXPECT_LT(trusted_less.H_self[kPalm](0, 0), 0.3 * equal.H_self[kPalm](0, 0));
+  EXPECT_LT(trusted_less.H_self[thumb_root](0, 0), 0.5 * equal.H_self[thumb_root](0, 0));
+}
+
 TEST_F(EnergyTest, JointGradientMatchesCentralDifferences) {
   const auto limits = widened_limits(*profile_, 0);
   GaussianTree tree;
