@@ -78,8 +78,23 @@ class Comparer {
     ++out_.visible[segment];
     const std::int32_t nearest = obs_.nearest_hand.at(u, v);
     if (nearest < 0) return;
-    const Vector3f data = out_.rays.point(nearest, obs_.depth);
-    add(Kind::outside, i, j, data, (data - model_point(i, j)).norm());  // Eq. 1
+    const Vector3f model = model_point(i, j), hand = out_.rays.point(nearest, obs_.depth);
+    const Vector3f hidden = nearest_hiding_place(u, v, model);
+    const float to_hand = (hand - model).norm(), to_hidden = (hidden - model).norm();  // Eq. 1
+    if (to_hidden < to_hand)
+      add(Kind::outside, i, j, hidden, to_hidden);
+    else
+      add(Kind::outside, i, j, hand, to_hand);
+  }
+
+  // Skin that shows no data may as well lie behind an object: where it would be nearest, at its own depth.
+  Vector3f nearest_hiding_place(int u, int v, const Vector3f& model) const {
+    constexpr float kNowhere = 1e3f;
+    const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
+    if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance))
+      return Vector3f::Constant(kNowhere);
+    const int row = out_.rays.row_of(object);
+    return out_.rays.point(object - row * obs_.depth.width(), row, model.z());
   }
 
   void judge_unexplained(int i, int j, int u, int v) {

@@ -40,7 +40,7 @@ class Preprocessor {
   ObservationPool pool_;
   CoarseGrid grid_;
   const CoarseHand* hand_ = nullptr;  // of the current frame, owned by search_
-  Image<std::uint8_t> edge_, mask_;
+  Image<std::uint8_t> edge_, mask_, object_;
   std::vector<Rgb> skin_colours_, other_colours_;
 };
 

@@ -81,6 +81,41 @@ TEST_F(CompareTest, AnObjectBehindContradicts) {
   EXPECT_GT(compare_at(*observation_, pose_).score, 0.002);
 }
 
+// An object that begins right of column 200, between the hand and the camera or behind the hand.
+class HidingPlaceTest : public CompareTest {
+ protected:
+  ModelComparison compare_beside_object(float z) {
+    constexpr int kEdge = 200;
+    const int width = observation_->label.width(), height = observation_->label.height();
+    observation_->nearest_object.reset(width, height, -1);
+    for (int v = 0; v < height; ++v)
+      for (int u = width - 1, object = -1; u >= 0; --u) {
+        const auto i = static_cast<std::int32_t>(observation_->label.index(u, v));
+        if (u >= kEdge && observation_->label[i] != PixelLabel::hand) {
+          observation_->label[i] = PixelLabel::object;
+          observation_->depth[i] = z;
+          object = i;
+        }
+        observation_->nearest_object[i] = object;
+      }
+    return compare_at(*observation_, shifted({0.02, 0, 0}));
+  }
+  static int pulled_at_own_depth(const ModelComparison& comparison) {
+    int count = 0;
+    for (const Correspondence& c : comparison.correspondences)
+      count += c.kind == Correspondence::Kind::outside && c.data.z() == c.model.z() && c.data.x() > c.model.x();
+    return count;
+  }
+};
+
+TEST_F(HidingPlaceTest, SkinOverBackgroundMayMoveBehindANearerObject) {
+  EXPECT_GT(pulled_at_own_depth(compare_beside_object(0.3f)), 5);
+}
+
+TEST_F(HidingPlaceTest, NothingHidesBehindWhatIsFartherAway) {
+  EXPECT_EQ(pulled_at_own_depth(compare_beside_object(0.6f)), 0);
+}
+
 TEST_F(CompareTest, ForearmIsNotUnexplained) {
   // Hand-like data far behind the wrist (below it in the image).
   for (int v = 220; v < 240; ++v)
