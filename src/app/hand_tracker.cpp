@@ -9,7 +9,8 @@ namespace barehand {
 namespace {
 
 constexpr double kMicro = 1e-6;
-constexpr double kDistinct = 0.001;  // start poses closer than this are the same [m]
+constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
+constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, const HandProfile& profile,
                                                 const Skin& skin) {
@@ -159,12 +160,26 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
 
 std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
   const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
-  const auto starts = initialiser_.propose(observation, effort, seed_ + frame_, last_good_ ? &*last_good_ : nullptr);
+  const int attempts = effort == Effort::full ? params_.search_attempts : 1;
   std::optional<Fit> best;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const std::optional<Fit> found = search_once(observation, effort, attempt);
+    if (found && (!best || found->refined.score < best->refined.score)) best = found;
+    if (best && best->refined.score < params_.search_convincing) break;
+  }
+  return best;
+}
+
+std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& observation, Effort effort,
+                                                         int attempt) {
+  const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
+  const std::uint64_t seed = seed_ + frame_ + attempt * kAttemptSeed;
+  const auto starts = initialiser_.propose(observation, effort, seed, hiding, last_good_ ? &*last_good_ : nullptr);
   std::vector<Fit> fits(std::min<std::size_t>(params_.search_refined, starts.size()));
   workers_.for_each_index(static_cast<int>(fits.size()), [&](int i) {
     fits[i].refined = refinement_.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
   });
+  std::optional<Fit> best;
   for (Fit& fit : fits) {
     fit.joint_gap = raw_gap(fit.refined.pose);
     if (!best || fit.refined.score < best->refined.score) best = fit;
@@ -185,7 +200,7 @@ void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& 
     pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * before : before, 0, 0});
   }
   const RefinedPose relaxed = refinement_.refine(observation, pose, pose, params_.search_iterations);
-  if (relaxed.score < found.score * (1 + params_.sampling_advantage)) found = relaxed;
+  if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;
 }
 
 double HandTracker::raw_gap(const HandPose& pose) const {

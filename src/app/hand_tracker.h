@@ -40,6 +40,7 @@ class HandTracker {
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation);
+  std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
   void relax_hidden(const HandObservation& observation, RefinedPose& found);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);

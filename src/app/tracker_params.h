@@ -25,6 +25,8 @@ struct TrackerParams {
   int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
+  int search_attempts = 4;
+  double search_convincing = 0.002;
   double covariance_scale = 4;
   double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
@@ -52,6 +54,8 @@ void visit(V& v, TrackerParams& p) {
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
+  v("search_attempts", p.search_attempts, 1, 100, "full searches of one frame until one convinces");
+  v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("covariance_scale", p.covariance_scale, 1e-3, 1e6,
     "factor on the refinement's covariance: pixels are not independent");
   v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");

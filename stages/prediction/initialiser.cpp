@@ -62,14 +62,16 @@ Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const Initi
       fine_skin_(make_coarse_skin(*profile_, surface_, params.fine_cell)) {}
 
 std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                                 const HandPose* last_good) const {
+                                                 Hiding hiding, const HandPose* last_good) const {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
   const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
   const ScoreGrid coarse = make_score_grid(observation, params_.coarse_cell);
   const ScoreGrid fine = make_score_grid(observation, params_.fine_cell);
   if (coarse.empty() || fine.empty()) return {};
-  PoseCost coarse_cost(*profile_, coarse, coarse_skin_, params_.score, params_.search.shape_prior);
-  PoseCost fine_cost(*profile_, fine, fine_skin_, params_.score, params_.search.shape_prior);
+  CoarseScoreParams score = params_.score;
+  if (hiding == Hiding::free) score.hidden = 0;
+  PoseCost coarse_cost(*profile_, coarse, coarse_skin_, score, params_.search.shape_prior);
+  PoseCost fine_cost(*profile_, fine, fine_skin_, score, params_.search.shape_prior);
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
 
   const double turn = effort == Effort::quick ? std::fmod(0.6180339887 * frame, 1.0) : 0.0;

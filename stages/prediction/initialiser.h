@@ -71,6 +71,9 @@ struct StartCandidate {
 
 enum class Effort { quick, full };
 
+/// What a finger behind an object costs: a little, which is right when most of the hand is seen, or nothing.
+enum class Hiding { costs, free };
+
 /// Start poses from one observation alone (not in the paper, whose start is manual; Sec. 5.2). Hand shape templates
 /// at many orientations are laid over the hand's pixels, scored by silhouette and depth, and the best are improved.
 /// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result.
@@ -81,8 +84,9 @@ class Initialiser {
   /// Ranked, best first; empty when the observation shows too little of a hand. `last_good`: pose before a loss, tried
   /// where it was and at the hand's centroid in several in-plane rotations. The quick search turns its template
   /// orientations from frame to frame, so that successive lost frames cover what one leaves out.
+  /// `hiding`: free where the hand is seen so little that the smallest hidden shape would win.
   std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                      const HandPose* last_good = nullptr) const;
+                                      Hiding hiding = Hiding::costs, const HandPose* last_good = nullptr) const;
 
  private:
   struct Trial;
