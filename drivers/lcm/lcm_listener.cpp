@@ -3,15 +3,12 @@
 #include <lcm/lcm-cpp.hpp>
 
 namespace barehand {
-namespace {
 
-/// Subscriptions go through LCM's C interface: its C++ one crashes in builds with -fsanitize=undefined (g++ 12 gets
-/// `(subs->handler->*subs->handlerMethod)(...)` of lcm-cpp-impl.hpp wrong).
-void hand_on(const lcm_recv_buf_t* buffer, const char* channel, void* handler) {
-  (*static_cast<LcmListener::Handler*>(handler))(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+void LcmListener::hand_on(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
+  auto& self = *static_cast<LcmListener*>(listener);
+  self.bus_->wait_for_sender();
+  self.handler_(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
 }
-
-}  // namespace
 
 std::string glob_to_regex(const std::string& glob) {
   std::string regex;
@@ -30,7 +27,7 @@ std::string glob_to_regex(const std::string& glob) {
 
 LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler)
     : bus_(std::move(bus)), handler_(std::move(handler)) {
-  subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, &handler_);
+  subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, this);
   thread_ = std::thread([this] { run(); });
 }
 

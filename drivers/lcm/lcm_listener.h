@@ -9,6 +9,7 @@
 #include "drivers/lcm/wire.h"
 #include "io/lcm_bus.h"
 
+struct _lcm_recv_buf_t;
 struct _lcm_subscription_t;  // liblcm's own
 
 namespace barehand {
@@ -31,6 +32,9 @@ class LcmListener {
 
  private:
   void run();
+  /// Subscriptions go through LCM's C interface: its C++ one crashes in builds with -fsanitize=undefined (g++ 12 gets
+  /// `(subs->handler->*subs->handlerMethod)(...)` of lcm-cpp-impl.hpp wrong).
+  static void hand_on(const _lcm_recv_buf_t* buffer, const char* channel, void* listener);
 
   std::shared_ptr<LcmBus> bus_;
   Handler handler_;

@@ -52,6 +52,7 @@ Result<void> LcmBus::send(const std::string& channel, std::span<const std::uint8
     return fail("a message of " + std::to_string(message.size()) + " bytes is too large for LCM", channel,
                 "compress it more");
   }
+  const std::lock_guard lock(sending_);
   if (lcm_->publish(channel, message.data(), static_cast<unsigned int>(message.size())) != 0) {
     return fail("LCM cannot publish", url_ + " " + channel, "check the network and the multicast route");
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "io/message_sink.h"
@@ -23,6 +24,10 @@ class LcmBus : public MessageSink {
   /// Over UDP success only means that the message left: whether anybody receives it is not known.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
 
+  /// First thing in a handler of messages: returns when no send() is under way that the message may come from. memq://
+  /// hands messages from thread to thread under locks of GLib, bare futexes that the thread sanitizer does not know.
+  void wait_for_sender() const { const std::lock_guard lock(sending_); }
+
   lcm::LCM& lcm() { return *lcm_; }
   const std::string& url() const { return url_; }
 
@@ -31,6 +36,7 @@ class LcmBus : public MessageSink {
 
   std::string url_;
   std::unique_ptr<lcm::LCM> lcm_;
+  mutable std::mutex sending_;
 };
 
 /// Longest channel name that LCM takes [bytes].
