@@ -160,7 +160,8 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
 
 std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
   const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
-  const int attempts = effort == Effort::full ? params_.search_attempts : 1;
+  // A hand that was tracked before is near its last pose; only a first start is worth several attempts.
+  const int attempts = effort == Effort::full && !last_good_ ? params_.search_attempts : 1;
   std::optional<Fit> best;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::optional<Fit> found = search_once(observation, effort, attempt);
