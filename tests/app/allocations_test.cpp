@@ -6,10 +6,10 @@
 #include <new>
 
 #include "app/hand_tracker.h"
-#include "observe/hand_renderer.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/publish/hand_messages.h"
 #include "support/adult_hand.h"
+#include "support/painted_frame.h"
 
 namespace {
 std::atomic<std::int64_t> allocations = 0;
@@ -34,31 +34,14 @@ void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std:
 namespace barehand {
 namespace {
 
-/// A hand that sways before a wall.
-FramePtr paint(const Skin& skin, const HandPose& pose, int number) {
-  auto frame = std::make_shared<RgbdFrame>();
-  frame->utime = number * 33'000;
-  frame->camera = {320, 240, 262.5, 262.5, 159.5, 119.5};
-  frame->depth_unit = 1e-4;
-  frame->depth.reset(320, 240, 10000);
-  frame->colour.reset(320, 240, Rgb{120, 120, 120});
-  RenderedHand rendered;
-  render_hand(skin, pose, frame->camera, {0, 0, 1, 320, 240}, rendered);
-  for (std::size_t i = 0; i < rendered.depth.size(); ++i) {
-    if (rendered.depth[i] <= 0) continue;
-    frame->depth[i] = static_cast<std::uint16_t>(rendered.depth[i] / frame->depth_unit);
-    frame->colour[i] = {205, 150, 120};
-  }
-  return frame;
-}
-
 struct Counts {
   double preprocess = 0, track = 0, publish = 0;
 };
 
-/// Mean over the frames after a warm-up.
+/// Of a swaying hand: mean over the frames after a warm-up.
 Counts allocations_per_frame(const TrackerParams& params) {
   constexpr int kWarmUp = 20, kCounted = 10;
+  const Intrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
   const auto profile = test::adult_hand();
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);
@@ -71,7 +54,8 @@ Counts allocations_per_frame(const TrackerParams& params) {
   Counts counts;
   for (int k = 0; k < kWarmUp + kCounted; ++k) {
     for (SE3& T : pose) T.t.x() += k % 20 < 10 ? 0.001 : -0.001;
-    const FramePtr frame = paint(skin, pose, k);
+    const std::shared_ptr<RgbdFrame> frame = test::paint_frame(skin, pose, camera);
+    frame->utime = k * 33'000;
     const std::int64_t start = allocations;
     const HandObservationPtr observation = preprocessor.process(frame, estimate.get()).value();
     const std::int64_t preprocessed = allocations;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "math/frame.h"
+#include "observe/hand_renderer.h"
+
+namespace barehand::test {
+
+/// What an ideal camera with colour sees of a posed skin 1 m before a grey wall.
+inline std::shared_ptr<RgbdFrame> paint_frame(const Skin& skin, const HandPose& pose, const Intrinsics& camera) {
+  constexpr double kWall = 1.0;  // [m]
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->camera = camera;
+  frame->depth_unit = 1e-4;
+  frame->depth.reset(camera.width, camera.height, static_cast<std::uint16_t>(kWall / frame->depth_unit));
+  frame->colour.reset(camera.width, camera.height, Rgb{120, 120, 120});
+  RenderedHand rendered;
+  render_hand(skin, pose, camera, {0, 0, 1, camera.width, camera.height}, rendered);
+  for (std::size_t i = 0; i < rendered.depth.size(); ++i) {
+    if (rendered.depth[i] <= 0) continue;
+    frame->depth[i] = static_cast<std::uint16_t>(rendered.depth[i] / frame->depth_unit);
+    frame->colour[i] = {205, 150, 120};
+  }
+  return frame;
+}
+
+}  // namespace barehand::test
