@@ -1,6 +1,6 @@
 #include "observe/egl/gl_functions.h"
 
-#include <cstdio>
+#include "core/format.h"
 
 namespace barehand {
 
@@ -27,9 +27,7 @@ Result<void> check_gl(const Gl& gl, const std::string& doing) {
   const GLenum reset = gl.GetGraphicsResetStatus ? gl.GetGraphicsResetStatus() : GLenum{GL_NO_ERROR};
   if (error == GL_NO_ERROR && reset == GL_NO_ERROR) return {};
   if (error == GL_CONTEXT_LOST || reset != GL_NO_ERROR) return fail("the context was lost while " + doing, "OpenGL ES");
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%04x", error);
-  return fail(std::string("error ") + code + " while " + doing, "OpenGL ES");
+  return fail(formatted("error 0x%04x while %s", error, doing.c_str()), "OpenGL ES");
 }
 
 }  // namespace barehand

@@ -1,15 +1,14 @@
 #include "observe/egl/headless_context.h"
 
-#include <cstdio>
 #include <vector>
+
+#include "core/format.h"
 
 namespace barehand {
 namespace {
 
 tl::unexpected<Error> egl_failure(const Egl& egl, const std::string& what) {
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%04x", egl.GetError());
-  return fail(what + " (EGL error " + code + ")", "EGL");
+  return fail(formatted("%s (EGL error 0x%04x)", what.c_str(), egl.GetError()), "EGL");
 }
 
 /// A context that says so when it is lost, where the driver can.
