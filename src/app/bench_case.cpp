@@ -16,7 +16,6 @@ namespace barehand {
 namespace {
 
 constexpr int kMemoryPoints = 50;  // of the curve over a run
-constexpr double kMegabyte = 1e6;
 
 /// Starts the measurement when the warm-up is over and follows the memory from there.
 class MeasuringSink : public Sink {

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+inline constexpr double kMegabyte = 1e6;  // bytes
+
 /// One way of running that is measured.
 struct BenchCase {
   std::string sweep;  ///< parameter that is varied; "": the base case

@@ -7,8 +7,6 @@ namespace {
 using json_fields::Json;
 using json_fields::rounded;
 
-constexpr double kMegabyte = 1e6;
-
 Json to_json(const TimeSummary& t) {
   if (t.count == 0) return {{"count", 0}};
   const auto ms = [](double seconds) { return rounded(seconds * 1e3); };

@@ -13,7 +13,6 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
 }  // namespace
 
 std::string bench_text(const BenchRow& row) {
-  constexpr double kMegabyte = 1e6;
   const BenchResult& r = row.result;
   std::string text = formatted("%s, %dx%d, %d threads", row.config.c_str(), row.width, row.height, row.threads);
   if (!row.sweep.empty()) text += formatted(", %s = %g", row.sweep.c_str(), row.value);
