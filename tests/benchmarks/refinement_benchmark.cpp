@@ -8,6 +8,13 @@ namespace {
 
 CellGrid cells() { return grid_of(*world().observation, world().tracker.refinement.comparison.stride); }
 
+RenderedHand rendered_hand() {
+  const World& w = world();
+  RenderedHand rendered;
+  render_hand(*w.skin, w.predicted, w.frame->camera, cells(), rendered);
+  return rendered;
+}
+
 void rendering(benchmark::State& state) {
   const World& w = world();
   RenderedHand rendered;
@@ -18,8 +25,7 @@ BENCHMARK(rendering)->Unit(benchmark::kMicrosecond);
 
 void comparison(benchmark::State& state) {
   const World& w = world();
-  RenderedHand rendered;
-  render_hand(*w.skin, w.predicted, w.frame->camera, cells(), rendered);
+  const RenderedHand rendered = rendered_hand();
   ModelComparison out;
   for (auto _ : state) compare(*w.observation, *w.skin, w.predicted, rendered, w.tracker.refinement.comparison, out);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rendered.depth.size()));
@@ -28,8 +34,7 @@ BENCHMARK(comparison)->Unit(benchmark::kMicrosecond);
 
 void data_terms(benchmark::State& state) {
   const World& w = world();
-  RenderedHand rendered;
-  render_hand(*w.skin, w.predicted, w.frame->camera, cells(), rendered);
+  const RenderedHand rendered = rendered_hand();
   ModelComparison evidence;
   compare(*w.observation, *w.skin, w.predicted, rendered, w.tracker.refinement.comparison, evidence);
   GaussianTree tree;
