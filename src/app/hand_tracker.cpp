@@ -158,14 +158,17 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   return fit;
 }
 
+void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
+  if (!best || other.refined.score < best->refined.score) best = other;
+}
+
 std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
   const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
   // A hand that was tracked before is near its last pose; only a first start is worth several attempts.
   const int attempts = effort == Effort::full && !last_good_ ? params_.search_attempts : 1;
   std::optional<Fit> best;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const std::optional<Fit> found = search_once(observation, effort, attempt);
-    if (found && (!best || found->refined.score < best->refined.score)) best = found;
+    if (const auto found = search_once(observation, effort, attempt)) keep_better(best, *found);
     if (best && best->refined.score < params_.search_convincing) break;
   }
   return best;
@@ -183,7 +186,7 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
   std::optional<Fit> best;
   for (Fit& fit : fits) {
     fit.joint_gap = raw_gap(fit.refined.pose);
-    if (!best || fit.refined.score < best->refined.score) best = fit;
+    keep_better(best, fit);
   }
   if (best) relax_hidden(observation, best->refined);
   return best;

@@ -36,6 +36,8 @@ class HandTracker {
     double joint_gap = 0;
     std::optional<Prediction> prediction;  ///< none: found by a search
   };
+  /// `best` becomes `other` if it is none or scores worse.
+  static void keep_better(std::optional<Fit>& best, const Fit& other);
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   std::optional<Fit> follow(const HandObservation& observation);
