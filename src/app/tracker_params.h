@@ -54,7 +54,8 @@ void visit(V& v, TrackerParams& p) {
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
-  v("search_attempts", p.search_attempts, 1, 100, "full searches of one frame until one convinces, while no hand was tracked before");
+  v("search_attempts", p.search_attempts, 1, 100,
+    "full searches of one frame until one convinces, while no hand was tracked before");
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("covariance_scale", p.covariance_scale, 1e-3, 1e6,
     "factor on the refinement's covariance: pixels are not independent");

@@ -21,7 +21,7 @@ struct HandObservation {
   Image<PixelLabel> label;
   Image<Eigen::Vector3f> normal;     ///< unit, towards the camera, of hand pixels; zero where undefined
   Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
-  Image<std::int32_t> nearest_object;  ///< the same of the nearest object pixel
+  Image<std::int32_t> nearest_object;     ///< the same of the nearest object pixel
   std::vector<std::int32_t> hand_pixels;  ///< indices of the hand pixels
   std::vector<Eigen::Vector3f> cloud;     ///< evenly thinned hand points for ICP
   double noise = 0.001;                   ///< 1-sigma axial noise of this sensor at the hand's distance [m]

@@ -83,7 +83,8 @@ TEST_F(InitialiserTest, TheSameSeedGivesTheSamePoses) {
 TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
   const HandPose truth = shape(5, 0.8, 0.4);
   const HandPose last = moved({exp_so3({0, 0, 0.7}), {0.02, -0.03, 0.02}}, truth);
-  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, Hiding::costs, &last);
+  const auto starts =
+      initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, Hiding::costs, &last);
   ASSERT_FALSE(starts.empty());
   EXPECT_EQ(starts.front().name, "last");
   EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.02);
