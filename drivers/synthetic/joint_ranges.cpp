@@ -27,7 +27,7 @@ std::vector<JointDof> joint_dofs(int segment, Handedness handedness) {
   if (segment == kPalm) return {};
   const int finger = finger_of(segment), k = (segment - 1) % 3;
   // Turning about +y moves a right hand's finger to the thumb's side, a left hand's to the little finger's.
-  const double side = (handedness == Handedness::right ? 1 : -1) * (finger <= 2 ? 1 : -1);
+  const double side = side_sign(handedness) * (finger <= 2 ? 1 : -1);
   const Eigen::Vector3d abduction = side * Eigen::Vector3d::UnitY(), flexion = -Eigen::Vector3d::UnitX();
   if (finger == 0) return thumb_dofs(k, abduction, flexion);
   if (k == 0) return {dof(finger, "_mcp_abd", abduction, {-18, 18}), dof(finger, "_mcp_flex", flexion, {-20, 90})};

@@ -74,13 +74,10 @@ EllipticSection section_at(const SegmentProfile& s, int end) {
 // Fingers fanned out, away from the middle one.
 HandPose spread_pose(const HandProfile& profile) {
   std::array<JointAngles, kSegmentCount> angles{};
-  const double thumb_side =
-      profile.segments[segment_of(1, 0)].T_hand_segment.t.x() < profile.segments[segment_of(4, 0)].T_hand_segment.t.x()
-          ? 1.0
-          : -1.0;  // positive abduction turns the bone towards -x
-  angles[segment_of(1, 0)].abduction = 8 * kDegree * thumb_side;
-  angles[segment_of(3, 0)].abduction = -8 * kDegree * thumb_side;
-  angles[segment_of(4, 0)].abduction = -18 * kDegree * thumb_side;
+  const double side = side_sign(profile.handedness);  // positive abduction turns a bone towards -x
+  angles[segment_of(1, 0)].abduction = 8 * kDegree * side;
+  angles[segment_of(3, 0)].abduction = -8 * kDegree * side;
+  angles[segment_of(4, 0)].abduction = -18 * kDegree * side;
   return forward_kinematics(profile, profile.segments[kPalm].T_hand_segment, angles);
 }
 
@@ -102,10 +99,9 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
   EllipticSection proximal = section_at(s, 0), distal = section_at(s, 1);
   double taper = kMiddle;
   if (segment == segment_of(0, 0)) {
-    const double outward = profile.handedness == Handedness::right ? 1.0 : -1.0;
     proximal.half_x *= kThenarRootWidth;
     proximal.half_y *= kThenarRootThickness;
-    proximal.centre_x += outward * kThenarRootShift * proximal.half_x;
+    proximal.centre_x += side_sign(profile.handedness) * kThenarRootShift * proximal.half_x;
     proximal.centre_y *= kThenarRootOffset;
     distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
     taper = kThenarMiddle;
@@ -134,7 +130,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   const EllipticSection root = section_at(profile.segments[segment_of(finger, 0)], 0);
   const EllipticSection wrist = section_at(palm, 0);
 
-  const double little_side = knuckle(4).x() > knuckle(1).x() ? 1.0 : -1.0;
+  const double side = side_sign(profile.handedness);  // of x at the little finger
   // Towards a neighbour the tube runs on to that neighbour's bone: no groove between metacarpals.
   const double reach_little =
       finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorderLittle;
@@ -143,7 +139,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
 
   // At the wrist the four tubes share the wrist's section.
   const double across = (finger - 2.5) / 1.5;  // -1 below the index finger, 1 below the little one
-  const double slot = (0.75 * across * kWristSpread + kWristShift) * wrist.half_x * little_side;
+  const double slot = (0.75 * across * kWristSpread + kWristShift) * wrist.half_x * side;
   const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
   const Eigen::Vector3d end = knuckle(finger);
 
@@ -154,8 +150,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   tube.sections[0] = {wrist.half_x * kWristWidth, wrist.half_y * (kWristThickness + kWristThicknessSlope * across), 0,
                       wrist.centre_y * (kWristOffset + kWristOffsetSlope * across)};
   tube.sections[2] = {0.5 * (reach_little + reach_thumb), root.half_y * kKnuckleThickness,
-                      little_side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5,
-                      root.centre_y * kKnuckleOffset};
+                      side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5, root.centre_y * kKnuckleOffset};
   // The heel of the hand is thicker than the wrist and than a straight line to the knuckles.
   tube.sections[1] = mix(tube.sections[0], tube.sections[2], tube.middle);
   tube.sections[1].half_x *= kHeelWidth;

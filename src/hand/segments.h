@@ -27,5 +27,7 @@ std::optional<int> segment_from_name(std::string_view name);
 
 enum class Handedness { left, right };
 std::string_view to_string(Handedness side);
+/// 1 for a right hand, -1 for a left one: its reflection in x, which turns offsets along x and angles about y around.
+constexpr double side_sign(Handedness side) { return side == Handedness::right ? 1.0 : -1.0; }
 
 }  // namespace barehand

@@ -50,7 +50,7 @@ ArticulatedPose articulated_from(const HandProfile& profile, const HandPose& pos
 std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
                                            const std::array<JointLimits, kSegmentCount>& limits) {
   // A positive angle about +y of the segment leads to the right hand's thumb side.
-  const double thumbwards = profile.handedness == Handedness::right ? 1 : -1;
+  const double thumbwards = side_sign(profile.handedness);
   constexpr std::array<double, kFingerCount> kFan = {0, 1, 0, -0.7, -1.4};
   std::vector<ShapeTemplate> templates;
   for (const Curl& curl : kCurls) {

@@ -20,7 +20,7 @@ constexpr int kThumbJoints = 5, kFingerJoints = 4;
 
 /// Factor that turns angles about +y so that they are positive towards the thumb, on both hands: seen from the back
 /// with the fingers up, a positive turn about +y moves a finger to the left, where a right hand has its thumb.
-double towards_thumb(const HandProfile& profile) { return profile.handedness == Handedness::right ? 1.0 : -1.0; }
+double towards_thumb(const HandProfile& profile) { return side_sign(profile.handedness); }
 
 /// Direction of the proximal phalanx in the plane of the palm, positive towards the thumb.
 double azimuth(const HandProfile& profile, int finger, const JointAngles& angles) {
