@@ -160,27 +160,32 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   return tube;
 }
 
-// The fold of skin between finger `finger` and the next one.
-EllipticTube web_tube(const HandProfile& profile, const HandPose& pose, int finger) {
-  const int a = segment_of(finger, 0), b = segment_of(finger + 1, 0);
-  const auto anchor = [&](int s) {
-    const SegmentProfile& proximal = profile.segments[s];
-    return Eigen::Vector3d(pose[s] *
-                           (Eigen::Vector3d(0, kWebOffset * proximal.flesh_offset_y[0], 0) + kWebAt * proximal.distal));
-  };
-  const Eigen::Vector3d start = anchor(a), end = anchor(b);
-  const double thin = std::min(profile.segments[a].half_thickness[1], profile.segments[b].half_thickness[1]);
-  const EllipticSection section{kWebHalfLength * thin, kWebThickness * thin, 0, 0};
+// A tube of one section between two points of the hand.
+EllipticTube uniform_tube(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const Eigen::Vector3d& up,
+                          const EllipticSection& section) {
   EllipticTube tube;
-  tube.T_tube_hand = frame_along(start, end, pose[a].R.col(1) + pose[b].R.col(1)).inverse();
+  tube.T_tube_hand = frame_along(start, end, up).inverse();
   tube.length = (end - start).norm();
   tube.sections = {section, section, section};
   tube.cap = {0.002, 0.002};
   return tube;
 }
 
+// The fold of skin between finger `finger` and the next one.
+Web finger_web(const HandProfile& profile, const HandPose& pose, int finger) {
+  const int a = segment_of(finger, 0), b = segment_of(finger + 1, 0);
+  const auto anchor = [&](int s) {
+    const SegmentProfile& proximal = profile.segments[s];
+    return Eigen::Vector3d(pose[s] *
+                           (Eigen::Vector3d(0, kWebOffset * proximal.flesh_offset_y[0], 0) + kWebAt * proximal.distal));
+  };
+  const double thin = std::min(profile.segments[a].half_thickness[1], profile.segments[b].half_thickness[1]);
+  const EllipticSection section{kWebHalfLength * thin, kWebThickness * thin, 0, 0};
+  return {uniform_tube(anchor(a), anchor(b), pose[a].R.col(1) + pose[b].R.col(1), section), kWebBlend};
+}
+
 // The muscle and the fold of skin between thumb and index finger.
-EllipticTube thumb_web_tube(const HandProfile& profile, const HandPose& pose) {
+Web thumb_web(const HandProfile& profile, const HandPose& pose) {
   const int thumb = segment_of(0, 0), index = segment_of(1, 0);
   const double thick = profile.segments[segment_of(0, 1)].half_thickness[0];
   const Eigen::Vector3d up = pose[kPalm].R.col(1);
@@ -188,12 +193,7 @@ EllipticTube thumb_web_tube(const HandProfile& profile, const HandPose& pose) {
   const Eigen::Vector3d end =
       pose[kPalm].t + kThumbWebAlongPalm * (pose[index].t - pose[kPalm].t) + kThumbWebOffset * thick * up;
   const EllipticSection section{kThumbWebHalfLength * thick, kThumbWebThickness * thick, 0, 0};
-  EllipticTube tube;
-  tube.T_tube_hand = frame_along(start, end, up).inverse();
-  tube.length = (end - start).norm();
-  tube.sections = {section, section, section};
-  tube.cap = {0.002, 0.002};
-  return tube;
+  return {uniform_tube(start, end, up, section), kThumbWebBlend};
 }
 
 }  // namespace
@@ -217,8 +217,8 @@ ImplicitHand::ImplicitHand(const HandProfile& profile) : pose_(spread_pose(profi
   for (int finger = 1; finger < kFingerCount; ++finger) tubes_.push_back(metacarpal_tube(profile, pose_, finger));
   palm_tubes_ = static_cast<int>(tubes_.size());
   for (int s = 1; s < kSegmentCount; ++s) tubes_.push_back(phalanx_tube(profile, pose_, s));
-  for (int finger = 1; finger + 1 < kFingerCount; ++finger) tubes_.push_back(web_tube(profile, pose_, finger));
-  tubes_.push_back(thumb_web_tube(profile, pose_));
+  for (int finger = 1; finger + 1 < kFingerCount; ++finger) webs_.push_back(finger_web(profile, pose_, finger));
+  webs_.push_back(thumb_web(profile, pose_));
 }
 
 double ImplicitHand::segment_distance(int segment, const Eigen::Vector3d& p) const {
@@ -240,9 +240,8 @@ double ImplicitHand::distance(const Eigen::Vector3d& p) const {
       fingers = std::min(fingers, chain);
   }
   d = smooth_min(d, fingers, kFingerBlend);
-  for (std::size_t web = palm_tubes_ + kSegmentCount - 1; web + 1 < tubes_.size(); ++web)
-    d = smooth_min(d, tubes_[web].distance(p), kWebBlend);
-  return smooth_min(d, tubes_.back().distance(p), kThumbWebBlend);
+  for (const Web& web : webs_) d = smooth_min(d, web.tube.distance(p), web.blend);
+  return d;
 }
 
 }  // namespace barehand

@@ -25,6 +25,12 @@ struct EllipticTube {
   double distance(const Eigen::Vector3d& p_hand) const;
 };
 
+/// A fold of skin: a tube across two bones, and how softly it melts into them.
+struct Web {
+  EllipticTube tube;
+  double blend = 0;  ///< [m], as in a polynomial smooth minimum
+};
+
 /// The hand as an implicit surface in a pose with spread fingers, so that neighbouring fingers do not melt together.
 /// Phalanges follow the profile's sections; the palm is built from one tube per finger between wrist and knuckle,
 /// and a short tube across each pair of fingers is the web between them.
@@ -41,8 +47,9 @@ class ImplicitHand {
 
  private:
   HandPose pose_;
-  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15, then the webs, the thumb's last
+  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15
   int palm_tubes_ = 0;
+  std::vector<Web> webs_;
 };
 
 }  // namespace barehand
