@@ -1,37 +1,14 @@
-#include <benchmark/benchmark.h>
-
-#include "benchmarks/world.h"
-#include "stages/fusion/fusion.h"
+#include "benchmarks/level.h"
 #include "stages/segment_tracker/patch_distance.h"
-#include "stages/segment_tracker/segment_tracker.h"
 
 namespace barehand::bench {
 namespace {
 
-/// One core; samples per segment are the benchmark's argument.
-struct Level {
-  explicit Level(const benchmark::State& state) {
-    SegmentTrackerParams params = w.tracker.segment_tracker;
-    params.samples = static_cast<int>(state.range(0));
-    tracker = std::make_unique<SegmentTracker>(params, w.surface, workers);
-    prepared = tracker->prepare(*w.observation, w.predicted);
-    proposals = fusion.first_proposals(w.predicted);
-    samples = draw();
-  }
-  SegmentSamples draw() const { return tracker->sample(prepared, proposals, {1, 1, 0, 6}); }
-  std::int64_t pairs() const {
-    const auto n = static_cast<std::int64_t>(samples.poses[0].size());
-    return n * n;
-  }
-
-  const World& w = world();
-  Workers workers{1};
-  Fusion fusion{w.tracker.fusion, w.profile, workers};
-  std::unique_ptr<SegmentTracker> tracker;
-  PreparedObservation prepared;
-  Proposals proposals;
-  SegmentSamples samples;
-};
+/// Pairs of samples of two neighbouring segments.
+std::int64_t pairs(const Level& level) {
+  const auto n = static_cast<std::int64_t>(level.samples.poses[0].size());
+  return n * n;
+}
 
 void prepare(benchmark::State& state) {
   const Level level(state);
@@ -42,7 +19,7 @@ BENCHMARK(prepare)->Arg(60)->Unit(benchmark::kMicrosecond);
 void sampling(benchmark::State& state) {
   const Level level(state);
   for (auto _ : state) benchmark::DoNotOptimize(level.draw());
-  state.SetItemsProcessed(state.iterations() * state.range(0) * kSegmentCount);
+  state.SetItemsProcessed(Level::drawn(state));
 }
 BENCHMARK(sampling)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
@@ -65,7 +42,7 @@ void psi_matrix(benchmark::State& state) {
   const int s = segment_of(2, 1);
   for (auto _ : state)
     benchmark::DoNotOptimize(joint_energy(joints[s], 0.005, level.samples.poses[parent_of(s)], level.samples.poses[s]));
-  state.SetItemsProcessed(state.iterations() * level.pairs());
+  state.SetItemsProcessed(state.iterations() * pairs(level));
 }
 BENCHMARK(psi_matrix)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
@@ -73,7 +50,7 @@ BENCHMARK(psi_matrix)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond)
 void fusing(benchmark::State& state) {
   const Level level(state);
   for (auto _ : state) benchmark::DoNotOptimize(level.fusion.fuse(level.samples, 0));
-  state.SetItemsProcessed(state.iterations() * level.pairs() * (kSegmentCount - 1));
+  state.SetItemsProcessed(state.iterations() * pairs(level) * (kSegmentCount - 1));
 }
 BENCHMARK(fusing)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
