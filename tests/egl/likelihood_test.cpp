@@ -5,7 +5,7 @@
 #include "core/log.h"
 #include "stages/segment_tracker/make_observer.h"
 #include "stages/segment_tracker/segment_tracker.h"
-#include "tests/support/scene.h"
+#include "support/scene.h"
 
 namespace barehand {
 namespace {

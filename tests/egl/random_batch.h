@@ -5,7 +5,7 @@
 #include "hand/surface.h"
 #include "math/random.h"
 #include "observe/observer.h"
-#include "tests/support/scene.h"
+#include "support/scene.h"
 
 namespace barehand {
 

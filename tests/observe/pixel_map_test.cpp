@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/scene.h"
+#include "support/scene.h"
 
 namespace barehand {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "math/random.h"
-#include "tests/support/scene.h"
+#include "support/scene.h"
 
 namespace barehand {
 namespace {

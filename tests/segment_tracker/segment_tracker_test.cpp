@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "tests/support/scene.h"
+#include "support/scene.h"
 
 namespace barehand {
 namespace {
