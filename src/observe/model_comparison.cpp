@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace barehand {
 namespace {
@@ -79,20 +80,16 @@ class Comparer {
     const std::int32_t nearest = obs_.nearest_hand.at(u, v);
     if (nearest < 0) return;
     const Vector3f model = model_point(i, j), hand = out_.rays.point(nearest, obs_.depth);
-    const Vector3f hidden = nearest_hiding_place(u, v, model);
+    const Vector3f hidden = nearest_hiding_place(u, v, model).value_or(hand);
     const float to_hand = (hand - model).norm(), to_hidden = (hidden - model).norm();  // Eq. 1
-    if (to_hidden < to_hand)
-      add(Kind::outside, i, j, hidden, to_hidden);
-    else
-      add(Kind::outside, i, j, hand, to_hand);
+    add(Kind::outside, i, j, to_hidden < to_hand ? hidden : hand, std::min(to_hidden, to_hand));
   }
 
   // Skin that shows no data may as well lie behind an object: where it would be nearest, at its own depth.
-  Vector3f nearest_hiding_place(int u, int v, const Vector3f& model) const {
-    constexpr float kNowhere = 1e3f;
+  std::optional<Vector3f> nearest_hiding_place(int u, int v, const Vector3f& model) const {
     const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
     if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance))
-      return Vector3f::Constant(kNowhere);
+      return std::nullopt;
     const int row = out_.rays.row_of(object);
     return out_.rays.point(object - row * obs_.depth.width(), row, model.z());
   }
