@@ -1,9 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
-#include <vector>
 
+#include "core/pool.h"
 #include "observe/observation.h"
 
 namespace barehand {
@@ -14,30 +13,14 @@ class ObservationPool {
  public:
   /// An observation with arbitrary content; not shared with anyone.
   std::shared_ptr<HandObservation> take() {
-    std::unique_ptr<HandObservation> own;
-    {
-      const std::lock_guard lock(store_->mutex);
-      if (!store_->idle.empty()) {
-        own = std::move(store_->idle.back());
-        store_->idle.pop_back();
-      }
-    }
-    if (!own) own = std::make_unique<HandObservation>();
-    return {own.release(), [store = store_](HandObservation* used) {
+    return {pool_->take().release(), [pool = pool_](HandObservation* used) {
               used->frame.reset();  // the frame's memory is not ours to keep
-              std::unique_ptr<HandObservation> back(used);
-              const std::lock_guard lock(store->mutex);
-              if (store->idle.size() < kMostIdle) store->idle.push_back(std::move(back));
+              Pool<HandObservation>::Return{pool.get()}(used);
             }};
   }
 
  private:
-  static constexpr std::size_t kMostIdle = 8;
-  struct Store {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<HandObservation>> idle;
-  };
-  std::shared_ptr<Store> store_ = std::make_shared<Store>();
+  std::shared_ptr<Pool<HandObservation>> pool_ = std::make_shared<Pool<HandObservation>>();
 };
 
 }  // namespace barehand
