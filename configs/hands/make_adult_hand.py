@@ -158,6 +158,7 @@ def hand(side):
         segments += finger_segments(finger, side)
     return {"handedness": "right" if side > 0 else "left",
             "note": "mean adult hand, derived from anatomy by make_adult_hand.py; see docs/adult_hand.md",
+            "mean_hand": True,
             "segments": segments}
 
 

@@ -38,4 +38,20 @@ class OverlaySink : public Sink {
   std::int64_t seen_ = 0;
 };
 
+/// --save-hand: the hand that was tracked with in the end, as fitted to the person.
+class SaveHandSink : public Sink {
+ public:
+  explicit SaveHandSink(std::string path) : path_(std::move(path)) {}
+  std::string name() const override { return "hand profile"; }
+  Result<void> consume(const TrackedFrame& tracked) override {
+    if (tracked.estimate->has_pose()) profile_ = tracked.estimate->profile;
+    return {};
+  }
+  Result<void> finish() override;
+
+ private:
+  const std::string path_;
+  std::shared_ptr<const HandProfile> profile_;
+};
+
 }  // namespace barehand

@@ -25,8 +25,8 @@ HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const 
   out->sensor = observation.frame->sensor;
   out->status = loss_.status();
   out->hand_id = hand_id_;
-  out->handedness = profile_->handedness;
-  out->profile = profile_;
+  out->handedness = model_->profile->handedness;
+  out->profile = model_->profile;
   if (out->status == TrackStatus::tracking && fit) {
     const RefinedPose& refined = fit->refined;
     out->score = refined.score;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/segment_tracker/make_observer.h"
-
 namespace barehand {
 namespace {
 
@@ -12,30 +10,19 @@ constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
-std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, const HandProfile& profile,
-                                                const Skin& skin) {
-  return std::make_shared<const HandSurface>(params.skin == "cylinders"
-                                                 ? make_cylinder_surface(profile, params.skin_points)
-                                                 : surface_points(skin, profile, params.skin_points));
-}
-
 }  // namespace
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
                          Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params),
-      profile_(std::move(profile)),
-      skin_(std::make_shared<const Skin>(make_blended_skin(*profile_, params_.skin_cell))),
-      surface_(make_surface(params_, *profile_, *skin_)),
       seed_(seed),
       workers_(workers),
-      segment_tracker_(params_.segment_tracker, surface_, workers,
-                       make_observer(params_.segment_tracker, surface_, workers, std::move(log))),
-      fusion_(params_.fusion, profile_, workers),
-      refinement_(params_.refinement, profile_, skin_),
+      log_(std::move(log)),
+      model_(std::make_unique<HandModel>(params_, std::move(profile), workers_, log_)),
       motion_(params_.prediction, params_.icp),
-      loss_(params_.loss),
-      initialiser_(profile_, params_.initialiser) {}
+      loss_(params_.loss) {
+  if (params_.shape_fit.enabled && model_->profile->mean_hand) person_.emplace(params_.shape_fit, model_->profile);
+}
 
 void HandTracker::reset() {
   loss_.reset();
@@ -43,6 +30,11 @@ void HandTracker::reset() {
   last_good_.reset();
   requested_start_.reset();
   search_frames_ = 0;
+  if (!person_) return;
+  // Whoever comes next may be somebody else.
+  const auto mean = person_->mean();
+  person_.emplace(params_.shape_fit, mean);
+  model_ = std::make_unique<HandModel>(params_, mean, workers_, log_);
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
@@ -59,7 +51,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * kMicro : 0.0;
   evidence.hand_pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
   evidence.noise = observation.noise;
-  evidence.hand_length = profile_->hand_length();
+  evidence.hand_length = model_->profile->hand_length();
   last_utime_ = utime;
 
   std::optional<Fit> fit;
@@ -68,7 +60,10 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
-    if (fit->refined.score < loss_.good_threshold(evidence)) last_good_ = fit->refined.pose;
+    if (fit->refined.score < loss_.good_threshold(evidence)) {
+      last_good_ = fit->refined.pose;
+      if (person_) fit_person(observation, fit->refined.pose);
+    }
   } else if (status == TrackStatus::searching) {
     motion_.forget();
     last_good_.reset();
@@ -100,39 +95,48 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   motion_.update(fit.refined.pose, seen, *fit.prediction);
 }
 
+void HandTracker::fit_person(const HandObservation& observation, const HandPose& pose) {
+  const PersonFit::Change change = person_->look(observation, pose, model_->refinement, model_->skin);
+  if (change == PersonFit::Change::large)
+    model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);
+  else if (change == PersonFit::Change::small)
+    model_ =
+        std::make_unique<HandModel>(params_, person_->profile(), person_->skin(), model_->initialiser, workers_, log_);
+}
+
 double HandTracker::interval_factor(double dt) const { return std::clamp(dt * params_.nominal_rate, 0.5, 4.0); }
 
 FusedPose HandTracker::sample(const HandObservation& observation, const Prediction& prediction) {
-  const PreparedObservation prepared = segment_tracker_.prepare(observation, prediction.primary());
+  const PreparedObservation prepared = model_->segment_tracker.prepare(observation, prediction.primary());
   const double factor = interval_factor(prediction.dt);
-  Proposals proposals = fusion_.first_proposals(prediction.primary(), factor);
+  Proposals proposals = model_->fusion.first_proposals(prediction.primary(), factor);
   const int levels = params_.fusion.levels;
   for (int level = 0;; ++level) {
-    const SegmentSamples samples = segment_tracker_.sample(prepared, proposals, {seed_, frame_, level, levels});
-    const HandBelief belief = fusion_.fuse(samples, level);
-    if (level + 1 == levels) return fusion_.read_out(samples, belief, factor);
-    proposals = fusion_.next_proposals(samples, belief, level, factor);
+    const SegmentSamples samples = model_->segment_tracker.sample(prepared, proposals, {seed_, frame_, level, levels});
+    const HandBelief belief = model_->fusion.fuse(samples, level);
+    if (level + 1 == levels) return model_->fusion.read_out(samples, belief, factor);
+    proposals = model_->fusion.next_proposals(samples, belief, level, factor);
   }
 }
 
 RefinedPose HandTracker::refine_best_start(const HandObservation& observation, const Prediction& prediction) {
   const HandPose* start = &prediction.primary();
-  RefinedPose best = refinement_.evaluate(observation, *start);
+  RefinedPose best = model_->refinement.evaluate(observation, *start);
   for (std::size_t i = 1; i < prediction.candidates.size(); ++i) {
     const HandPose& pose = prediction.candidates[i].pose;
-    if (pose_distance(*profile_, pose, prediction.primary()) < kDistinct) continue;
-    const RefinedPose other = refinement_.evaluate(observation, pose);
+    if (pose_distance(*model_->profile, pose, prediction.primary()) < kDistinct) continue;
+    const RefinedPose other = model_->refinement.evaluate(observation, pose);
     if (other.score < best.score) {
       best = other;
       start = &pose;
     }
   }
-  return refinement_.refine(observation, *start, prediction.primary(), params_.refinement.iterations);
+  return model_->refinement.refine(observation, *start, prediction.primary(), params_.refinement.iterations);
 }
 
 std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& observation) {
   Fit fit;
-  fit.prediction = motion_.predict(observation, *surface_);
+  fit.prediction = motion_.predict(observation, *model_->surface);
   const bool refine = params_.refinement.enabled;
   FusedPose fused;
   // Neither needs the other. The sampler comes first: it spreads over idle cores itself, which a thread that waits for
@@ -147,13 +151,13 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   }
   fit.joint_gap = raw_gap(fused.pose);
   if (!refine) {
-    fit.refined = refinement_.evaluate(observation, fused.pose);
+    fit.refined = model_->refinement.evaluate(observation, fused.pose);
     fit.refined.covariance = fused.covariance;
     return fit;
   }
   // A good local fit must not be spoilt by a sampled one that only looks as good.
   const RefinedPose sampled =
-      refinement_.refine(observation, fused.pose, fit.prediction->primary(), params_.refinement.iterations);
+      model_->refinement.refine(observation, fused.pose, fit.prediction->primary(), params_.refinement.iterations);
   if (sampled.score < fit.refined.score * (1 - params_.sampling_advantage)) fit.refined = sampled;
   return fit;
 }
@@ -178,10 +182,11 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
                                                          int attempt) {
   const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
   const std::uint64_t seed = seed_ + frame_ + attempt * kAttemptSeed;
-  const auto starts = initialiser_.propose(observation, effort, seed, hiding, last_good_ ? &*last_good_ : nullptr);
+  const auto starts =
+      model_->initialiser->propose(observation, effort, seed, hiding, last_good_ ? &*last_good_ : nullptr);
   std::vector<Fit> fits(std::min<std::size_t>(params_.search_refined, starts.size()));
   workers_.for_each_index(static_cast<int>(fits.size()), [&](int i) {
-    fits[i].refined = refinement_.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
+    fits[i].refined = model_->refinement.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
   });
   std::optional<Fit> best;
   for (Fit& fit : fits) {
@@ -199,17 +204,17 @@ void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& 
   for (int s = 1; s < kSegmentCount; ++s) {
     if (found.visible[s] > kHidden) continue;
     const bool root = parent_of(s) == kPalm;
-    const double before = root ? 0.0 : std::max(0.0, joint_angles(*profile_, pose, parent_of(s)).flexion);
-    pose[s] = pose[parent_of(s)] * profile_->rest_relative(s);
+    const double before = root ? 0.0 : std::max(0.0, joint_angles(*model_->profile, pose, parent_of(s)).flexion);
+    pose[s] = pose[parent_of(s)] * model_->profile->rest_relative(s);
     pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * before : before, 0, 0});
   }
-  const RefinedPose relaxed = refinement_.refine(observation, pose, pose, params_.search_iterations);
+  const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
   if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;
 }
 
 double HandTracker::raw_gap(const HandPose& pose) const {
   double sum = 0;
-  for (int s = 1; s < kSegmentCount; ++s) sum += (joint_in_parent(*profile_, pose, s) - pose[s].t).norm();
+  for (int s = 1; s < kSegmentCount; ++s) sum += (joint_in_parent(*model_->profile, pose, s) - pose[s].t).norm();
   return sum / (kSegmentCount - 1);
 }
 

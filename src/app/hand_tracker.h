@@ -3,13 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "app/tracker_params.h"
-#include "core/log.h"
-#include "core/parallel.h"
+#include "app/hand_model.h"
+#include "app/person_fit.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
-#include "stages/fusion/fusion.h"
-#include "stages/segment_tracker/segment_tracker.h"
 
 namespace barehand {
 
@@ -26,7 +23,7 @@ class HandTracker {
   HandEstimatePtr process(const HandObservation& observation);
   /// The next observation is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
-  /// Forgets the hand; the next observation is searched.
+  /// Forgets the hand and the person; the next observation is searched.
   void reset();
 
  private:
@@ -47,23 +44,20 @@ class HandTracker {
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);
+  void fit_person(const HandObservation& observation, const HandPose& pose);
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_held(HandEstimate& out, double held_s) const;
   double interval_factor(double dt) const;
   double raw_gap(const HandPose& pose) const;
 
   TrackerParams params_;
-  std::shared_ptr<const HandProfile> profile_;
-  std::shared_ptr<const Skin> skin_;
-  std::shared_ptr<const HandSurface> surface_;
   std::uint64_t seed_;
   Workers& workers_;
-  SegmentTracker segment_tracker_;
-  Fusion fusion_;
-  Refinement refinement_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::unique_ptr<HandModel> model_;
+  std::optional<PersonFit> person_;  // while a mean hand is fitted
   MotionModel motion_;
   LossDetector loss_;
-  Initialiser initialiser_;
 
   std::uint32_t frame_ = 0;  // observations so far: keys the random numbers
   int search_frames_ = 0;    // since the last hand

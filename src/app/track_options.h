@@ -14,7 +14,7 @@ struct TrackOptions {
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
-  std::string result, states_log, overlay;  ///< "": not written
+  std::string result, states_log, overlay, save_hand;  ///< "": not written
   int overlay_every = 1;                    ///< every so many frames are drawn
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< instead of the configuration's

@@ -124,6 +124,7 @@ Step TrackRun::open_outputs() {
     ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
                                  options_.overlay_every));
   if (!ok) return ok;
+  if (!options_.save_hand.empty()) sinks_.push_back(std::make_unique<SaveHandSink>(options_.save_hand));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),

@@ -8,6 +8,7 @@
 #include "stages/prediction/loss_detector.h"
 #include "stages/prediction/motion_prediction.h"
 #include "stages/refinement/refinement.h"
+#include "stages/refinement/shape_fit.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
 namespace barehand {
@@ -36,6 +37,7 @@ struct TrackerParams {
   IcpParams icp;
   LossParams loss;
   InitialiserParams initialiser;
+  ShapeFitParams shape_fit;
 };
 
 template <class V>
@@ -67,6 +69,7 @@ void visit(V& v, TrackerParams& p) {
   v("icp", p.icp, "global motion (Sec. 4.4)");
   v("loss", p.loss, "when a hand counts as tracked");
   v("initialiser", p.initialiser, "start and restart from one observation");
+  v("shape_fit", p.shape_fit, "fitting a mean hand to the person in view");
 }
 
 }  // namespace barehand

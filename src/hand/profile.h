@@ -31,6 +31,7 @@ struct SegmentProfile {
 /// Posed frame = parent frame * rest_relative * R(dof 1) * R(dof 2). File form: hand.json.
 struct HandProfile {
   Handedness handedness = Handedness::right;
+  bool mean_hand = false;  ///< an average of many people, not this person's
   std::array<SegmentProfile, kSegmentCount> segments;
 
   /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.

@@ -177,6 +177,11 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   const auto side = parse_handedness({json, path});
   if (!side) return tl::unexpected(side.error());
   profile.handedness = *side;
+  if (json.contains("mean_hand")) {
+    if (!json.at("mean_hand").is_boolean())
+      return fail("\"mean_hand\" is " + json.at("mean_hand").dump(), path, "it must be true or false");
+    profile.mean_hand = json.at("mean_hand").get<bool>();
+  }
 
   ParentNames parents;
   for (const Json& entry : json.at("segments")) {
@@ -215,6 +220,7 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
 
 Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   Json json = {{"handedness", to_string(profile.handedness)}, {"segments", Json::array()}};
+  if (profile.mean_hand) json["mean_hand"] = true;
   for (int s = 0; s < kSegmentCount; ++s) json["segments"].push_back(to_json(profile.segments[s], s));
   return json_fields::write_json(path, json);
 }

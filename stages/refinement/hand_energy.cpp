@@ -6,6 +6,7 @@
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
 #include "stages/refinement/residual_moments.h"
+#include "stages/refinement/shape_moments.h"
 
 namespace barehand {
 namespace {
@@ -41,14 +42,16 @@ class DataTerm {
         unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
-  /// Adds the residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out.
-  double add(const Correspondence& c, const SkinVertex& v, ResidualMoments& sums) const {
+  /// The residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out. Calls
+  /// `use(direction, residual, information)` for each.
+  template <class Use>
+  double add(const Correspondence& c, const SkinVertex& v, const Use& use) const {
     const Vector3f r = c.model - c.data;
     const float share = c.weight * trust(v);
     if (c.kind == Kind::surface) {
       const float along = c.normal.dot(r), distance_sq = sq(along);
       if (distance_sq > surface_.gate_sq) return 0;
-      sums.add(v, c.model, c.normal, along, share * surface_.weight(distance_sq));
+      use(c.normal, along, share * surface_.weight(distance_sq));
       return share * surface_.energy(distance_sq);
     }
     // Outside: the silhouette says nothing about depth. Unexplained: the data is a point of the skin.
@@ -57,7 +60,7 @@ class DataTerm {
     const float distance_sq = r.head(axes).squaredNorm();
     if (distance_sq > robust.gate_sq) return 0;
     const float weight = share * robust.weight(distance_sq);
-    for (int axis = 0; axis < axes; ++axis) sums.add(v, c.model, Vector3f::Unit(axis), r[axis], weight);
+    for (int axis = 0; axis < axes; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], weight);
     return share * robust.energy(distance_sq);
   }
 
@@ -82,11 +85,17 @@ class DataTerm {
 }  // namespace
 
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
-                      const EnergyParams& params, double widening, GaussianTree& tree) {
+                      const EnergyParams& params, double widening, GaussianTree& tree, ShapeMoments* shape) {
   const DataTerm term(params, widening);
   ResidualMoments sums(pose);
   double total = 0;
-  for (const Correspondence& c : comparison.correspondences) total += term.add(c, skin.vertices[c.vertex], sums);
+  for (const Correspondence& c : comparison.correspondences) {
+    const SkinVertex& v = skin.vertices[c.vertex];
+    total += term.add(c, v, [&](const Vector3f& direction, float residual, float information) {
+      sums.add(v, c.model, direction, residual, information);
+      if (shape) shape->add(c, v, direction, residual, information);
+    });
+  }
   sums.add_to(tree);
   return total;
 }

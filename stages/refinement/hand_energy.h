@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+class ShapeMoments;
+
 /// Weights of the continuous energy: the negative logarithm of the paper's likelihood (Eq. 3) and constraints
 /// (Eq. 4-6), made robust and taken over all segments at once.
 struct EnergyParams {
@@ -49,9 +51,10 @@ void visit(V& v, EnergyParams& p) {
 
 /// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
 /// correspondence pulls along the model's normal, a silhouette one in the image plane (and in depth where data is
-/// unexplained). Adds to `tree`; returns the robust energy.
+/// unexplained). Adds to `tree`, and what the residuals say about the shape to `shape`, which needs normals in the
+/// comparison; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
-                      const EnergyParams& params, double widening, GaussianTree& tree);
+                      const EnergyParams& params, double widening, GaussianTree& tree, ShapeMoments* shape = nullptr);
 
 /// Soft joints (Eq. 4-6) as least squares: gap, flexion and abduction beyond their limits, twist. Returns the energy.
 double add_joint_terms(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,

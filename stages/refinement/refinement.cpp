@@ -8,6 +8,9 @@
 namespace barehand {
 namespace {
 
+// A palm whose own shape is being fitted deserves more trust than one that stays wrong.
+constexpr double kShapePalmTrust = 0.3;
+
 // How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
 std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
   std::array<double, kSegmentCount> free;
@@ -93,6 +96,26 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
   summarise(*work, result);
   if (!work->tree.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);
   return result;
+}
+
+void Refinement::shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
+                                 ShapeEquations& equations) const {
+  const auto work = workspaces_.take();
+  compare_at(observation, pose, Normals::computed, *work);
+  RefinedPose judged;
+  summarise(*work, judged);
+  equations.set_zero();
+  GaussianTree& tree = equations.tree;
+  EnergyParams energy = params_.energy;
+  energy.palm_trust = kShapePalmTrust;
+  ShapeMoments moments;
+  moments.reset(pose, skin_->vertices.size());
+  add_data_terms(*skin_, pose, work->comparison, energy, 1, tree, &moments);
+  add_joint_terms(*profile_, limits_, pose, energy, tree);
+  add_prior_terms(*profile_, pose, freedom(judged), pose, energy, tree);
+  for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
+  moments.add_to(*skin_, basis, equations);
+  add_joint_shape(*profile_, pose, basis, energy.sigma_gap, equations);
 }
 
 }  // namespace barehand

@@ -4,6 +4,7 @@
 
 #include "core/pool.h"
 #include "stages/refinement/hand_energy.h"
+#include "stages/refinement/shape_moments.h"
 
 namespace barehand {
 
@@ -52,6 +53,9 @@ class Refinement {
                      int iterations) const;
   /// Score and visibility of a pose as it is.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
+  /// What the frame says about the hand's shape at a refined pose; `basis` belongs to the skin.
+  void shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
+                       ShapeEquations& equations) const;
 
  private:
   /// Buffers of one call.

@@ -162,6 +162,23 @@ TEST_F(TrackRun, SameBytesWhateverTheThreads) {
   EXPECT_NE(file_bytes("/states.lcmlog"), states[0]) << "the seed has no effect: nothing was drawn";
 }
 
+TEST_F(TrackRun, SavesTheHandAsFittedToThePerson) {
+  record_hand();
+  ChildProcess child(track({"--save-hand", folder_ + "/mine.json"}));
+  ASSERT_EQ(child.finish(), 0) << child.output();
+  const auto hand = load_profile(folder_ + "/mine.json");
+  ASSERT_TRUE(hand) << hand.error().message();
+  EXPECT_FALSE(hand->mean_hand);
+  EXPECT_NE(hand->hand_length(), test::adult_hand()->hand_length());
+}
+
+TEST_F(TrackRun, SavesNoHandWhereNoneWasTracked) {
+  ChildProcess child(track({"--save-hand", folder_ + "/mine.json"}));
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(), HasSubstr("no hand was tracked"));
+  EXPECT_FALSE(fs::exists(folder_ + "/mine.json"));
+}
+
 TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
   record_hand();
   const auto with_observer = [&](const std::string& observer) {
