@@ -13,12 +13,8 @@ namespace {
 
 int convert(const std::string& in, CopyRequest request) {
   const std::filesystem::path path(in);
-  if (path.extension() == ".oni") {
-    std::cerr << "barehand convert: " << in
-              << ": .oni files are not read yet (record an LCM log or a folder instead)\n";
-    return kExitUsage;
-  }
-  request.source.spec = (std::filesystem::is_directory(path) ? "folder:" : "log:") + in;
+  const bool oni = path.extension() == ".oni";
+  request.source.spec = (std::filesystem::is_directory(path) ? "folder:" : oni ? "openni2:" : "log:") + in;
   return run_copy(request, "barehand convert");
 }
 
@@ -27,14 +23,14 @@ int convert(const std::string& in, CopyRequest request) {
 void add_convert_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
   auto in = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("convert", "Turn a recording folder into an LCM log, or the other way round");
-  command->add_option("in", *in, "folder or LCM log")->required();
+  CLI::App* command = app.add_subcommand(
+      "convert", "Turn a recording folder or an .oni file into an LCM log, or a log or .oni file into a folder");
+  command->add_option("in", *in, "folder, LCM log or .oni file")->required();
   command->add_option("out", request->out, "FILE.lcmlog, or a folder that is made")->required();
   add_copy_options(*command, *request);
   command->footer(
       "Time stamps are kept; a log keeps frame numbers too, a folder numbers its frames from 0. hand.json and "
-      "truth.csv "
-      "stay beside the original. .oni files are not supported yet.");
+      "truth.csv stay beside the original. The times of an .oni file count from 1 s.");
   command->callback([request, in, &exit_code] { exit_code = convert(*in, *request); });
 }
 

@@ -40,6 +40,10 @@ class Copy {
     if (const auto* frame = std::get_if<FramePtr>(&event)) return store(**frame);
     if (const auto* skipped = std::get_if<SkippedFrame>(&event)) return skip(skipped->error);
     if (const auto* failed = std::get_if<SourceFailed>(&event)) return end_with(failed->error);
+    if (const auto* notice = std::get_if<SourceNotice>(&event)) {
+      say(notice->error.message());
+      return true;
+    }
     if (std::holds_alternative<Timeout>(event)) return wait();
     return false;
   }

@@ -9,6 +9,7 @@
 #include "app/config.h"
 #include "app/data_files.h"
 #include "core/parallel.h"
+#include "drivers/openni2/openni_devices.h"
 #include "drivers/synthetic/hand_mesh_file.h"
 #include "io/hand_json.h"
 
@@ -59,6 +60,7 @@ std::vector<Finding> examine(const std::string& lcm_url) {
   findings.push_back(check_receive_buffer());
   findings.push_back(check_lcm(lcm_url));
   findings.push_back(check_graphics());
+  for (Finding& finding : check_openni()) findings.push_back(std::move(finding));
   for (Finding& finding : check_libraries()) findings.push_back(std::move(finding));
   return findings;
 }
@@ -124,9 +126,21 @@ Finding check_graphics(const std::string& egl_library) {
   return {Level::ok, subject, name + ": a GPU, which observer: auto takes", ""};
 }
 
+std::vector<Finding> check_openni() {
+  const auto devices = list_openni_devices();
+  if (!devices) return {{Level::note, "OpenNI2", devices.error().what, devices.error().remedy}};
+  std::vector<Finding> findings{{Level::ok, "OpenNI2",
+                                 "version " + openni_version() + ", " + std::to_string(devices->size()) +
+                                     (devices->size() == 1 ? " sensor" : " sensors"),
+                                 ""}};
+  for (const OpenNiDevice& device : *devices)
+    findings.push_back(
+        {Level::ok, "sensor", device.vendor + " " + device.name + ", --source openni2:" + device.uri, ""});
+  return findings;
+}
+
 std::vector<Finding> check_libraries() {
-  return {check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0"),
-          check_library("libOpenNI2.so.0", "OpenNI2", "OpenNI sensors", "sudo apt-get install libopenni2-0")};
+  return {check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0")};
 }
 
 }  // namespace barehand

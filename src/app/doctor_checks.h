@@ -33,6 +33,8 @@ Finding check_multicast_route(const std::string& route_file = "/proc/net/route")
 Finding check_lcm(const std::string& lcm_url);
 /// What the samples could be compared on besides the CPU (observer in the configuration).
 Finding check_graphics(const std::string& egl_library = kEglLibrary);
+/// OpenNI2 and the sensors that it sees.
+std::vector<Finding> check_openni();
 /// Libraries that only some sources want.
 std::vector<Finding> check_libraries();
 

@@ -123,6 +123,10 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
     log_.warn("skipped", "skipped a frame: " + skipped->error.message());
     return Capture::frame;
   }
+  if (const auto* notice = std::get_if<SourceNotice>(&event)) {
+    log_.logger().log(notice->trouble ? spdlog::level::warn : spdlog::level::info, notice->error.message());
+    return Capture::nothing;
+  }
   if (std::holds_alternative<Timeout>(event)) return waited(patience);
   if (auto* failed = std::get_if<SourceFailed>(&event)) end_with(failed->error);
   return Capture::end;

@@ -42,7 +42,12 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     std::cerr << command << ": " << error.message() << "\n";
     return kExitUsage;
   };
-  auto source = open_source(request.source, clock);
+  SourceRequest input = request.source;
+  input.openni2.fx = input.foreign.fx;
+  input.openni2.fy = input.foreign.fy;
+  input.openni2.cx = input.foreign.cx;
+  input.openni2.cy = input.foreign.cy;
+  auto source = open_source(input, clock);
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
   auto writer = open_frame_writer(request.out, writer_options(request));

@@ -5,13 +5,17 @@
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "drivers/openni2/openni_file_source.h"
+#include "drivers/openni2/openni_live_source.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "io/hand_json.h"
 
 namespace barehand {
 namespace {
 
-constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, sim:NAME";
+constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, openni2, openni2:SENSOR, openni2:FILE.oni, sim:NAME";
+
+bool is_oni_file(const std::string& name) { return name.ends_with(".oni"); }
 
 Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
   auto source = FolderSource::open(directory, {request.start, request.step});
@@ -56,6 +60,23 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   return open;
 }
 
+/// An .oni file plays; anything else is (part of) a sensor's address, and the sensor may come later.
+Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
+  OpenSource open;
+  if (!is_oni_file(argument)) {
+    open.fps = request.openni2.fps;
+    open.source = std::make_unique<OpenNiLiveSource>(argument, request.openni2, request.live_capacity, clock);
+    return open;
+  }
+  auto source = OpenNiFileSource::open(argument, request.openni2, request.start.value_or(0), request.step);
+  if (!source) return tl::unexpected(source.error());
+  open.frames = (*source)->remaining();
+  open.fps = (*source)->fps();
+  open.warning = (*source)->warning();
+  open.source = std::move(*source);
+  return open;
+}
+
 Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
   auto source = synthetic::SyntheticSource::open(text, clock);
   if (!source) return tl::unexpected(source.error());
@@ -75,10 +96,11 @@ Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock)
   const std::string kind = request.spec.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
   if (request.step == 0) return fail("a step of 0 never gets anywhere", "--step", "give 1, 2, ... or -1, -2, ...");
-  const bool recording = kind == "folder" || kind == "log";
+  const bool recording = kind == "folder" || kind == "log" || (kind == "openni2" && is_oni_file(argument));
   if (!recording && (request.start || request.step != 1))
     return fail("--start and --step are for recordings", request.spec, "leave them out");
   if (kind == "lcm" && colon == std::string::npos) return open_live(request);
+  if (kind == "openni2") return open_openni(argument, request, clock);
   if (kind == "sim" && !argument.empty()) return open_simulator(argument, clock);
   if (recording && argument.empty())
     return fail("the source names no file", request.spec, std::string("give ") + kKinds);

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "drivers/lcm/foreign_frames.h"
+#include "drivers/openni2/openni_params.h"
 #include "hand/profile.h"
 #include "math/source.h"
 
@@ -16,13 +17,14 @@ namespace barehand {
 
 /// What `--source` and its neighbours say.
 struct SourceRequest {
-  std::string spec;                   ///< folder:DIR | log:FILE | lcm | sim:NAME
+  std::string spec;                   ///< folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME
   std::optional<std::int64_t> start;  ///< first frame of a recording
   std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
   std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
   std::string channel;                ///< glob of LCM channels with frames; "": the driver's default
   ForeignCamera foreign;              ///< intrinsics of frames that come without
-  std::size_t live_capacity = 1;      ///< live messages that may wait; 1: the newest wins
+  OpenNiParams openni2;               ///< what is wanted of a sensor
+  std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
 };
 
 struct OpenSource {

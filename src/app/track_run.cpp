@@ -85,6 +85,7 @@ Step TrackRun::open_input() {
   request.lcm_url = options_.lcm_url;
   request.channel = config_.run.frame_channel;
   request.foreign = config_.foreign_camera;
+  request.openni2 = config_.openni2;
   auto input = open_source(request, clock_);
   if (!input) return options_.source == "lcm" ? failure(input.error()) : usage(input.error());
   input_ = std::move(*input);
@@ -216,7 +217,7 @@ int run_track(const TrackOptions& options) {
     return kExitOk;
   }
   if (options.source.empty())
-    return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm or sim:NAME"}, kExitUsage});
+    return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
   const auto outcome = track(options, *config);
   if (!outcome) return tell(outcome.error());
   std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;

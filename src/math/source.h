@@ -20,7 +20,13 @@ struct SourceFailed {
   Error error;
 };  ///< the source cannot go on
 
-using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed>;
+/// Something to tell the user, once; the stream goes on. The source keeps repetitions back.
+struct SourceNotice {
+  Error error;
+  bool trouble = true;  ///< false: good news (a sensor was opened)
+};
+
+using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed, SourceNotice>;
 
 /// Where frames come from: a folder, a log, a live bus, a sensor, the simulator. Used by one thread at a time.
 class FrameSource {

@@ -60,7 +60,7 @@ TEST(Bench, MeasuresAndWritesFigures) {
 TEST(Track, NeedsASource) {
   const Outcome outcome = barehand({"track"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("folder:DIR, log:FILE, lcm or sim:NAME"));
+  EXPECT_THAT(outcome.output, HasSubstr("folder:DIR, log:FILE, lcm, openni2 or sim:NAME"));
 }
 
 TEST(Track, RefusesUnknownSources) {

@@ -73,6 +73,12 @@ TEST_F(CopyFrames, FolderToLogToFolderKeepsEveryPixel) {
   }
 }
 
+TEST_F(CopyFrames, NoticesOfTheSourceAreReported) {
+  ListSource source({frame_event(0), SourceNotice{{"the sensor was unplugged", "", ""}}, frame_event(2)});
+  EXPECT_EQ(copy(source, *writer("a")).written, 2);
+  EXPECT_NE(report_.str().find("the sensor was unplugged"), std::string::npos);
+}
+
 TEST_F(CopyFrames, SkippedFramesAreCountedAndReported) {
   ListSource source({frame_event(0), SkippedFrame{{"damaged", "frame 1", ""}}, frame_event(2)});
   const CopyResult result = copy(source, *writer("a.lcmlog"));

@@ -275,6 +275,18 @@ TEST_P(PipelineLifecycle, UnreadableFramesAreSkippedAndCounted) {
   expect_balanced(result.health);
 }
 
+TEST_P(PipelineLifecycle, NoticesOfTheSourceCostNothing) {
+  ScriptedSource source(false, [](int n) -> SourceEvent {
+    if (n == 2 || n == 3) return SourceNotice{{"the sensor was unplugged", "", ""}, n == 2};
+    return n < 6 ? SourceEvent(frame(n)) : EndOfStream{};
+  });
+  const RunResult result = world_.run(source);
+  EXPECT_FALSE(result.error);
+  EXPECT_THAT(world_.sink.numbers, ElementsAre(0, 1, 4, 5));
+  EXPECT_EQ(result.health.skipped, 0);
+  EXPECT_EQ(result.health.captured, 4);
+}
+
 TEST_P(PipelineLifecycle, SourceThatFailsOrThrowsEndsTheRunWithItsError) {
   for (const bool throws : {false, true}) {
     World world(GetParam());

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+namespace barehand {
+
+/// Finds the colour picture that belongs to each depth picture, by the sensor's time stamps. A depth picture waits for
+/// its colour briefly, and not at all once colour has stopped: depth is what is tracked. `Picture` is a handle, empty
+/// by default. Microseconds.
+template <class Picture>
+class ColourPairing {
+ public:
+  struct Stamped {
+    std::int64_t device_us = 0, arrival_us = 0;
+    Picture picture{};
+  };
+  struct Pair {
+    Stamped depth;
+    std::optional<Picture> colour;
+  };
+
+  /// `period_us`: between two depth frames; colour belongs to depth if their stamps differ by less than half of it.
+  explicit ColourPairing(std::int64_t period_us) : period_us_(period_us) {}
+
+  /// Depth that came; a pair that is thereby complete, or whose turn to wait is over.
+  std::optional<Pair> add_depth(Stamped depth) {
+    std::optional<Pair> before;
+    if (waiting_) before = flush();
+    waiting_ = std::move(depth);
+    if (before) return before;  // the new one waits for its colour, or for the next call of `due`
+    return matched();
+  }
+  std::optional<Pair> add_colour(Stamped colour) {
+    colour_ = std::move(colour);
+    colour_taken_ = false;
+    return matched();
+  }
+  /// The waiting depth picture if its colour is there.
+  std::optional<Pair> matched() {
+    if (!waiting_ || !colour_ || colour_taken_ || 2 * std::abs(waiting_->device_us - colour_->device_us) >= period_us_)
+      return std::nullopt;
+    colour_taken_ = true;
+    return Pair{std::move(*std::exchange(waiting_, std::nullopt)), std::exchange(colour_->picture, Picture{})};
+  }
+  /// The waiting depth picture, whatever became of its colour.
+  std::optional<Pair> flush() {
+    if (auto pair = matched()) return pair;
+    if (!waiting_) return std::nullopt;
+    return Pair{std::move(*std::exchange(waiting_, std::nullopt)), std::nullopt};
+  }
+  /// The waiting depth picture if its colour came, or is not to be expected any more.
+  std::optional<Pair> due(std::int64_t now_us) {
+    if (auto pair = matched()) return pair;
+    if (!waiting_ || (colour_runs(now_us) && now_us - waiting_->arrival_us < period_us_)) return std::nullopt;
+    return flush();
+  }
+  /// When `due` has to be asked at the latest; none: nothing waits.
+  std::optional<std::int64_t> due_at(std::int64_t now_us) const {
+    if (!waiting_) return std::nullopt;
+    return colour_runs(now_us) ? waiting_->arrival_us + period_us_ : now_us;
+  }
+  bool colour_runs(std::int64_t now_us) const { return colour_ && now_us - colour_->arrival_us < kColourGone; }
+
+  static constexpr std::int64_t kColourGone = 500'000;
+
+ private:
+  std::int64_t period_us_;
+  std::optional<Stamped> waiting_, colour_;
+  bool colour_taken_ = false;
+};
+
+}  // namespace barehand

@@ -1,0 +1,61 @@
+#include "drivers/openni2/finder.h"
+
+#include <algorithm>
+
+#include "drivers/openni2/usb_bus.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kReloadEvery = 600'000'000;  // [us] without a visible reason
+
+}  // namespace
+
+OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, const Clock& clock)
+    : wanted_(std::move(wanted)), came_(std::move(came)), clock_(clock) {}
+
+Result<void> OpenNiFinder::load() {
+  library_.reset();
+  bus_when_loaded_ = usb_bus_state();
+  loaded_us_ = clock_.steady_us();
+  auto library = OpenNiLibrary::load([this](bool came, const std::string& uri) {
+    if (came) return came_();
+    {
+      const std::lock_guard lock(mutex_);
+      gone_.push_back(uri);
+    }
+    came_();
+  });
+  if (!library) return tl::unexpected(library.error());
+  library_ = std::move(*library);
+  return {};
+}
+
+Result<std::string> OpenNiFinder::find() {
+  if (!library_)
+    if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
+  {
+    const std::lock_guard lock(mutex_);
+    gone_.clear();
+  }
+  std::string others;
+  for (const openni::DeviceInfo& sensor : library_->sensors()) {
+    const std::string uri = sensor.getUri();
+    if (uri.find(wanted_) != std::string::npos) return uri;
+    others += (others.empty() ? "; there are: " : ", ") + uri;
+  }
+  distrust();
+  return fail(whom() + " yet" + others, "OpenNI2", "plug it in; barehand doctor shows what is seen");
+}
+
+void OpenNiFinder::distrust() {
+  const bool changed = usb_bus_state() != bus_when_loaded_;
+  if (changed || clock_.steady_us() - loaded_us_ > kReloadEvery) library_.reset();  // loaded again by `find`
+}
+
+bool OpenNiFinder::gone(const std::string& uri) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::find(gone_, uri) != gone_.end();
+}
+
+}  // namespace barehand

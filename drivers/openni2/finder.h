@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/clock.h"
+#include "drivers/openni2/library.h"
+
+namespace barehand {
+
+/// Finds a sensor on a bus that changes. Drivers that do not watch the bus themselves see a change only when OpenNI2 is
+/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, or rarely.
+class OpenNiFinder {
+ public:
+  /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again.
+  OpenNiFinder(std::string wanted, std::function<void()> came, const Clock& clock);
+
+  /// The address of the wanted sensor. Errors: OpenNI2 does not start, there is no such sensor.
+  Result<std::string> find();
+  /// The sensor was found but could not be used: OpenNI2's knowledge may be out of date.
+  void distrust();
+  /// Lets go of OpenNI2.
+  void unload() { library_.reset(); }
+  /// Whether the sensor at this address went since `find`.
+  bool gone(const std::string& uri) const;
+
+ private:
+  Result<void> load();
+  std::string whom() const { return wanted_.empty() ? "no sensor" : "no sensor with " + wanted_ + " in its address"; }
+
+  const std::string wanted_;
+  const std::function<void()> came_;
+  const Clock& clock_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> gone_;  // guarded by the mutex
+  std::unique_ptr<OpenNiLibrary> library_;
+  std::string bus_when_loaded_;
+  std::int64_t loaded_us_ = 0;
+};
+
+}  // namespace barehand

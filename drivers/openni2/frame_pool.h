@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "math/frame.h"
+
+namespace barehand {
+
+/// Hands out frames and takes them back when their last owner, on whatever thread, lets go: their images keep their
+/// memory, so that a running stream allocates no pixels. May be destroyed before what it handed out.
+class FramePool {
+ public:
+  /// A frame with arbitrary content; not shared with anyone.
+  std::shared_ptr<RgbdFrame> take() {
+    std::unique_ptr<RgbdFrame> own;
+    {
+      const std::lock_guard lock(store_->mutex);
+      if (!store_->idle.empty()) {
+        own = std::move(store_->idle.back());
+        store_->idle.pop_back();
+      }
+    }
+    if (!own) own = std::make_unique<RgbdFrame>();
+    return {own.release(), [store = store_](RgbdFrame* used) {
+              std::unique_ptr<RgbdFrame> back(used);
+              const std::lock_guard lock(store->mutex);
+              if (store->idle.size() < kMostIdle) store->idle.push_back(std::move(back));
+            }};
+  }
+
+ private:
+  static constexpr std::size_t kMostIdle = 8;
+  struct Store {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<RgbdFrame>> idle;
+  };
+  std::shared_ptr<Store> store_ = std::make_shared<Store>();
+};
+
+}  // namespace barehand

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <OpenNI.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace barehand {
+
+/// OpenNI2 in use by this process, which counts its users: the last one to go unloads the drivers.
+class OpenNiLibrary {
+ public:
+  /// A sensor came (or went, with its address). Called on a thread of the sensor's driver.
+  using Changed = std::function<void(bool came, const std::string& uri)>;
+
+  static Result<std::unique_ptr<OpenNiLibrary>> load(Changed changed = {});
+  ~OpenNiLibrary();
+  OpenNiLibrary(const OpenNiLibrary&) = delete;
+  OpenNiLibrary& operator=(const OpenNiLibrary&) = delete;
+
+  std::vector<openni::DeviceInfo> sensors() const;
+
+ private:
+  class Listener : public openni::OpenNI::DeviceConnectedListener, public openni::OpenNI::DeviceDisconnectedListener {
+   public:
+    explicit Listener(Changed changed) : changed_(std::move(changed)) {}
+    void onDeviceConnected(const openni::DeviceInfo* info) override { changed_(true, info->getUri()); }
+    void onDeviceDisconnected(const openni::DeviceInfo* info) override { changed_(false, info->getUri()); }
+
+   private:
+    Changed changed_;
+  };
+  explicit OpenNiLibrary(std::unique_ptr<Listener> listener);
+
+  std::unique_ptr<Listener> listener_;
+};
+
+/// OpenNI2's account of the last failure on this thread, without line breaks.
+std::string openni_error();
+
+}  // namespace barehand

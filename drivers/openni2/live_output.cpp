@@ -1,0 +1,39 @@
+#include "drivers/openni2/live_output.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kRepeatEvery = 2'000'000;  // [us]
+constexpr int kMostLost = 1000;                   // a larger gap is another way of counting, not a loss
+
+}  // namespace
+
+LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& clock)
+    : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
+
+void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
+  const auto kept_back = filter_.admit(kind);
+  if (!kept_back) return;
+  const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";
+  box_.tell(SourceNotice{{what + more, source_, remedy}, trouble});
+}
+
+void LiveOutput::skip(const std::string& what, const std::string& remedy) {
+  box_.tell(SkippedFrame{{what, source_, remedy}});
+}
+
+std::int64_t LiveOutput::number(int index) {
+  const int step = last_index_ >= 0 ? index - last_index_ : 1;
+  const int counted = step >= 1 && step <= kMostLost ? step : 1;
+  last_index_ = index;
+  ++read_;
+  lost_ += counted - 1;
+  return last_number_ += counted;
+}
+
+QueueHealth LiveOutput::transit() const {
+  const std::int64_t read = read_, lost = lost_;
+  return {"transit", 0, 0, read + lost, read, lost, {}};
+}
+
+}  // namespace barehand

@@ -1,0 +1,204 @@
+#include "drivers/openni2/live_session.h"
+
+#include <algorithm>
+
+#include "core/format.h"
+#include "drivers/openni2/pixels.h"
+#include "drivers/openni2/video_modes.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kReadWait = 50'000;       // [us] bounds the time to stop
+constexpr double kFirstDepth = 3;                // [s] a sensor needs to get going
+constexpr double kPeriods = 5;                   // frames missing in a row are a stall, however slow the sensor
+constexpr std::int64_t kColourGone = 1'000'000;  // [us]
+constexpr int kOutOfStep = 10;                   // pairs in a row with times that do not fit
+constexpr int kDepthAlone = 5;                   // depth frames without colour; fewer come when a stall ends
+constexpr std::int64_t kSayAfter = 1'000'000;    // [us] a single odd picture is not worth a word
+constexpr std::int64_t kClockSet = 100'000;      // [us]
+
+constexpr const char* kReplug = "it is opened again; if this goes on, re-plug it, into a USB port of its own";
+
+/// Host time at the steady clock's zero. Between the readings the process may be held up, so the quickest counts.
+std::int64_t host_epoch(const Clock& clock) {
+  std::int64_t epoch = 0, quickest = INT64_MAX;
+  for (int i = 0; i < 4 && quickest > 20; ++i) {
+    const std::int64_t before = clock.steady_us(), utime = clock.utime(), after = clock.steady_us();
+    if (after - before >= quickest) continue;
+    quickest = after - before;
+    epoch = utime - before - quickest / 2;
+  }
+  return epoch;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(std::unique_ptr<OpenNiSensor> sensor, const OpenNiParams& params, LiveOutput& output,
+                         const Clock& clock, const std::atomic<bool>& stop)
+    : sensor_(std::move(sensor)),
+      params_(params),
+      output_(output),
+      clock_(clock),
+      stop_(stop),
+      period_us_(1'000'000 / std::max(1, sensor_->depth_mode().getFps())),
+      pair_wanted_(sensor_->paired()),
+      pairing_(period_us_),
+      now_us_(clock.steady_us()),
+      last_depth_us_(now_us_),
+      last_colour_us_(now_us_) {
+  output_.restart_numbers();
+}
+
+std::optional<LiveSession::Loss> LiveSession::step() {
+  auto picture = sensor_->read(std::chrono::milliseconds(std::max<std::int64_t>(1, wait_us() / 1000)));
+  if (stop_) return std::nullopt;
+  now_us_ = clock_.steady_us();
+  if (picture) take(std::move(*picture));
+  if (auto pair = pairing_.due(now_us_)) deliver(*pair);
+  if (sensor_->has_colour()) watch_colour();
+  return loss();
+}
+
+std::int64_t LiveSession::wait_us() const {
+  const auto due = pairing_.due_at(now_us_);
+  return due ? std::clamp<std::int64_t>(*due - now_us_, 0, kReadWait) : kReadWait;
+}
+
+void LiveSession::take(OpenNiSensor::Picture picture) {
+  Pairing::Stamped stamped{static_cast<std::int64_t>(picture.frame.getTimestamp()), now_us_, picture.frame};
+  if (picture.colour) {
+    if (pairing_held_all_ && any_depth_ && !colour_missing_) give_up_step();  // both were there all the time
+    last_colour_us_ = now_us_;
+    depth_since_colour_ = 0;
+    if (auto pair = pairing_.add_colour(std::move(stamped))) deliver(*pair);
+  } else {
+    last_depth_us_ = now_us_;
+    any_depth_ = true;
+    ++depth_since_colour_;
+    if (auto pair = pairing_.add_depth(std::move(stamped))) deliver(*pair);
+  }
+}
+
+void LiveSession::deliver(const Pairing::Pair& pair) {
+  const openni::VideoFrameRef& depth = pair.depth.picture;
+  auto frame = output_.frame();
+  frame->number = output_.number(depth.getFrameIndex());
+  stamp(pair.depth, *frame);
+  if (!complete(depth, sensor_->depth_mode(), 2)) return judge(DepthFault::incomplete);
+  copy_depth(depth, sensor_->mirrored(false), frame->depth);
+  const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
+  judge(fault);
+  if (fault != DepthFault::none && fault != DepthFault::empty) return;
+  add_colour(pair.colour, *frame);
+  verify_step(pair.colour.has_value());
+  frame->camera = sensor_->camera();
+  frame->depth_unit = depth_unit(sensor_->depth_mode().getPixelFormat());
+  before_ = frame;
+  output_.put(std::move(frame));
+}
+
+void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
+  const auto mapped = device_clock_.map(depth.device_us, depth.arrival_us);
+  if (mapped.jumped_by)
+    output_.notice("sensor clock", formatted("the sensor's clock was set by %+.3f s; frames are stamped by it anew",
+                                             1e-6 * static_cast<double>(*mapped.jumped_by)));
+  const std::int64_t epoch = host_epoch(clock_);
+  if (epoch_us_ && std::abs(epoch - *epoch_us_) > kClockSet)
+    output_.notice("host clock", formatted("this machine's clock was set by %+.3f s, and the stamps with it",
+                                           1e-6 * static_cast<double>(epoch - *epoch_us_)));
+  epoch_us_ = epoch;
+  frame.utime = epoch + mapped.host_us - static_cast<std::int64_t>(1e6 * params_.latency);
+}
+
+void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
+  const openni::VideoMode& mode = sensor_->colour_mode();
+  if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
+    frame.colour.reset(0, 0);
+    return;
+  }
+  copy_colour(*picture, sensor_->mirrored(true), frame.colour);
+  const auto* pixels = frame.colour.data();
+  const bool black = std::all_of(pixels, pixels + frame.colour.size(), [](const Rgb& p) { return p == Rgb{}; });
+  if (!black) black_since_us_ = 0;
+  if (black && black_since_us_ == 0) black_since_us_ = now_us_;
+  if (black && now_us_ - black_since_us_ > kSayAfter)
+    output_.notice("black", "colour is black; depth goes on without it", "uncover the lens, put on the light");
+}
+
+void LiveSession::verify_step(bool matched) {
+  // OpenNI2 pairs by the pictures' numbers, and claims to even where the driver cannot expose in step.
+  const bool colour_runs = now_us_ - last_colour_us_ < kColourGone / 4;
+  out_of_step_ = matched || !colour_runs || !sensor_->paired() ? 0 : out_of_step_ + 1;
+  if (out_of_step_ >= kOutOfStep) give_up_step();
+}
+
+void LiveSession::give_up_step() {
+  out_of_step_ = 0;
+  pair_wanted_ = pairing_held_all_ = false;
+  sensor_->pair_streams(false);
+  output_.notice("step", "depth and colour are not exposed in step, whatever the sensor says; they are paired by time");
+}
+
+void LiveSession::judge(DepthFault fault) {
+  if (fault != fault_) fault_since_us_ = now_us_;
+  fault_ = fault;
+  switch (fault) {
+    case DepthFault::none:
+      break;
+    case DepthFault::empty:  // an honest picture of nothing: it goes on, and a hand in it is lost
+      if (now_us_ - fault_since_us_ > kSayAfter)
+        output_.notice("empty", "no depth is measured anywhere", "uncover the lens; is something within its range?");
+      break;
+    case DepthFault::repeated:
+      output_.skip("the depth image repeats the one before bit for bit", kReplug);
+      break;
+    case DepthFault::senseless:
+      output_.skip("the depth image is noise", kReplug);
+      break;
+    case DepthFault::incomplete:
+      output_.skip("the depth image is incomplete", kReplug);
+      break;
+  }
+}
+
+void LiveSession::watch_colour() {
+  const bool missing = now_us_ - last_colour_us_ > kColourGone && depth_since_colour_ >= kDepthAlone;
+  if (sensor_->paired() && depth_missing_for(0.5)) {  // in step, a stopped colour camera stops depth as well
+    sensor_->pair_streams(false);
+    pairing_held_all_ = true;
+  }
+  if (missing && !colour_missing_) {
+    colour_missing_ = true;
+    pairing_held_all_ = false;
+    output_.notice("colour stopped", "colour stopped; depth goes on without it",
+                   "re-plug the sensor when it suits: by depth alone skin and things are harder to tell apart");
+  } else if (!missing && colour_missing_) {
+    colour_missing_ = false;
+    output_.notice("colour is back", "colour is back", "", false);
+    if (pair_wanted_ && pairings_left_-- > 0) sensor_->pair_streams(true);
+  }
+}
+
+bool LiveSession::depth_missing_for(double factor) const {
+  const double patience = std::max(any_depth_ ? params_.stall_timeout : std::max(params_.stall_timeout, kFirstDepth),
+                                   1e-6 * kPeriods * static_cast<double>(period_us_));
+  return 1e-6 * static_cast<double>(now_us_ - last_depth_us_) > factor * patience;
+}
+
+std::optional<LiveSession::Loss> LiveSession::loss() {
+  if (depth_missing_for(1)) {
+    const double seconds = 1e-6 * static_cast<double>(now_us_ - last_depth_us_);
+    return Loss{"stalled", formatted("stalled: no depth for %.1f s, and no error", seconds), kReplug};
+  }
+  const bool useless =
+      fault_ == DepthFault::repeated || fault_ == DepthFault::senseless || fault_ == DepthFault::incomplete;
+  const double seconds = 1e-6 * static_cast<double>(now_us_ - fault_since_us_);
+  if (!useless || seconds < params_.reopen_after) return std::nullopt;
+  const char* what = fault_ == DepthFault::repeated    ? "frozen: the same depth image"
+                     : fault_ == DepthFault::senseless ? "delivers noise instead of depth"
+                                                       : "delivers incomplete depth images";
+  return Loss{"useless", formatted("%s for %.1f s", what, seconds), kReplug};
+}
+
+}  // namespace barehand

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace barehand {
+
+/// A sensor as OpenNI2 lists it.
+struct OpenNiDevice {
+  std::string uri, vendor, name;
+  int usb_vendor = 0, usb_product = 0;  ///< 0: not on USB
+};
+
+/// Error: OpenNI2 does not start.
+Result<std::vector<OpenNiDevice>> list_openni_devices();
+/// "2.2.0.33".
+std::string openni_version();
+
+}  // namespace barehand

@@ -1,0 +1,93 @@
+#include "drivers/openni2/openni_file_player.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "drivers/openni2/library.h"
+#include "drivers/openni2/openni_file_source.h"
+#include "drivers/openni2/pixels.h"
+#include "drivers/openni2/video_modes.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{10'000};  // for the next picture of a file on a slow disk
+constexpr std::string_view kMagic = "NI10";
+constexpr const char* kWhole = "give a whole .oni recording: one whose recorder was killed lacks its table";
+
+}  // namespace
+
+Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::string& path, const OpenNiParams& params) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return fail("no such file", path, "give the path of an .oni file");
+  // What is no recording does not reach OpenNI2, whose player is not made for that.
+  std::array<char, 4> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  if (std::string_view(head.data(), head.size()) != kMagic) return fail("is no OpenNI recording", path, kWhole);
+  auto library = OpenNiLibrary::load();
+  if (!library) return tl::unexpected(library.error());
+  auto sensor = OpenNiSensor::open(path, params);
+  if (!sensor) return fail(sensor.error().what, path, kWhole);
+  static_cast<void>(library->release());  // unloaded it would destroy the player's streams: see OpenNiSensor
+  std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(std::move(*sensor)));
+  if (player->frames() <= 0) return fail("the recording holds no depth pictures", path, "record it again");
+  return player;
+}
+
+OpenNiFilePlayer::OpenNiFilePlayer(std::unique_ptr<OpenNiSensor> sensor)
+    : sensor_(std::move(sensor)),
+      pairing_(1'000'000 / std::max(1, sensor_->depth_mode().getFps())),
+      depth_total_(sensor_->depth_pictures()),
+      colour_total_(sensor_->colour_pictures()) {}
+
+Error OpenNiFilePlayer::error(std::string what, std::string remedy) const {
+  return {std::move(what), "openni2:" + sensor_->where(), std::move(remedy)};
+}
+
+SourceEvent OpenNiFilePlayer::next() {
+  if (position_ == depth_total_) return EndOfStream{};
+  const auto pair = next_pair();
+  if (!pair)
+    return SourceFailed{
+        error("ends after " + std::to_string(depth_read_) + " of " + std::to_string(depth_total_) + " depth pictures",
+              "the file is damaged or cut off; what came before is good")};
+  ++position_;
+  return frame_of(*pair);
+}
+
+std::optional<OpenNiFilePlayer::Pairing::Pair> OpenNiFilePlayer::next_pair() {
+  if (auto pair = pairing_.matched()) return pair;
+  while (depth_read_ < depth_total_ || colour_read_ < colour_total_) {
+    auto picture = sensor_->read(kPatience);
+    if (!picture) break;
+    Pairing::Stamped stamped{static_cast<std::int64_t>(picture->frame.getTimestamp()), 0, picture->frame};
+    ++(picture->colour ? colour_read_ : depth_read_);
+    auto pair = picture->colour ? pairing_.add_colour(std::move(stamped)) : pairing_.add_depth(std::move(stamped));
+    if (pair) return pair;
+    if (colour_total_ == 0) break;
+  }
+  return pairing_.flush();
+}
+
+SourceEvent OpenNiFilePlayer::frame_of(const Pairing::Pair& pair) {
+  const openni::VideoFrameRef& depth = pair.depth.picture;
+  if (!first_us_) first_us_ = pair.depth.device_us;
+  const std::string name = "picture " + std::to_string(position_ - 1);
+  if (!complete(depth, sensor_->depth_mode(), 2)) return SkippedFrame{error(name + " is incomplete", "")};
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->number = position_ - 1;
+  frame->utime = OpenNiFileSource::kFirstUtime + pair.depth.device_us - *first_us_;
+  frame->camera = sensor_->camera();
+  frame->depth_unit = depth_unit(sensor_->depth_mode().getPixelFormat());
+  copy_depth(depth, sensor_->mirrored(false), frame->depth);
+  const openni::VideoMode& mode = sensor_->colour_mode();
+  if (pair.colour && complete(*pair.colour, mode, colour_bytes_per_pixel(mode.getPixelFormat())))
+    copy_colour(*pair.colour, sensor_->mirrored(true), frame->colour);
+  return FramePtr(std::move(frame));
+}
+
+}  // namespace barehand

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drivers/openni2/colour_pairing.h"
+#include "drivers/openni2/sensor.h"
+#include "math/source.h"
+
+namespace barehand {
+
+/// Reads the pictures of an .oni file in the file's order, each exactly once: the file goes on only when a picture is
+/// asked for, and whichever comes next is taken.
+class OpenNiFilePlayer {
+ public:
+  static Result<std::unique_ptr<OpenNiFilePlayer>> open(const std::string& path, const OpenNiParams& params);
+
+  /// The next depth picture with its colour.
+  SourceEvent next();
+  std::int64_t frames() const { return depth_total_; }
+  /// Number of the frame that `next` delivers.
+  std::int64_t position() const { return position_; }
+  OpenNiSensor& sensor() { return *sensor_; }
+
+ private:
+  using Pairing = ColourPairing<openni::VideoFrameRef>;
+
+  explicit OpenNiFilePlayer(std::unique_ptr<OpenNiSensor> sensor);
+  std::optional<Pairing::Pair> next_pair();
+  SourceEvent frame_of(const Pairing::Pair& pair);
+  Error error(std::string what, std::string remedy) const;
+
+  std::unique_ptr<OpenNiSensor> sensor_;
+  Pairing pairing_;
+  const int depth_total_, colour_total_;
+  int depth_read_ = 0, colour_read_ = 0;
+  std::int64_t position_ = 0;
+  std::optional<std::int64_t> first_us_;
+};
+
+}  // namespace barehand

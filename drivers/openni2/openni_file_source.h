@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drivers/openni2/openni_params.h"
+#include "math/source.h"
+
+namespace barehand {
+
+class OpenNiFilePlayer;
+
+/// Plays an .oni recording: every depth picture once, in order, with the colour picture that belongs to it by the time
+/// stamps. Those count from the first picture, which gets the time of 1 s.
+class OpenNiFileSource : public FrameSource {
+ public:
+  static constexpr std::int64_t kFirstUtime = 1'000'000;
+
+  /// From frame `start` on every `step`-th, step > 0. Errors: no such file, no recording, no depth in it, no such
+  /// frame.
+  static Result<std::unique_ptr<OpenNiFileSource>> open(const std::string& path, const OpenNiParams& params,
+                                                        std::int64_t start = 0, std::int64_t step = 1);
+  ~OpenNiFileSource() override;
+
+  SourceEvent next(std::chrono::milliseconds patience) override;
+  bool live() const override { return false; }
+  std::string name() const override { return "openni2:" + path_; }
+  std::int64_t remaining() const;
+  double fps() const;
+  /// What the recording lacks; none: nothing.
+  std::optional<std::string> warning() const;
+
+ private:
+  OpenNiFileSource(std::string path, std::unique_ptr<OpenNiFilePlayer> player, std::int64_t start, std::int64_t step);
+
+  const std::string path_;
+  std::unique_ptr<OpenNiFilePlayer> player_;
+  const std::int64_t step_;
+  std::int64_t wanted_;  ///< number of the next frame to deliver
+};
+
+}  // namespace barehand

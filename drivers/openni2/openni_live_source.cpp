@@ -1,0 +1,39 @@
+#include "drivers/openni2/openni_live_source.h"
+
+#include "drivers/openni2/live_reader.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::chrono::milliseconds kLongestFarewell{1500};
+
+}  // namespace
+
+OpenNiLiveSource::OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity,
+                                   const Clock& clock)
+    : name_("openni2" + (wanted.empty() ? "" : ":" + wanted)),
+      reader_(std::make_shared<LiveReader>(wanted, params, capacity, clock)) {
+  std::packaged_task<void()> task([reader = reader_] { reader->run(); });
+  finished_ = task.get_future();
+  thread_ = std::thread(std::move(task));
+}
+
+OpenNiLiveSource::~OpenNiLiveSource() {
+  reader_->request_stop();
+  if (finished_.wait_for(kLongestFarewell) == std::future_status::ready) {
+    thread_.join();
+  } else {
+    thread_.detach();
+  }
+}
+
+SourceEvent OpenNiLiveSource::next(std::chrono::milliseconds patience) {
+  if (auto event = reader_->output().box().take(patience)) return std::move(*event);
+  return Timeout{};
+}
+
+std::vector<QueueHealth> OpenNiLiveSource::queues() const {
+  return {reader_->output().transit(), reader_->output().box().health()};
+}
+
+}  // namespace barehand

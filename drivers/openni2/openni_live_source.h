@@ -1,0 +1,40 @@
+#pragma once
+
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/clock.h"
+#include "drivers/openni2/openni_params.h"
+#include "math/source.h"
+
+namespace barehand {
+
+class LiveReader;
+
+/// Frames from an OpenNI2 sensor. Opens at once and never fails: a sensor that is absent, unplugged or out of its mind
+/// is waited for, and what is wrong comes as SourceNotice. A thread of its own talks to the sensor, the newest frames
+/// wait here.
+class OpenNiLiveSource : public FrameSource {
+ public:
+  /// `wanted`: an address or a part of one, as `barehand doctor` lists them; "": the first sensor found. `capacity`:
+  /// frames that may wait. `clock` outlives the source.
+  OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock);
+  /// Waits for the sensor's driver to let go, but not for ever: one that hangs is left behind.
+  ~OpenNiLiveSource() override;
+
+  SourceEvent next(std::chrono::milliseconds patience) override;
+  bool live() const override { return true; }
+  std::string name() const override { return name_; }
+  /// "transit", the way from the sensor, and "inbox", the frames that wait here.
+  std::vector<QueueHealth> queues() const override;
+
+ private:
+  const std::string name_;
+  std::shared_ptr<LiveReader> reader_;  // shared with the thread, which may outlive this
+  std::future<void> finished_;
+  std::thread thread_;
+};
+
+}  // namespace barehand

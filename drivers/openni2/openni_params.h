@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+namespace barehand {
+
+/// What is wanted of an OpenNI2 sensor, and when to lose patience with it.
+struct OpenNiParams {
+  int width = 640, height = 480, fps = 30;
+  std::string colour = "registered";
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  double latency = 0;
+  double stall_timeout = 1;
+  double reopen_after = 3;
+
+  bool intrinsics_given() const { return fx > 0 && fy > 0; }
+};
+template <class V>
+void visit(V& v, OpenNiParams& p) {
+  v("width", p.width, 64, 8192, "px, wanted size of the depth image; the sensor's nearest is taken");
+  v("height", p.height, 48, 8192, "px");
+  v("fps", p.fps, 1, 1000, "Hz, wanted rate; the sensor's nearest is taken");
+  v("colour", p.colour, {"registered", "always", "never"},
+    "registered: only if the sensor confirms that colour lies over depth; always: take its word for it");
+  v("fx", p.fx, 0.0, 1e5, "px, focal length instead of the sensor's own; 0 = the sensor's own intrinsics");
+  v("fy", p.fy, 0.0, 1e5, "px, vertical focal length");
+  v("cx", p.cx, 0.0, 1e5, "px, principal point");
+  v("cy", p.cy, 0.0, 1e5, "px, vertical principal point");
+  v("latency", p.latency, 0.0, 1.0, "s from the exposure to the earliest arrival of a frame; nothing tells it");
+  v("stall_timeout", p.stall_timeout, 0.1, 60.0,
+    "s without depth until a sensor counts as stalled and is opened again");
+  v("reopen_after", p.reopen_after, 0.1, 600.0, "s of frozen or senseless depth until the sensor is opened again");
+}
+
+}  // namespace barehand

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <OpenNI.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "drivers/openni2/openni_params.h"
+#include "math/camera.h"
+
+namespace barehand {
+
+/// An opened OpenNI2 sensor or .oni file with running streams: depth, and colour of the same size where there is some.
+/// One thread. Closing a sensor may take as long as its driver likes; a file is stopped, and its handles are left to
+/// the end of the process: OpenNI2's player crashes about once in a hundred times that its streams are destroyed.
+class OpenNiSensor {
+ public:
+  /// `where`: the sensor's address, or a file's path. Errors: it cannot be opened, has no depth, no known depth format
+  /// or no intrinsics, does not start.
+  static Result<std::unique_ptr<OpenNiSensor>> open(const std::string& where, const OpenNiParams& params);
+  ~OpenNiSensor();
+  OpenNiSensor(const OpenNiSensor&) = delete;
+  OpenNiSensor& operator=(const OpenNiSensor&) = delete;
+
+  struct Picture {
+    bool colour = false;  ///< else depth
+    openni::VideoFrameRef frame;
+  };
+  /// The next picture of any stream; none within `patience`.
+  std::optional<Picture> read(std::chrono::milliseconds patience);
+
+  /// Depth and colour come in pairs, or each on its own; returns what is so then.
+  bool pair_streams(bool wanted);
+
+  const std::string& where() const { return where_; }
+  bool has_colour() const { return has_colour_; }
+  bool paired() const { return paired_; }
+  bool mirrored(bool colour) const { return colour ? colour_mirrored_ : depth_mirrored_; }
+  const openni::VideoMode& depth_mode() const { return depth_mode_; }
+  const openni::VideoMode& colour_mode() const { return colour_mode_; }
+  const Intrinsics& camera() const { return camera_; }
+  /// Of a file: pictures in the depth and the colour stream.
+  int depth_pictures() { return playback_ ? playback_->getNumberOfFrames(depth_) : 0; }
+  int colour_pictures() { return playback_ && has_colour() ? playback_->getNumberOfFrames(colour_) : 0; }
+  /// "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered, in step".
+  std::string description() const;
+  /// What was wanted and could not be had, a sentence each.
+  const std::vector<std::string>& shortfalls() const { return shortfalls_; }
+
+ private:
+  OpenNiSensor(std::string where, const OpenNiParams& params) : where_(std::move(where)), params_(params) {}
+  Result<void> open_device();
+  Result<void> create_depth();
+  void create_colour();
+  void register_colour();
+  void drop_colour(const std::string& why);
+  void unmirror(openni::VideoStream& stream, bool& mirrored, const char* name);
+  Result<void> choose_intrinsics();
+  Result<void> start();
+
+  struct Handles {
+    openni::Device device;
+    openni::VideoStream depth, colour;
+  };
+
+  const std::string where_;
+  const OpenNiParams params_;
+  std::unique_ptr<Handles> handles_ = std::make_unique<Handles>();
+  openni::Device& device_ = handles_->device;
+  openni::VideoStream& depth_ = handles_->depth;
+  openni::VideoStream& colour_ = handles_->colour;
+  openni::PlaybackControl* playback_ = nullptr;  ///< of a file; belongs to the device
+  bool has_colour_ = false, paired_ = false;
+  openni::VideoMode depth_mode_, colour_mode_;
+  bool registered_ = false, depth_mirrored_ = false, colour_mirrored_ = false;
+  Intrinsics camera_;
+  std::vector<std::string> shortfalls_;
+};
+
+}  // namespace barehand

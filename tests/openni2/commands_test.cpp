@@ -1,0 +1,94 @@
+// The program as a user runs it, with the virtual sensor.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "app/barehand_program.h"
+#include "openni2/virtual_sensor.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+using Settings = VirtualSensor::Settings;
+
+TEST(OpenNiCommands, DoctorListsTheSensors) {
+  VirtualSensor sensor(Settings{{"second_uri", "virtual/2"}});
+  const Outcome doctor = barehand({"doctor", "--lcm-url", "memq://"});
+  EXPECT_THAT(doctor.output, HasSubstr("2 sensors"));
+  EXPECT_THAT(doctor.output, HasSubstr("sensor: Barehand Virtual Sensor, --source openni2:virtual/1"));
+  EXPECT_THAT(doctor.output, HasSubstr("--source openni2:virtual/2"));
+}
+
+TEST(OpenNiCommands, RecordsAndPlaysBack) {
+  VirtualSensor sensor;
+  const test::TempFolder folder;
+  const std::string log = folder / "session.lcmlog";
+  const Outcome recorded = barehand({"record", "--source", "openni2", "--frames", "12", "--out", log});
+  EXPECT_EQ(recorded.exit_code, 0) << recorded.output;
+  EXPECT_THAT(recorded.output, HasSubstr("openni2: opened Barehand Virtual Sensor"));
+  EXPECT_THAT(recorded.output, HasSubstr("12 frames written"));
+  const Outcome copied = barehand({"convert", log, folder / "copy"});
+  EXPECT_EQ(copied.exit_code, 0) << copied.output;
+  EXPECT_THAT(copied.output, HasSubstr("12 frames written"));
+}
+
+TEST(OpenNiCommands, ConvertsAnOniFileCompletely) {
+  VirtualSensor sensor;
+  const test::TempFolder folder;
+  const std::string oni = folder / "recording.oni";
+  ChildProcess recorder({BAREHAND_RECORD_ONI, oni, "1500", "both"});
+  ASSERT_EQ(recorder.finish(), 0) << recorder.output();
+  const Outcome converted = barehand({"convert", oni, folder / "out.lcmlog"});
+  EXPECT_EQ(converted.exit_code, 0) << converted.output;
+  EXPECT_THAT(converted.output, HasSubstr(" frames written"));
+  EXPECT_THAT(converted.output, ::testing::Not(HasSubstr("unreadable")));
+  const Outcome part = barehand({"convert", oni, folder / "part.lcmlog", "--start", "3", "--frames", "4"});
+  EXPECT_EQ(part.exit_code, 0) << part.output;
+  EXPECT_THAT(part.output, HasSubstr("4 frames written"));
+}
+
+TEST(OpenNiCommands, RefusesAnOniFileThatIsNotThere) {
+  const Outcome outcome = barehand({"track", "--source", "openni2:/nonexistent.oni", "--no-publish"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("no such file"));
+}
+
+/// "6 frames in 1.0 s (6.0 frames/s): 5 published, 1 dropped, 0 failed".
+struct Counts {
+  long captured = -1, published = 0, dropped = 0, failed = 0;
+};
+Counts counts_in(const std::string& output) {
+  Counts counts;
+  const auto end = output.rfind(" published, ");
+  const auto line = output.rfind('\n', end) + 1;
+  std::sscanf(output.c_str() + line, "%ld frames in %*f s (%*f frames/s): %ld published, %ld dropped, %ld failed",
+              &counts.captured, &counts.published, &counts.dropped, &counts.failed);
+  return counts;
+}
+
+TEST(OpenNiCommands, TrackingOutlivesTheCable) {
+  VirtualSensor sensor(Settings{{"plugged", "0"}, {"sim", "fist,noise=kinect,width=320,height=240"}});
+  ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "openni2", "--no-publish", "--health"});
+  ASSERT_TRUE(track.wait_for("no sensor yet")) << track.output();
+  sensor.plug();
+  ASSERT_TRUE(track.wait_for("opened Barehand Virtual Sensor")) << track.output();
+  ASSERT_TRUE(track.wait_for("captured ")) << track.output();  // health: frames pass
+  sensor.unplug();
+  ASSERT_TRUE(track.wait_for("was unplugged")) << track.output();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // long enough for another word about the same thing
+  sensor.set({{"plugged", "1"}, {"uri", "virtual/3"}, {"sim", "fist,noise=kinect,width=160,height=120"}});
+  ASSERT_TRUE(track.wait_for("160x120")) << track.output();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  track.signal(SIGTERM);
+  EXPECT_EQ(track.finish(), 0) << track.output();
+  const Counts counts = counts_in(track.output());
+  EXPECT_GT(counts.published, 0) << track.output();
+  EXPECT_EQ(counts.captured, counts.published + counts.dropped + counts.failed) << track.output();
+  EXPECT_EQ(counts.failed, 0) << track.output();
+}
+
+}  // namespace
+}  // namespace barehand
