@@ -14,9 +14,9 @@ SCENE = {"sim": "grasp_ball,noise=kinect", "frames": "45"}
 FAULT_SECONDS, PAUSE = 5.0, 5.0
 FAULTS = [  # name, settings while it lasts, settings afterwards
     ("unplugged, re-plugged into another port", {"plugged": "0"}, {"plugged": "1", "uri": "virtual/2"}),
-    ("stalls without an error", {"fault": "stall"}, {"fault": "none"}),
     ("stalls until it is opened again", {"fault": "stall", "cured_by_reopen": "1"},
      {"fault": "none", "cured_by_reopen": "0"}),
+    ("stalls without an error", {"fault": "stall"}, {"fault": "none"}),
     ("cannot be opened after a re-plug", {"plugged": "0", "fault": "open"}, {"plugged": "1", "fault": "none"}),
     ("noise instead of depth", {"fault": "garbage"}, {"fault": "none"}),
     ("incomplete depth images", {"fault": "short"}, {"fault": "none"}),
