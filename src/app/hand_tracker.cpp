@@ -30,6 +30,7 @@ void HandTracker::reset() {
   last_good_.reset();
   requested_start_.reset();
   search_frames_ = 0;
+  usual_score_.reset();
   if (!person_) return;
   // Whoever comes next may be somebody else.
   const auto mean = person_->mean();
@@ -66,6 +67,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
     }
   } else if (status == TrackStatus::searching) {
     motion_.forget();
+    usual_score_.reset();
     last_good_.reset();
   }
   return estimate(observation, fit);
@@ -76,12 +78,19 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (motion_.has_pose()) fit = follow(observation);
   if (fit && fit->refined.score < bad_score) {
     search_frames_ = 0;
-    return fit;
+    if (!doubtful(fit->refined.score)) return fit;
   }
   // Nothing to follow, or following fails: the hand may be anywhere.
   std::optional<Fit> found = search(observation);
   if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
   return fit;
+}
+
+// Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.
+bool HandTracker::doubtful(double score) {
+  usual_score_.update(score);
+  if (score < std::max(params_.search_convincing, usual_score_.level() * (1 + params_.doubt))) return false;
+  return doubtful_frames_++ % params_.doubt_every == 0;
 }
 
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {

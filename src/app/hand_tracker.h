@@ -7,6 +7,7 @@
 #include "app/person_fit.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
+#include "stages/prediction/usual_score.h"
 
 namespace barehand {
 
@@ -37,6 +38,7 @@ class HandTracker {
   static void keep_better(std::optional<Fit>& best, const Fit& other);
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
+  bool doubtful(double score);
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
@@ -61,6 +63,8 @@ class HandTracker {
 
   std::uint32_t frame_ = 0;  // observations so far: keys the random numbers
   int search_frames_ = 0;    // since the last hand
+  int doubtful_frames_ = 0;
+  UsualScore usual_score_;
   std::int64_t last_utime_ = 0;
   std::int32_t hand_id_ = 0;
   std::optional<HandPose> requested_start_, last_good_;

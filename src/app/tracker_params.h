@@ -28,6 +28,8 @@ struct TrackerParams {
   int full_search_every = 10;
   int search_attempts = 4;
   double search_convincing = 0.002;
+  double doubt = 0.15;
+  int doubt_every = 3;
   double covariance_scale = 4;
   double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
@@ -59,6 +61,9 @@ void visit(V& v, TrackerParams& p) {
   v("search_attempts", p.search_attempts, 1, 100,
     "full searches of one frame until one convinces, while no hand was tracked before");
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
+  v("doubt", p.doubt, 0.0, 1000.0,
+    "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
+  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched");
   v("covariance_scale", p.covariance_scale, 1e-3, 1e6,
     "factor on the refinement's covariance: pixels are not independent");
   v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
