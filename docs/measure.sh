@@ -19,9 +19,15 @@ for recording in fist_twice occlusion_0 occlusion_3 occlusion_6 grasp_ball tz19_
   done
 done
 adult=$(dirname "$0")/../configs/hands/adult_right.json
+for recording in fist_twice tz19_kinect; do
+  row "$recording.mean_hand" $recording default --hand "$adult" --save-hand "$out/$recording.hand.json"
+  echo "== $recording, mean hand fitted while tracking"
+  "$barehand" eval --truth "$data/$recording/truth.csv" --result "$out/$recording.mean_hand.csv"
+done
 row uvr_forwards uvr_sphere default --hand "$adult" --start 326 --step 1
 row uvr_backwards uvr_sphere default --hand "$adult" --start 326 --step -1
-for way in forwards backwards; do
+row uvr_all uvr_sphere default --hand "$adult"
+for way in forwards backwards all; do
   echo "== uvr_sphere $way"
   "$barehand" eval --fingertips "$data/uvr_sphere/fingertips_2d.csv" --recording "$data/uvr_sphere" --hand "$adult" \
     --result "$out/uvr_$way.csv"

@@ -21,7 +21,8 @@ class HealthSink : public Sink {
         due_us_(clock.steady_us() + period_us) {}
 
   std::string name() const override { return "health"; }
-  Result<void> consume(const TrackedFrame&) override {
+  Result<void> consume(const TrackedFrame&) override { return idle(); }
+  Result<void> idle() override {
     if (clock_.steady_us() < due_us_) return {};
     due_us_ = clock_.steady_us() + period_us_;
     out_ << health_line(health_()) << std::endl;

@@ -45,7 +45,12 @@ RunResult Pipeline::run() {
 
 void Pipeline::run_threaded() {
   std::jthread sinks([&] {
-    while (auto item = pop(kToSinks)) deliver(*item);
+    while (!queues_[kToSinks].drained()) {
+      if (auto item = waited_for(kToSinks, queues_[kToSinks].pop_within(options_.patience)))
+        deliver(*item);
+      else
+        idle();
+    }
   });
   std::jthread tracker([&] {
     while (auto item = pop(kToTrack))
@@ -73,6 +78,7 @@ void Pipeline::run_inline() {
     if (stages_.source.live())  // what arrived while the last frame was tracked: the newest wins, as with threads
       for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
     while (auto item = try_pop(kDoor)) process(std::move(*item));
+    if (captured == Capture::nothing) idle();
   }
 }
 
@@ -115,6 +121,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   }
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
+    notice_at_ = kFirstNotice;
     push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), nullptr, nullptr}});
     return Capture::frame;
   }
@@ -176,6 +183,13 @@ void Pipeline::deliver(const Item& item) {
   std::unique_lock lock(mutex_);
   latency_.add(latency_us(item));
   interval_latency_.add(latency_us(item));
+}
+
+void Pipeline::idle() {
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {
+    const auto done = sink_monitors_[i]->guarded([&] { return stages_.sinks[i]->idle(); });
+    if (!done) log_.warn(stages_.sinks[i]->name(), stages_.sinks[i]->name() + ": " + done.error().message());
+  }
 }
 
 void Pipeline::finish_sinks() {

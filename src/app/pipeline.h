@@ -91,6 +91,7 @@ class Pipeline {
   bool preprocess(Item& item, const HandEstimate* hint);
   bool track(Item& item);
   void deliver(const Item& item);
+  void idle();
   void finish_sinks();
 
   void report(const StageMonitor& stage, const Item& item, const Error& error);
@@ -111,8 +112,9 @@ class Pipeline {
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
   std::atomic<bool> stop_ = false, ending_ = false;
   std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0;
-  std::int64_t next_index_ = 0;                            // preprocess only
-  std::chrono::milliseconds waited_{0}, notice_at_{3000};  // source only
+  std::int64_t next_index_ = 0;  // preprocess only
+  static constexpr std::chrono::milliseconds kFirstNotice{3000};
+  std::chrono::milliseconds waited_{0}, notice_at_ = kFirstNotice;  // source only
 
   mutable std::mutex mutex_;  // of what follows
   std::optional<Error> error_;

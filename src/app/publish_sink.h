@@ -26,6 +26,8 @@ class BusSink : public Sink {
                                               Health health, const Clock& clock);
   std::string name() const override { return "publish"; }
   Result<void> consume(const TrackedFrame& tracked) override;
+  /// The health goes on without frames: silence means that the program is gone.
+  Result<void> idle() override { return send_health_when_due(); }
 
  private:
   BusSink(const PublishParams& params, Publisher publisher, Health health, const Clock& clock);

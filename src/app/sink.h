@@ -21,6 +21,8 @@ class Sink {
   virtual ~Sink() = default;
   virtual std::string name() const = 0;
   virtual Result<void> consume(const TrackedFrame& tracked) = 0;
+  /// No frame came for a while: what is due by the clock. Called again and again until one comes.
+  virtual Result<void> idle() { return {}; }
   /// After the last frame, also of a run that failed: everything written is on disk when it returns.
   virtual Result<void> finish() { return {}; }
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -48,6 +49,19 @@ class BoundedQueue {
     std::unique_lock lock(mutex_);
     item_.wait(lock, [&] { return !items_.empty() || closed_; });
     return take();
+  }
+
+  /// Waits for an item no longer than `patience`.
+  std::optional<T> pop_within(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    item_.wait_for(lock, patience, [&] { return !items_.empty() || closed_; });
+    return take();
+  }
+
+  /// Closed or stopped, and nothing is left.
+  bool drained() const {
+    std::unique_lock lock(mutex_);
+    return closed_ && items_.empty();
   }
 
   /// An item if one is waiting.

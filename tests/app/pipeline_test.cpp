@@ -50,6 +50,10 @@ class RecordingSink : public Sink {
     scores.push_back(tracked.estimate->score);
     return {};
   }
+  Result<void> idle() override {
+    ++idle_calls;
+    return {};
+  }
   Result<void> finish() override {
     ++finished;
     return finish_result;
@@ -59,6 +63,7 @@ class RecordingSink : public Sink {
   std::vector<int> numbers;
   std::vector<double> scores;
   int finished = 0;
+  std::atomic<int> idle_calls = 0;
 };
 
 /// Stages whose results depend on the hint and on all that was tracked before, and the frame numbers they fail on.
@@ -285,6 +290,18 @@ TEST_P(PipelineLifecycle, NoticesOfTheSourceCostNothing) {
   EXPECT_THAT(world_.sink.numbers, ElementsAre(0, 1, 4, 5));
   EXPECT_EQ(result.health.skipped, 0);
   EXPECT_EQ(result.health.captured, 4);
+}
+
+TEST_P(PipelineLifecycle, SinksHearThatNoFramesCome) {
+  World world(GetParam());
+  world.options.patience = std::chrono::milliseconds(5);
+  ScriptedSource source(true, [&](int n) -> SourceEvent {
+    if (n == 0) return frame(0);
+    return world.sink.idle_calls < 3 ? SourceEvent(Timeout{}) : EndOfStream{};
+  });
+  const RunResult result = world.run(source);  // ends only if the sink is told
+  EXPECT_EQ(result.health.published, 1);
+  EXPECT_GE(world.sink.idle_calls, 3);
 }
 
 TEST_P(PipelineLifecycle, SourceThatFailsOrThrowsEndsTheRunWithItsError) {

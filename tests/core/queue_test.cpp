@@ -59,6 +59,17 @@ TEST(BoundedQueue, CloseLetsConsumersDrain) {
   EXPECT_EQ(queue.health().pushed, 1);
 }
 
+TEST(BoundedQueue, PopWithinGivesUpAndDrainedSaysWhenItIsOver) {
+  BoundedQueue<int> queue("test", 2, Overflow::block);
+  EXPECT_FALSE(queue.pop_within(std::chrono::milliseconds(1)));
+  EXPECT_FALSE(queue.drained());
+  queue.push(7);
+  queue.close();
+  EXPECT_FALSE(queue.drained()) << "an item is left";
+  EXPECT_EQ(queue.pop_within(std::chrono::milliseconds(1)), 7);
+  EXPECT_TRUE(queue.drained());
+}
+
 TEST(BoundedQueue, StopAbandonsWhatWaitsAndCountsIt) {
   BoundedQueue<int> queue("q", 2, Overflow::block);
   queue.push(7);
