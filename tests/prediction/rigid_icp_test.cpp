@@ -76,7 +76,8 @@ TEST_F(RigidIcp, RecoversLargeMotions) {
                                     motion(angle * z, {0.02, 0.02, 0}),    motion(-angle * z, {-0.02, 0, 0.02}),
                                     motion(0.7 * angle * x, {0, 0.03, 0}), motion(0.7 * angle * y, {0, 0, 0.03})};
   for (const SE3& truth : motions) {
-    const ObservedCloud cloud(*world.observe(moved(truth, before_)));
+    const auto observation = world.observe(moved(truth, before_));
+    const ObservedCloud cloud(*observation);
     const IcpResult result = align_rigid(model_, cloud, SE3{}, kFrame, params_);
     EXPECT_TRUE(result.reliable);
     EXPECT_LT(error_of(result, truth), 0.003) << boxminus(truth, SE3{}).transpose();
@@ -87,7 +88,8 @@ TEST_F(RigidIcp, RecoversLargeMotions) {
 TEST_F(RigidIcp, LastMotionCarriesThroughWhereOtherStartsFail) {
   const test::PointWorld world(*profile_);
   const SE3 truth = motion({0, 0, 1.4}, {0.05, 0.0, 0});
-  const ObservedCloud cloud(*world.observe(moved(truth, before_)));
+  const auto observation = world.observe(moved(truth, before_));
+  const ObservedCloud cloud(*observation);
   params_.max_angular_speed = 60;
   const SE3 almost = motion({0, 0, 1.2}, {0.04, 0.01, 0});
   EXPECT_LT(error_of(align_rigid(model_, cloud, almost, kFrame, params_), truth), 0.003);
@@ -127,7 +129,8 @@ TEST_F(RigidIcp, HoldsWhenTheMotionIsNotBelievable) {
   const test::PointWorld world(*profile_);
   params_.max_speed = 0.5;
   params_.slack = 0.01;
-  const ObservedCloud cloud(*world.observe(moved(motion({0, 0, 0}, {-0.06, -0.03, 0}), before_)));
+  const auto observation = world.observe(moved(motion({0, 0, 0}, {-0.06, -0.03, 0}), before_));
+  const ObservedCloud cloud(*observation);
   const IcpResult result = align_rigid(model_, cloud, SE3{}, kFrame, params_);
   EXPECT_LT(boxminus(result.motion, SE3{}).head<3>().norm(), 0.5 * kFrame + 0.01 + 1e-9);
 }
