@@ -106,11 +106,14 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
 
 void HandTracker::fit_person(const HandObservation& observation, const HandPose& pose) {
   const PersonFit::Change change = person_->look(observation, pose, model_->refinement, model_->skin);
-  if (change == PersonFit::Change::large)
+  if (change == PersonFit::Change::large) {
     model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);
-  else if (change == PersonFit::Change::small)
+    log_->info("hand fitted to the person after {} looks: {:.0f} mm long, the mean hand {:.0f} mm",
+               person_->fit().looks(), 1e3 * person_->profile()->hand_length(), 1e3 * person_->mean()->hand_length());
+  } else if (change == PersonFit::Change::small) {
     model_ =
         std::make_unique<HandModel>(params_, person_->profile(), person_->skin(), model_->initialiser, workers_, log_);
+  }
 }
 
 double HandTracker::interval_factor(double dt) const { return std::clamp(dt * params_.nominal_rate, 0.5, 4.0); }
