@@ -74,14 +74,15 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
 }
 
 std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& observation, double bad_score) {
-  std::optional<Fit> fit;
+  std::optional<Fit> fit, found;
   if (motion_.has_pose()) fit = follow(observation);
   if (fit && fit->refined.score < bad_score) {
     search_frames_ = 0;
     if (!doubtful(fit->refined.score)) return fit;
+    found = search_once(observation, Effort::quick, 0);
+  } else {  // nothing to follow, or following fails: the hand may be anywhere
+    found = search(observation);
   }
-  // Nothing to follow, or following fails: the hand may be anywhere.
-  std::optional<Fit> found = search(observation);
   if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
   return fit;
 }
