@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "drivers/openni2/usb_bus.h"
-
 namespace barehand {
 namespace {
 
@@ -11,12 +9,12 @@ constexpr std::int64_t kReloadEvery = 600'000'000;  // [us] without a visible re
 
 }  // namespace
 
-OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, const Clock& clock)
-    : wanted_(std::move(wanted)), came_(std::move(came)), clock_(clock) {}
+OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, UsbBus* usb, const Clock& clock)
+    : wanted_(std::move(wanted)), came_(std::move(came)), usb_(usb), clock_(clock) {}
 
 Result<void> OpenNiFinder::load() {
   library_.reset();
-  bus_when_loaded_ = usb_bus_state();
+  bus_when_loaded_ = bus_state();
   loaded_us_ = clock_.steady_us();
   auto library = OpenNiLibrary::load([this](bool came, const std::string& uri) {
     if (came) return came_();
@@ -45,11 +43,25 @@ Result<std::string> OpenNiFinder::find() {
     others += (others.empty() ? "; there are: " : ", ") + uri;
   }
   distrust();
-  return fail(whom() + " yet" + others, "OpenNI2", "plug it in; barehand doctor shows what is seen");
+  return not_found(others);
+}
+
+tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
+  const auto plugged = usb_ ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
+  std::string what = whom() + " yet" + others;
+  if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor shows what is seen");
+  std::string remedy = "if OpenNI2 has no driver for it, put its maker's into OpenNI2/Drivers beside libOpenNI2.so.0";
+  for (const UsbSensor& sensor : *plugged) {
+    what += "; plugged in: " + to_text(sensor);
+    if (!sensor.obstacle) continue;
+    what += ", " + sensor.obstacle->what;
+    remedy = sensor.obstacle->remedy;
+  }
+  return fail(what, "OpenNI2", remedy);
 }
 
 void OpenNiFinder::distrust() {
-  const bool changed = usb_bus_state() != bus_when_loaded_;
+  const bool changed = bus_state() != bus_when_loaded_;
   if (changed || clock_.steady_us() - loaded_us_ > kReloadEvery) library_.reset();  // loaded again by `find`
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/clock.h"
+#include "core/usb_bus.h"
 #include "drivers/openni2/library.h"
 
 namespace barehand {
@@ -14,8 +15,9 @@ namespace barehand {
 /// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, or rarely.
 class OpenNiFinder {
  public:
-  /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again.
-  OpenNiFinder(std::string wanted, std::function<void()> came, const Clock& clock);
+  /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again. `usb`
+  /// outlives the finder; null: no bus to look at.
+  OpenNiFinder(std::string wanted, std::function<void()> came, UsbBus* usb, const Clock& clock);
 
   /// The address of the wanted sensor. Errors: OpenNI2 does not start, there is no such sensor.
   Result<std::string> find();
@@ -28,10 +30,13 @@ class OpenNiFinder {
 
  private:
   Result<void> load();
+  std::string bus_state() const { return usb_ ? usb_->state() : ""; }
+  tl::unexpected<Error> not_found(const std::string& others) const;
   std::string whom() const { return wanted_.empty() ? "no sensor" : "no sensor with " + wanted_ + " in its address"; }
 
   const std::string wanted_;
   const std::function<void()> came_;
+  UsbBus* const usb_;
   const Clock& clock_;
   mutable std::mutex mutex_;
   std::vector<std::string> gone_;  // guarded by the mutex

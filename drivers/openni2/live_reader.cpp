@@ -1,13 +1,29 @@
 #include "drivers/openni2/live_reader.h"
 
-namespace barehand {
+#include <algorithm>
 
-LiveReader::LiveReader(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock)
+#include "drivers/openni2/usb_address.h"
+
+namespace barehand {
+namespace {
+
+// A reset disturbs whatever hangs on the device, so it comes after opening it again did not help, and not for ever.
+constexpr int kSilentUntilReset = 2, kMostResets = 3;
+
+}  // namespace
+
+LiveReader::LiveReader(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
+                       std::unique_ptr<UsbBus> usb)
     : params_(params),
       clock_(clock),
       output_("openni2" + (wanted.empty() ? "" : ":" + wanted), capacity, clock),
+      usb_(std::move(usb)),
       finder_(
-          wanted, [this] { look_again(); }, clock) {}
+          wanted, [this] { look_again(); }, usb_.get(), clock) {
+  if (!usb_) return;
+  if (auto watched = usb_->watch([this] { look_again(); }); !watched)
+    output_.notice("usb", watched.error().what, "a sensor that is plugged in is noticed within 2 s", false);
+}
 
 void LiveReader::run() {
   while (!stop_) session_ ? follow() : connect();
@@ -40,7 +56,7 @@ void LiveReader::connect() {
     finder_.distrust();
     return wait(backoff_.next());
   }
-  output_.notice("opened", "opened " + (*sensor)->description(), "", false);
+  output_.notice("opened", "opened " + (*sensor)->description() + usb_port(*where), "", false);
   for (const std::string& shortfall : (*sensor)->shortfalls()) output_.notice(shortfall, "the sensor " + shortfall);
   session_ = std::make_unique<LiveSession>(std::move(*sensor), params_, output_, clock_, stop_);
 }
@@ -48,13 +64,39 @@ void LiveReader::connect() {
 void LiveReader::follow() {
   auto loss = session_->step();
   if (stop_) return;
-  if (session_->proven()) backoff_.reset();
+  if (session_->proven()) {
+    backoff_.reset();
+    silent_ = resets_ = 0;
+  }
   if (finder_.gone(session_->where())) loss = LiveSession::Loss{"unplugged", "was unplugged", "plug it in again"};
   if (!loss) return;
-  output_.notice(loss->kind, "the sensor at " + session_->where() + " " + loss->what, loss->remedy);
+  const std::string where = session_->where();
+  silent_ = loss->kind == "stalled" && !session_->proven() ? silent_ + 1 : 0;
+  output_.notice(loss->kind, "the sensor at " + where + " " + loss->what, loss->remedy);
   session_.reset();
   if (stop_) return;
+  if (silent_ >= kSilentUntilReset && resets_ < kMostResets) reset(where);
   if (loss->kind != "unplugged") wait(backoff_.next());
+}
+
+std::string LiveReader::usb_port(const std::string& uri) const {
+  const auto address = usb_address(uri);
+  const auto sensors = usb_ && address ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
+  if (!sensors) return "";
+  const auto sensor = std::ranges::find(*sensors, address, &UsbSensor::address);
+  return sensor == sensors->end() ? "" : "; " + to_text(*sensor);
+}
+
+void LiveReader::reset(const std::string& uri) {
+  const auto address = usb_address(uri);
+  if (!usb_ || !address) return;
+  silent_ = 0;
+  ++resets_;
+  finder_.unload();  // or its driver holds the device
+  if (auto done = usb_->reset(*address); !done)
+    output_.notice("not reset", done.error().message(), done.error().remedy);
+  else
+    output_.notice("reset", "the sensor at " + uri + " opens and does not answer: its USB port was reset");
 }
 
 void LiveReader::wait(std::chrono::milliseconds duration) {

@@ -10,9 +10,9 @@ constexpr std::chrono::milliseconds kLongestFarewell{1500};
 }  // namespace
 
 OpenNiLiveSource::OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity,
-                                   const Clock& clock)
+                                   const Clock& clock, std::unique_ptr<UsbBus> usb)
     : name_("openni2" + (wanted.empty() ? "" : ":" + wanted)),
-      reader_(std::make_shared<LiveReader>(wanted, params, capacity, clock)) {
+      reader_(std::make_shared<LiveReader>(wanted, params, capacity, clock, std::move(usb))) {
   std::packaged_task<void()> task([reader = reader_] { reader->run(); });
   finished_ = task.get_future();
   thread_ = std::thread(std::move(task));

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/clock.h"
+#include "core/usb_bus.h"
 #include "drivers/openni2/openni_params.h"
 #include "math/source.h"
 
@@ -19,8 +20,11 @@ class LiveReader;
 class OpenNiLiveSource : public FrameSource {
  public:
   /// `wanted`: an address or a part of one, as `barehand doctor` lists them; "": the first sensor found. `capacity`:
-  /// frames that may wait. `clock` outlives the source.
-  OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock);
+  /// frames that may wait. `clock` outlives the source. `usb`: the bus that the sensor may be on, for what is plugged
+  /// in to be noticed at once and for a sensor that hangs to be reset; null: the sensor is looked for from time to
+  /// time.
+  OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
+                   std::unique_ptr<UsbBus> usb = nullptr);
   /// Waits for the sensor's driver to let go, but not for ever: one that hangs is left behind.
   ~OpenNiLiveSource() override;
 

@@ -1,7 +1,5 @@
 #include "app/doctor_checks.h"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -11,6 +9,7 @@
 #include "core/parallel.h"
 #include "drivers/openni2/openni_devices.h"
 #include "drivers/synthetic/hand_mesh_file.h"
+#include "drivers/usb/libusb_bus.h"
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -43,11 +42,14 @@ Finding check_mesh(Handedness side) {
   return {Level::ok, subject, *path, ""};
 }
 
-Finding check_library(const char* file, const std::string& subject, const std::string& use, const std::string& remedy) {
-  void* handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
-  if (!handle) return {Level::note, subject, "absent; only needed for " + use, remedy};
-  dlclose(handle);
-  return {Level::ok, subject, std::string(file) + " is there", ""};
+Finding judge(const UsbSensor& sensor) {
+  if (const auto& obstacle = sensor.obstacle)
+    return {Level::problem, "USB", to_text(sensor) + ": " + obstacle->what + " (" + obstacle->where + ")",
+            obstacle->remedy};
+  if (sensor.held_back)
+    return {Level::warning, "USB", to_text(sensor) + ", and it could do more",
+            "put it into a faster USB port, without a hub"};
+  return {Level::ok, "USB", to_text(sensor), ""};
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ std::vector<Finding> examine(const std::string& lcm_url) {
   findings.push_back(check_lcm(lcm_url));
   findings.push_back(check_graphics());
   for (Finding& finding : check_openni()) findings.push_back(std::move(finding));
-  for (Finding& finding : check_libraries()) findings.push_back(std::move(finding));
+  for (Finding& finding : check_usb()) findings.push_back(std::move(finding));
   return findings;
 }
 
@@ -139,8 +141,13 @@ std::vector<Finding> check_openni() {
   return findings;
 }
 
-std::vector<Finding> check_libraries() {
-  return {check_library("libusb-1.0.so.0", "libusb", "USB sensors", "sudo apt-get install libusb-1.0-0")};
+std::vector<Finding> check_usb() {
+  const auto sensors = LibUsbBus().sensors();
+  if (!sensors) return {{Level::note, "USB", sensors.error().what, sensors.error().remedy}};
+  if (sensors->empty()) return {{Level::note, "USB", "no depth sensor that is known by name is plugged in", ""}};
+  std::vector<Finding> findings;
+  for (const UsbSensor& sensor : *sensors) findings.push_back(judge(sensor));
+  return findings;
 }
 
 }  // namespace barehand

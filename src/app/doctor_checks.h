@@ -35,7 +35,7 @@ Finding check_lcm(const std::string& lcm_url);
 Finding check_graphics(const std::string& egl_library = kEglLibrary);
 /// OpenNI2 and the sensors that it sees.
 std::vector<Finding> check_openni();
-/// Libraries that only some sources want.
-std::vector<Finding> check_libraries();
+/// The known depth sensors on the USB bus: port, speed, permission.
+std::vector<Finding> check_usb();
 
 }  // namespace barehand

@@ -8,6 +8,7 @@
 #include "drivers/openni2/openni_file_source.h"
 #include "drivers/openni2/openni_live_source.h"
 #include "drivers/synthetic/synthetic_source.h"
+#include "drivers/usb/libusb_bus.h"
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -65,7 +66,8 @@ Result<OpenSource> open_openni(const std::string& argument, const SourceRequest&
   OpenSource open;
   if (!is_oni_file(argument)) {
     open.fps = request.openni2.fps;
-    open.source = std::make_unique<OpenNiLiveSource>(argument, request.openni2, request.live_capacity, clock);
+    open.source = std::make_unique<OpenNiLiveSource>(argument, request.openni2, request.live_capacity, clock,
+                                                     std::make_unique<LibUsbBus>());
     return open;
   }
   auto source = OpenNiFileSource::open(argument, request.openni2, request.start.value_or(0), request.step);

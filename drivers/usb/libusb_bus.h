@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "core/usb_bus.h"
+
+namespace barehand {
+
+class UsbWatch;
+
+/// The USB bus of this machine through libusb.
+class LibUsbBus : public UsbBus {
+ public:
+  LibUsbBus();
+  ~LibUsbBus() override;
+
+  std::string state() override;
+  Result<std::vector<UsbSensor>> sensors() override;
+  Result<void> watch(std::function<void()> changed) override;
+  Result<void> reset(const UsbAddress& device) override;
+
+ private:
+  std::unique_ptr<UsbWatch> watch_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <libusb.h>
+
+#include <memory>
+#include <span>
+
+#include "core/usb_bus.h"
+
+namespace barehand {
+
+/// What is on the bus now. Scanned anew each time: a list that libusb keeps follows udev, which some containers lack.
+class UsbListing {
+ public:
+  /// Error: libusb finds no bus.
+  static Result<UsbListing> take();
+
+  std::span<libusb_device* const> devices() const { return {devices_.get(), count_}; }
+
+ private:
+  struct Exit {
+    void operator()(libusb_context* context) const { libusb_exit(context); }
+  };
+  struct Free {
+    void operator()(libusb_device** devices) const { libusb_free_device_list(devices, 1); }
+  };
+  std::unique_ptr<libusb_context, Exit> context_;
+  std::unique_ptr<libusb_device*[], Free> devices_;  // before the context goes
+  std::size_t count_ = 0;
+};
+
+struct CloseUsb {
+  void operator()(libusb_device_handle* handle) const { libusb_close(handle); }
+};
+using UsbHandle = std::unique_ptr<libusb_device_handle, CloseUsb>;
+
+UsbAddress address_of(libusb_device* device);
+std::string port_of(libusb_device* device);
+/// Opens a device without disturbing it. Errors: no permission, it went, there is no device file.
+Result<UsbHandle> open_usb(libusb_device* device);
+
+}  // namespace barehand

@@ -1,0 +1,116 @@
+// What the USB bus does for a sensor that comes through OpenNI2.
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+#include "drivers/openni2/openni_live_source.h"
+#include "drivers/openni2/usb_address.h"
+#include "openni2/source_reader.h"
+#include "openni2/virtual_sensor.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kUri = "1d27/0601@1/4";
+constexpr UsbAddress kAddress{0x1d27, 0x0601, 1, 4};
+
+/// A bus with one device on it, which cures the virtual sensor when it is reset.
+struct Bus {
+  std::function<void()> changed, cure;
+  std::vector<UsbSensor> plugged;
+  std::atomic<int> looks = 0, resets = 0;
+  UsbAddress last_reset;
+};
+class RecordingBus : public UsbBus {
+ public:
+  explicit RecordingBus(Bus& bus) : bus_(bus) {}
+  std::string state() override { return "1-2#4 "; }
+  Result<std::vector<UsbSensor>> sensors() override {
+    ++bus_.looks;
+    return bus_.plugged;
+  }
+  Result<void> watch(std::function<void()> changed) override {
+    bus_.changed = std::move(changed);
+    return {};
+  }
+  Result<void> reset(const UsbAddress& device) override {
+    bus_.last_reset = device;
+    ++bus_.resets;
+    bus_.cure();
+    return {};
+  }
+
+ private:
+  Bus& bus_;
+};
+
+class OpenNiOnUsb : public ::testing::Test {
+ protected:
+  void open(const VirtualSensor::Settings& settings) {
+    sensor_.set(settings);
+    bus_.cure = [this] { sensor_.set({{"fault", "none"}}); };
+    source_ = std::make_unique<OpenNiLiveSource>("", params_, 8, clock_, std::make_unique<RecordingBus>(bus_));
+    reader_ = std::make_unique<SourceReader>(*source_);
+  }
+
+  const SystemClock clock_;
+  VirtualSensor sensor_;
+  OpenNiParams params_{.width = 160, .height = 120};
+  Bus bus_;
+  std::unique_ptr<OpenNiLiveSource> source_;
+  std::unique_ptr<SourceReader> reader_;
+};
+
+TEST(UsbAddressOfASensor, IsItsAddressInOpenNi2) {
+  EXPECT_EQ(usb_address(kUri), kAddress);
+  for (const char* other : {"virtual/1", "1d27/0601@1", "1d27/0601@1/4/5", "recording.oni", ""})
+    EXPECT_FALSE(usb_address(other)) << other;
+}
+
+TEST_F(OpenNiOnUsb, ASensorThatOpensAndNeverAnswersIsReset) {
+  open({{"uri", kUri}, {"fault", "stall"}});
+  ASSERT_TRUE(reader_->frame()) << reader_->notices;
+  EXPECT_EQ(bus_.resets, 1);
+  EXPECT_EQ(bus_.last_reset, kAddress);
+  EXPECT_THAT(reader_->notices, HasSubstr("its USB port was reset"));
+}
+
+TEST_F(OpenNiOnUsb, ASensorThatStallsAfterItAnsweredIsOnlyOpenedAgain) {
+  open({{"uri", kUri}});
+  ASSERT_TRUE(reader_->frame());
+  sensor_.set({{"fault", "stall"}, {"cured_by_reopen", "1"}});
+  ASSERT_TRUE(reader_->told("stalled"));
+  ASSERT_TRUE(reader_->frame());
+  EXPECT_EQ(bus_.resets, 0);
+}
+
+TEST_F(OpenNiOnUsb, EveryPlugIsLookedAtWithoutDelay) {
+  open({{"plugged", "0"}});
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 20; ++i) {
+    const int looks = bus_.looks;
+    bus_.changed();
+    while (bus_.looks == looks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "back-off alone needs 27 s";
+}
+
+TEST_F(OpenNiOnUsb, SaysWhatIsPluggedInWithoutADriver) {
+  bus_.plugged = {{kAddress, "Maker", "1-2", 480, false, Error{"this user may not open it", "/dev/x", "do this"}}};
+  open({{"plugged", "0"}});
+  EXPECT_TRUE(
+      reader_->told("plugged in: Maker 1d27:0601 at USB port 1-2, USB 2 (480 Mb/s), this user may not open it "
+                    "(do this)"))
+      << reader_->notices;
+}
+
+TEST_F(OpenNiOnUsb, SaysWhereTheOpenedSensorIsPlugged) {
+  bus_.plugged = {{{1, 2, 3, 4}, "Another", "1-1", 480, false, {}}, {kAddress, "Maker", "1-2.3", 5000, false, {}}};
+  open({{"uri", kUri}});
+  EXPECT_TRUE(reader_->told("; Maker 1d27:0601 at USB port 1-2.3, USB 3 (5000 Mb/s)")) << reader_->notices;
+}
+
+}  // namespace
+}  // namespace barehand
