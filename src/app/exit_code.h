@@ -7,7 +7,7 @@ enum ExitCode : int {
   kExitOk = 0,             ///< done; also a daemon that was told to stop (SIGTERM)
   kExitFailure = 1,        ///< something went wrong while running; what was written until then is kept
   kExitUsage = 2,          ///< wrong arguments, configuration or input file; nothing was started
-  kExitInterrupted = 130,  ///< Ctrl-C; what was written until then is complete and flushed
+  kExitInterrupted = 130,  ///< Ctrl-C, or SIGTERM before a recording's end; what was written is complete and flushed
 };
 
 }  // namespace barehand

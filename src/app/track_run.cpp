@@ -177,7 +177,7 @@ int TrackRun::conclude(const RunResult& result) {
   if (result.stopped) {
     const bool by_user = interrupt_.signal() == SIGINT;
     log_.logger().info("stopped by {}; everything tracked until then is written", by_user ? "Ctrl-C" : "SIGTERM");
-    if (by_user) exit_code = kExitInterrupted;
+    if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // a recording is not done before its end
   }
   for (const std::string& sink : result.incomplete) {
     log_.logger().error("{}: frames are missing", sink);

@@ -123,6 +123,15 @@ TEST_F(TrackRun, CtrlCKeepsWhatWasTrackedAndIsExitCode130) {
   }
 }
 
+TEST_F(TrackRun, SigtermBeforeTheEndOfARecordingIsNoSuccess) {
+  repeat(1'000'000);
+  ChildProcess child(track({"--health"}));
+  ASSERT_TRUE(child.wait_for("captured ")) << child.output();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 130) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("stopped by SIGTERM"));
+}
+
 TEST_F(TrackRun, SigtermStopsADaemonThatWaitsForFramesInOrder) {
   ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "memq://"});
   ASSERT_TRUE(child.wait_for("tracking lcm:")) << child.output();
