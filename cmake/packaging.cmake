@@ -1,0 +1,52 @@
+# What `cmake --install` puts where, and the Debian package made of it: cpack --preset package.
+include(GNUInstallDirs)
+set(data share/barehand)  # src/app/data_files.cpp looks beside the program
+install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json")
+install(DIRECTORY lcmtypes DESTINATION ${data} FILES_MATCHING PATTERN "*.lcm" PATTERN foreign EXCLUDE)
+install(PROGRAMS deploy/fetch_hand_mesh.sh DESTINATION ${data}/deploy)
+install(DIRECTORY deploy/batch DESTINATION ${data}/deploy USE_SOURCE_PERMISSIONS)
+install(FILES deploy/udev/60-barehand-sensors.rules DESTINATION lib/udev/rules.d)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.svg"
+                                                                          PATTERN "*.png")
+install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Debian wants these two compressed.
+find_program(GZIP gzip REQUIRED)
+function(install_compressed file name destination)
+  set(compressed ${PROJECT_BINARY_DIR}/packaging/${name}.gz)
+  execute_process(COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/${file} OUTPUT_FILE ${compressed} COMMAND_ERROR_IS_FATAL ANY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+  install(FILES ${compressed} DESTINATION ${destination})
+endfunction()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/packaging)
+install_compressed(deploy/debian/changelog changelog ${CMAKE_INSTALL_DOCDIR})
+install_compressed(deploy/debian/barehand.1 barehand.1 ${CMAKE_INSTALL_MANDIR}/man1)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "Barehand maintainers <maintainers@barehand.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the very versions that the program was linked with
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "liblcm-bin, libegl1, npm, parallel")  # the last two for its scripts
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tracks a bare hand and publishes glove-like states on LCM")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Barehand is a daemon beside a depth sensor. It watches a bare hand that holds
+and moves things and says on LCM, frame by frame, what an instrumented glove
+would say: where the palm and the phalanges are, how every joint is bent, what
+is seen and what is inferred, and how sure it is.")
+if(BAREHAND_ARCH STREQUAL "x86-64-v3")
+  string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "\n.\nThis build needs a processor with AVX2 (x86-64-v3).")
+endif()
+include(CPack)
+
+option(BAREHAND_PACKAGE_TEST "Test the package in a fresh Debian tree: as root, with a Debian mirror, minutes long" OFF)
+if(BAREHAND_PACKAGE_TEST)
+  enable_testing()
+  add_test(NAME package.CleanInstall
+           COMMAND sh -c "exec ${PROJECT_SOURCE_DIR}/tests/package/clean_install.sh ${PROJECT_BINARY_DIR}/barehand_*.deb")
+  set_tests_properties(package.CleanInstall PROPERTIES TIMEOUT 1200)
+endif()

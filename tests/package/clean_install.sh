@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Installs a package into a fresh, minimal Debian 12 tree, runs it there as an ordinary user, and removes it again.
+#   tests/package/clean_install.sh PACKAGE.deb [MIRROR]    as root; needs mmdebstrap and a Debian mirror
+# The simulator's hands are those of deploy/fetch_hand_mesh.sh, or in the folder BAREHAND_HANDS.
+set -euo pipefail
+
+package=$(realpath "$1") mirror=${2:-http://deb.debian.org/debian}
+hands=${BAREHAND_HANDS:-${XDG_CACHE_HOME:-$HOME/.cache}/barehand/hands}
+for hand in left right; do
+  [ -f "$hands/$hand.glb" ] || { echo "$hands/$hand.glb is not there: run deploy/fetch_hand_mesh.sh" >&2; exit 2; }
+done
+command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing: apt-get install mmdebstrap" >&2; exit 2; }
+work=$(mktemp -d)
+chmod 755 "$work"
+trap 'rm -rf "$work"' EXIT
+root=$work/root
+
+say() { echo "== $*"; }
+die() { echo "FAILED: $*" >&2; exit 1; }
+# A network whose loopback carries multicast, and the tree's own /proc: nothing leaves the machine.
+inside() {
+  unshare --net --mount --pid --fork sh -c '
+    ip link set lo up && ip route add 224.0.0.0/4 dev lo &&
+    mount -t proc proc "$0/proc" && exec chroot "$0" setpriv --reuid=nobody --regid=nogroup --clear-groups \
+      env -i PATH=/usr/bin:/bin HOME=/tmp BAREHAND_HANDS=/opt/hands "$@"' "$root" "$@"
+}
+
+say "a minimal Debian 12 with $(basename "$package")"
+mmdebstrap --quiet --variant=minbase --aptopt='APT::Install-Recommends "false"' \
+  --customize-hook="copy-in '$package' /opt" \
+  --customize-hook="chroot \"\$1\" dpkg-query -W -f='\${Package}\n' | sort >'$work/before'" \
+  --customize-hook="chroot \"\$1\" apt-get install --yes /opt/$(basename "$package")" \
+  bookworm "$root" "$mirror" >"$work/log" 2>&1 || { tail -30 "$work/log" >&2; die "it does not install"; }
+chroot "$root" dpkg-query -W -f='${Package}\n' | sort >"$work/after"
+say "$(comm -13 "$work/before" "$work/after" | wc -l) packages came with it"
+mkdir -p "$root/opt/hands"
+cp "$hands"/{left,right}.glb "$root/opt/hands"
+chroot "$root" dpkg --verify barehand || die "files differ from the package"
+missing=$(chroot "$root" ldd /usr/bin/barehand | grep 'not found' || true)
+[ -z "$missing" ] || die "libraries are missing: $missing"
+
+say "barehand doctor"
+inside barehand doctor | tee "$work/doctor" || die "doctor finds a problem"
+grep -q 'configuration default.yaml: /usr/share/barehand/' "$work/doctor" || die "it does not find its own files"
+
+say "barehand track"
+inside barehand track --source sim:fist,frames=10 --result /tmp/fist.csv --states-log /tmp/fist.lcmlog |
+  tee "$work/track"
+grep -q "): 10 published" "$work/track" || die "not 10 frames published"
+[ -s "$root/tmp/fist.csv" ] && [ -s "$root/tmp/fist.lcmlog" ] || die "nothing is written"
+inside barehand track --config paper --print-config >/dev/null || die "it does not find paper.yaml"
+
+for file in share/barehand/lcmtypes/hand_state_t.lcm share/barehand/configs/hands/adult_right.json \
+            share/doc/barehand/copyright share/doc/barehand/docs/lcm.md lib/udev/rules.d/60-barehand-sensors.rules \
+            share/barehand/deploy/batch/one_log.sh; do
+  [ -f "$root/usr/$file" ] || die "/usr/$file is not installed"
+done
+
+say "array job"
+inside barehand sim fist --frames 3 --out /tmp/a.lcmlog >/dev/null 2>&1
+inside /usr/share/barehand/deploy/batch/one_log.sh /tmp/a.lcmlog /tmp/out || die "one_log.sh fails"
+[ -s "$root/tmp/out/a/result.csv" ] || die "one_log.sh makes nothing"
+
+say "removed again"
+chroot "$root" dpkg --purge barehand >/dev/null
+left=$(find "$root/usr" "$root/etc" "$root/lib" -iname '*barehand*')
+[ -z "$left" ] || die "left behind: $left"
+echo "passed"
