@@ -11,6 +11,7 @@
 #include "drivers/synthetic/hand_mesh_file.h"
 #include "drivers/usb/libusb_bus.h"
 #include "io/hand_json.h"
+#include "io/lcm_bus.h"
 
 namespace barehand {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Finding> examine(const std::string& lcm_url) {
   for (Finding& finding : check_files()) findings.push_back(std::move(finding));
   for (const Handedness side : {Handedness::right, Handedness::left}) findings.push_back(check_mesh(side));
   findings.push_back(check_multicast_route());
-  findings.push_back(check_receive_buffer());
+  findings.push_back(check_receive_buffer(lcm_url));
   findings.push_back(check_lcm(lcm_url));
   findings.push_back(check_graphics());
   for (Finding& finding : check_openni()) findings.push_back(std::move(finding));
@@ -84,16 +85,14 @@ std::vector<Finding> check_files() {
           check_profile("adult_right.json"), check_profile("adult_left.json")};
 }
 
-Finding check_receive_buffer(const std::string& rmem_max_file) {
-  constexpr long kWanted = 2 << 20;
+Finding check_receive_buffer(const std::string& lcm_url, const std::string& rmem_max_file) {
+  const std::string subject = "receive buffer";
   long bytes = 0;
   if (!(std::ifstream(rmem_max_file) >> bytes))
-    return {Level::note, "receive buffer", "the kernel does not tell its size (" + rmem_max_file + ")", ""};
-  const std::string text = std::to_string(bytes) + " bytes for a UDP socket";
-  if (bytes < kWanted)
-    return {Level::warning, "receive buffer", text + ": large depth images from the network are lost",
-            "sudo sysctl -w net.core.rmem_max=" + std::to_string(kWanted)};
-  return {Level::ok, "receive buffer", text, ""};
+    return {Level::note, subject, "the kernel does not tell its size (" + rmem_max_file + ")", ""};
+  if (const auto shortfall = LcmBus::receive_buffer_shortfall(lcm_url, rmem_max_file))
+    return {Level::warning, subject, shortfall->what, shortfall->remedy};
+  return {Level::ok, subject, std::to_string(bytes) + " bytes for a UDP socket", ""};
 }
 
 Finding check_multicast_route(const std::string& route_file) {

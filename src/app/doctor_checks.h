@@ -26,7 +26,8 @@ std::vector<Finding> examine(const std::string& lcm_url);
 Finding check_processor();
 std::vector<Finding> check_files();
 /// `rmem_max_file`: where the kernel tells the largest receive buffer.
-Finding check_receive_buffer(const std::string& rmem_max_file = "/proc/sys/net/core/rmem_max");
+Finding check_receive_buffer(const std::string& lcm_url,
+                             const std::string& rmem_max_file = "/proc/sys/net/core/rmem_max");
 /// Routes as in /proc/net/route.
 Finding check_multicast_route(const std::string& route_file = "/proc/net/route");
 /// Sends messages of a frame's size to itself.

@@ -57,6 +57,7 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   auto source = LcmLiveSource::open(request.lcm_url, options);
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
+  if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url)) open.warning = shortfall->message();
   open.source = std::move(*source);
   return open;
 }

@@ -138,7 +138,7 @@ Step TrackRun::open_outputs() {
 }
 
 Step TrackRun::open_bus() {
-  auto bus = LcmBus::open(options_.lcm_url);
+  auto bus = LcmBus::open(options_.lcm_url, config_.run.lcm_ttl);
   if (!bus) {
     bus.error().remedy += "; --no-publish tracks without publishing";
     return failure(bus.error());

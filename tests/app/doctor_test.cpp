@@ -29,10 +29,16 @@ TEST(DoctorChecks, MulticastRoute) {
 }
 
 TEST(DoctorChecks, ReceiveBuffer) {
-  EXPECT_EQ(check_receive_buffer(write_file("212992\n")).level, Level::warning);
-  EXPECT_THAT(check_receive_buffer(write_file("212992\n")).remedy, ::testing::HasSubstr("net.core.rmem_max"));
-  EXPECT_EQ(check_receive_buffer(write_file("4194304\n")).level, Level::ok);
-  EXPECT_EQ(check_receive_buffer("/nonexistent").level, Level::note);
+  const std::string udp = "udpm://239.255.76.67:7667?ttl=0", large = udp + "&recv_buf_size=8000000";
+  const auto check = [](const std::string& url, const std::string& granted) {
+    return check_receive_buffer(url, write_file(granted + "\n"));
+  };
+  EXPECT_EQ(check(udp, "212992").level, Level::warning);
+  EXPECT_THAT(check(udp, "212992").remedy, ::testing::HasSubstr("net.core.rmem_max=2097152"));
+  EXPECT_EQ(check(udp, "4194304").level, Level::ok);
+  EXPECT_THAT(check(large, "4194304").remedy, ::testing::HasSubstr("net.core.rmem_max=8000000"));
+  EXPECT_EQ(check("memq://", "212992").level, Level::ok);
+  EXPECT_EQ(check_receive_buffer(udp, "/nonexistent").level, Level::note);
 }
 
 TEST(DoctorChecks, LcmInOneProcess) {
