@@ -14,6 +14,7 @@ find_package(assimp REQUIRED)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(OPENNI2 REQUIRED IMPORTED_TARGET libopenni2)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 # Headers alone: the libraries are loaded at run time, so prototypes would only invite undefined symbols.

@@ -23,13 +23,18 @@ class CommandedTracker {
 
   HandEstimatePtr process(const HandObservation& observation);
   void start_at(const HandPose& pose) { tracker_->start_at(pose); }
+  /// See HandTracker::change.
+  void change(const TrackerParams& params) {
+    params_ = params;
+    tracker_->change(params);
+  }
 
  private:
   bool concerns(const Command& command, const std::string& sensor) const;
   void follow(const Command& command);
   void use(std::shared_ptr<const HandProfile> profile);
 
-  const TrackerParams params_;
+  TrackerParams params_;
   const std::uint64_t seed_;
   Workers& workers_;
   const Inbox inbox_;

@@ -38,6 +38,19 @@ void HandTracker::reset() {
   model_ = std::make_unique<HandModel>(params_, mean, workers_, log_);
 }
 
+void HandTracker::change(const TrackerParams& params) {
+  auto model = std::make_unique<HandModel>(params, model_->profile, workers_, log_);  // if that throws, nothing changed
+  params_ = params;
+  model_ = std::move(model);
+  if (person_) person_->expect_new_skin();
+  MotionModel motion(params.prediction, params.icp);
+  if (motion_.has_pose()) motion.restart(motion_.pose(), motion_.utime());
+  motion_ = motion;
+  const bool followed = loss_.status() == TrackStatus::tracking || loss_.status() == TrackStatus::holding;
+  loss_ = LossDetector(params.loss);
+  if (followed) loss_.start_tracking();
+}
+
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   ++frame_;
   const std::int64_t utime = observation.frame->utime;

@@ -24,6 +24,9 @@ class HandTracker {
   HandEstimatePtr process(const HandObservation& observation);
   /// The next observation is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
+  /// Goes on with other parameters: the same hand from its last pose, as fitted to the person so far. What fits it
+  /// stays as it is (`shape_fit`).
+  void change(const TrackerParams& params);
   /// Forgets the hand and the person; the next observation is searched.
   void reset();
 

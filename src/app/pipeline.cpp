@@ -119,6 +119,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   } catch (const std::exception& e) {
     event = SourceFailed{{std::string("threw: ") + e.what(), stages_.source.name(), ""}};
   }
+  ++answers_;
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
     notice_at_ = kFirstNotice;
@@ -158,6 +159,7 @@ bool Pipeline::preprocess(Item& item, const HandEstimate* hint) {
   feedback_.post(item.index, nullptr);
   ++failed_;
   report(preprocess_monitor_, item, observation.error());
+  end_if_hopeless(preprocess_monitor_, observation.error());
   return false;
 }
 
@@ -168,6 +170,7 @@ bool Pipeline::track(Item& item) {
   if (estimate) return true;
   ++failed_;
   report(track_monitor_, item, estimate.error());
+  end_if_hopeless(track_monitor_, estimate.error());
   return false;
 }
 
@@ -178,6 +181,7 @@ void Pipeline::deliver(const Item& item) {
     if (consumed) continue;
     delivered = false;
     report(*sink_monitors_[i], item, consumed.error());
+    if (!stages_.source.live()) end_if_hopeless(*sink_monitors_[i], consumed.error());
   }
   ++(delivered ? published_ : failed_);
   std::unique_lock lock(mutex_);
@@ -202,6 +206,9 @@ void Pipeline::finish_sinks() {
 void Pipeline::report(const StageMonitor& stage, const Item& item, const Error& error) {
   log_.warn(stage.name(),
             "frame " + std::to_string(item.data.frame->number) + " failed in " + stage.name() + ": " + error.message());
+}
+
+void Pipeline::end_if_hopeless(const StageMonitor& stage, const Error& error) {
   const int failures = stage.failures_in_a_row();
   if (failures < options_.max_failures_in_a_row) return;
   Error last = error;
@@ -223,6 +230,12 @@ std::int64_t Pipeline::latency_us(const Item& item) const {
 
 std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
   return std::span(health.queues).last(kQueueCount);
+}
+
+PipelinePulse Pipeline::pulse() const {
+  const std::int64_t finished = published_ + failed_;  // before the door: what is inside is never taken for less
+  const QueueHealth door = queues_[kDoor].health();
+  return {answers_, finished, door.pushed - door.dropped - finished};
 }
 
 PipelineHealth Pipeline::counts() const {

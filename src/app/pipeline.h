@@ -36,7 +36,7 @@ struct PipelineStages {
 
 struct PipelineOptions {
   bool threaded = true;                    ///< false: everything on the calling thread
-  int max_failures_in_a_row = 30;          ///< of one stage; then the run ends
+  int max_failures_in_a_row = 30;          ///< of one stage or sink; then the run ends
   std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
   std::stop_token stop;                    ///< as request_stop(), for whoever lives longer than the pipeline
   std::chrono::milliseconds patience{50};  ///< how long one call of a live source may wait; bounds the time to stop
@@ -49,10 +49,19 @@ struct RunResult {
   bool stopped = false;                 ///< by request_stop() or the stop token
 };
 
+/// Signs of life, all since the start of the run.
+struct PipelinePulse {
+  std::int64_t answers = 0;   ///< calls of the source that returned, with or without a frame
+  std::int64_t finished = 0;  ///< frames that left the pipeline, published or failed
+  std::int64_t inside = 0;    ///< frames on their way through it
+};
+
 /// Runs frames through source -> [door] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on a thread
 /// of its own or all of them on one. Frames of a live source are dropped at the door when the tracker is slow, the
 /// newest wins; frames of a replay never. A frame on which a stage fails is counted, reported and left out. When the
-/// source ends or fails, or the run is stopped, what is in flight is drained and every sink is finished.
+/// source ends or fails, or the run is stopped, what is in flight is drained and every sink is finished. A stage that
+/// fails again and again ends the run, and so does a sink of a replay; the world that the sinks of a live run write to
+/// (network, disk) may come back.
 class Pipeline {
  public:
   Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log);
@@ -65,6 +74,8 @@ class Pipeline {
   PipelineHealth health() const;
   /// The same with times and latency since the last call; one caller.
   PipelineHealth take_interval_health();
+  /// Any thread, any time.
+  PipelinePulse pulse() const;
 
  private:
   struct Item {
@@ -95,6 +106,7 @@ class Pipeline {
   void finish_sinks();
 
   void report(const StageMonitor& stage, const Item& item, const Error& error);
+  void end_if_hopeless(const StageMonitor& stage, const Error& error);
   void end_with(Error error);
   std::int64_t latency_us(const Item& item) const;
   PipelineHealth counts() const;
@@ -111,7 +123,7 @@ class Pipeline {
   StageMonitor preprocess_monitor_, track_monitor_;
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
   std::atomic<bool> stop_ = false, ending_ = false;
-  std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0;
+  std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0, answers_ = 0;
   std::int64_t next_index_ = 0;  // preprocess only
   static constexpr std::chrono::milliseconds kFirstNotice{3000};
   std::chrono::milliseconds waited_{0}, notice_at_ = kFirstNotice;  // source only

@@ -18,6 +18,7 @@ Result<void> ProgressSink::consume(const TrackedFrame& tracked) {
   ++done_;
   ++counts_.frames[static_cast<int>(tracked.estimate->status)];
   const std::int64_t now = clock_.steady_us();
+  if (options_.quiet) return {};
   if (now - last_us_ >= (options_.terminal ? kTerminalPeriodUs : kLogPeriodUs)) print(*tracked.estimate, now);
   return {};
 }

@@ -22,6 +22,7 @@ class ProgressSink : public Sink {
   struct Options {
     bool terminal = false;
     std::optional<std::int64_t> frames;  ///< how many will come, where that is known
+    bool quiet = false;                  ///< counts alone
   };
   ProgressSink(std::ostream& out, Options options, const Clock& clock);
 

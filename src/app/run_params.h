@@ -15,11 +15,13 @@ struct RunParams {
   std::string channel_prefix = "";
   std::string frame_channel = "";
   int lcm_ttl = 0;
+  bool commands = false;
 };
 template <class V>
 void visit(V& v, RunParams& p) {
   v("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers: same seed, same results");
-  v("max_failures_in_a_row", p.max_failures_in_a_row, 1, 1000000, "frames one stage may fail on before the run ends");
+  v("max_failures_in_a_row", p.max_failures_in_a_row, 1, 1000000,
+    "frames one stage may fail on before the run ends; outputs of a live run may fail for ever");
   v("health_period", p.health_period, 0.05, 3600.0, "s between two health messages");
   v("channel_prefix", p.channel_prefix,
     "before the names of all LCM channels that are published; one for each sensor of a network");
@@ -27,6 +29,7 @@ void visit(V& v, RunParams& p) {
     "LCM channels with frames (a pattern with * and ?); empty: any that carries some");
   v("lcm_ttl", p.lcm_ttl, 0, 255,
     "how far messages go: 0 this machine, 1 the local network, more through routers; a ttl in the LCM URL goes before");
+  v("commands", p.commands, "follow whoever on the network sends commands (channel COMMAND)");
 }
 
 }  // namespace barehand

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <iostream>
 #include <stop_token>
 
@@ -15,7 +17,10 @@
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/publish_sink.h"
+#include "app/reload.h"
 #include "app/run_inputs.h"
+#include "app/service_manager.h"
+#include "app/service_sink.h"
 #include "app/source_factory.h"
 #include "app/summary.h"
 #include "app/track_stages.h"
@@ -34,8 +39,13 @@ tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected
 /// One run, put together step by step: all input is checked before the first output file is touched.
 class TrackRun {
  public:
-  TrackRun(const TrackOptions& options, const Config& config)
-      : options_(options), config_(config), log_(make_logger(), clock_), interrupt_([this] { stop_.request_stop(); }) {}
+  TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread)
+      : options_(options),
+        config_(config),
+        reread_(std::move(reread)),
+        log_(make_logger(), clock_),
+        reload_(config, news_),
+        interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()) {}
 
   Step prepare();
   TrackOutcome run();
@@ -47,14 +57,24 @@ class TrackRun {
   Step open_outputs();
   Step open_bus();
   CommandedTracker::Inbox inbox() const;
+  template <class Open>
+  auto connect(Open open, bool live) -> decltype(open());
+  TrackFailure no_network(const Error& error) const;
+  void stop();
+  void reload();
+  Result<Reload::Changes> exchange_configuration();
   Step add(Result<std::unique_ptr<Sink>> sink);
   int conclude(const RunResult& result);
 
   const TrackOptions& options_;
   const Config& config_;
+  const std::function<Result<Config>()> reread_;
   SystemClock clock_;
   RepeatLog log_;
+  ServiceManager service_{clock_};
   std::stop_source stop_;
+  NewParams news_;
+  Reload reload_;               // watcher's thread only
   InterruptWatcher interrupt_;  // before anything that starts threads
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
@@ -86,8 +106,9 @@ Step TrackRun::open_input() {
   request.channel = config_.run.frame_channel;
   request.foreign = config_.foreign_camera;
   request.openni2 = config_.openni2;
-  auto input = open_source(request, clock_);
-  if (!input) return options_.source == "lcm" ? failure(input.error()) : usage(input.error());
+  const bool from_network = options_.source == "lcm";
+  auto input = connect([&] { return open_source(request, clock_); }, from_network);
+  if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
   input_ = std::move(*input);
   if (input_.warning) log_.logger().warn(*input_.warning);
   return {};
@@ -120,34 +141,89 @@ Step TrackRun::open_outputs() {
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
   if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result));
-  if (ok && !options_.states_log.empty()) ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log));
+  if (ok && !options_.states_log.empty())
+    ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
                                  options_.overlay_every));
   if (!ok) return ok;
+  if (service_.present())
+    sinks_.push_back(std::make_unique<ServiceSink>(
+        service_, [this] { return pipeline_->pulse(); }, [this] { return pipeline_->health(); }, clock_));
   if (!options_.save_hand.empty()) sinks_.push_back(std::make_unique<SaveHandSink>(options_.save_hand));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
         clock_));
   auto progress = std::make_unique<ProgressSink>(
-      std::cerr, ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames}, clock_);
+      std::cerr, ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
   progress_ = progress.get();
   sinks_.push_back(std::move(progress));
   return {};
 }
 
 Step TrackRun::open_bus() {
-  auto bus = LcmBus::open(options_.lcm_url, config_.run.lcm_ttl);
+  auto bus = connect([&] { return LcmBus::open(options_.lcm_url, config_.run.lcm_ttl); }, input_.source->live());
   if (!bus) {
     bus.error().remedy += "; --no-publish tracks without publishing";
-    return failure(bus.error());
+    return tl::unexpected(no_network(bus.error()));
   }
   bus_ = std::move(*bus);
-  commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
+  if (config_.run.commands) {
+    commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
+    log_.logger().info("following commands on {}COMMAND", config_.run.channel_prefix);
+  }
   BusSink::Health health{[this] { return pipeline_->take_interval_health(); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
-  return add(BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_));
+  return add(
+      BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &news_.bus));
+}
+
+/// What needs the LCM network. A run that waits for live frames waits for a network that is not there yet, too.
+template <class Open>
+auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  while (true) {
+    auto opened = open();
+    if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
+    log_.warn("LCM", opened.error().message() + "; trying again every second");
+    service_.ready("waiting for the LCM network");
+    service_.alive();
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop_.get_token(), std::chrono::seconds(1), [] { return false; });
+  }
+}
+
+TrackFailure TrackRun::no_network(const Error& error) const {
+  if (!stop_.stop_requested()) return {error, kExitFailure};
+  return {{"stopped while waiting for the LCM network", "", ""},
+          interrupt_.signal() == SIGINT ? kExitInterrupted : kExitOk};
+}
+
+void TrackRun::stop() {
+  service_.stopping();
+  stop_.request_stop();
+}
+
+void TrackRun::reload() {
+  service_.reloading();
+  const auto changes = exchange_configuration();
+  if (!changes) {
+    log_.logger().error("configuration not reloaded, the old one stays in force: {}", changes.error().message());
+    return service_.ready("configuration not reloaded: " + changes.error().what);
+  }
+  for (const std::string& change : changes->made) log_.logger().info("changed {}", change);
+  for (const std::string& change : changes->for_restart) log_.logger().warn("not changed before a restart: {}", change);
+  log_.logger().info("configuration reloaded, {} values changed", changes->made.size());
+  service_.ready("configuration reloaded");
+}
+
+Result<Reload::Changes> TrackRun::exchange_configuration() {
+  const auto config = reread_();
+  if (!config) return tl::unexpected(config.error());
+  if (auto fits = check_memory(config->tracker, available_memory()); !fits) return tl::unexpected(fits.error());
+  return reload_.apply(*config);
 }
 
 CommandedTracker::Inbox TrackRun::inbox() const {
@@ -156,7 +232,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 }
 
 TrackOutcome TrackRun::run() {
-  TrackStages computing = make_track_stages(config_, profile_, initial_, inbox(), *workers_, log_);
+  TrackStages computing = make_track_stages(config_, profile_, initial_, inbox(), *workers_, log_, &news_);
   PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;
@@ -166,6 +242,7 @@ TrackOutcome TrackRun::run() {
   log_.logger().info("tracking {}, {} threads{}", input_.source->name(), workers_->threads(),
                      options.threaded ? "" : ", stages inline");
   pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
+  service_.ready("tracking " + input_.source->name());
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
   const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
@@ -181,7 +258,7 @@ int TrackRun::conclude(const RunResult& result) {
   }
   for (const std::string& sink : result.incomplete) {
     log_.logger().error("{}: frames are missing", sink);
-    exit_code = kExitFailure;
+    if (!input_.source->live()) exit_code = kExitFailure;  // the world around a daemon is not its failure
   }
   if (result.error) {
     log_.logger().error(result.error->message());
@@ -203,8 +280,9 @@ int tell(const TrackFailure& failure) {
 
 }  // namespace
 
-tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config) {
-  TrackRun run(options, config);
+tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
+                                               std::function<Result<Config>()> reread) {
+  TrackRun run(options, config, std::move(reread));
   if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
   return run.run();
 }
@@ -218,7 +296,10 @@ int run_track(const TrackOptions& options) {
   }
   if (options.source.empty())
     return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
-  const auto outcome = track(options, *config);
+  // Where there is a terminal, SIGHUP means that it is gone.
+  const bool daemon = isatty(STDIN_FILENO) == 0;
+  const auto outcome =
+      track(options, *config, daemon ? [&] { return configuration(options); } : std::function<Result<Config>()>());
   if (!outcome) return tell(outcome.error());
   std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
   return outcome->exit_code;

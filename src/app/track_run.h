@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "app/config.h"
 #include "app/exit_code.h"
 #include "app/pipeline.h"
@@ -25,7 +27,9 @@ struct TrackOutcome {
 
 /// Tracks as `config` and the rest of `options` say; its config, seed and print_config are not looked at. Progress and
 /// log on standard error, nothing on standard output. All input is checked before the first output file is touched.
-tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config);
+/// `reread`: the configuration as it is now, asked for at SIGHUP; empty: SIGHUP has its usual effect.
+tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
+                                               std::function<Result<Config>()> reread = {});
 
 /// Runs `barehand track` and returns its exit code (exit_code.h). Errors are told on standard error, the closing
 /// summary on standard output.

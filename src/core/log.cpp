@@ -2,10 +2,28 @@
 
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/systemd_sink.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 namespace barehand {
+namespace {
+
+/// systemd names the journal's stream by device and inode; standard error may have been led elsewhere since.
+bool journal_listens() {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  struct stat error_output {};
+  return stream != nullptr && fstat(STDERR_FILENO, &error_output) == 0 &&
+         stream == std::to_string(error_output.st_dev) + ":" + std::to_string(error_output.st_ino);
+}
+
+}  // namespace
 
 std::shared_ptr<spdlog::logger> make_logger() {
+  if (journal_listens())
+    return std::make_shared<spdlog::logger>("barehand", std::make_shared<spdlog::sinks::systemd_sink_mt>("barehand"));
   auto logger = std::make_shared<spdlog::logger>("barehand", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_pattern("%^%l%$: %v");
   logger->flush_on(spdlog::level::info);

@@ -9,7 +9,8 @@
 
 namespace barehand {
 
-/// The run's log, on standard error: standard output belongs to results.
+/// The run's log, on standard error: standard output belongs to results. Where systemd has led standard error to the
+/// journal, it goes there in the journal's own form, with priorities.
 std::shared_ptr<spdlog::logger> make_logger();
 /// Throws everything away.
 std::shared_ptr<spdlog::logger> make_silent_logger();

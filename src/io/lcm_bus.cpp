@@ -38,6 +38,8 @@ LcmBus::LcmBus(std::string url, std::unique_ptr<lcm::LCM> lcm) : url_(std::move(
 
 LcmBus::~LcmBus() = default;
 
+bool LcmBus::is_network(const std::string& url) { return is_udp(effective_url(url, 0)); }
+
 Result<std::unique_ptr<LcmBus>> LcmBus::open(const std::string& url, int ttl) {
   const std::string effective = effective_url(url, ttl);
   auto lcm = std::make_unique<lcm::LCM>(effective);

@@ -22,6 +22,8 @@ class LcmBus : public MessageSink {
   /// a missing multicast route.
   static Result<std::unique_ptr<LcmBus>> open(const std::string& url, int ttl = 0);
   ~LcmBus() override;
+  /// Whether it is a network that open() fails for (UDP): it may come later.
+  static bool is_network(const std::string& url);
 
   /// Over UDP success only means that the message left: whether anybody receives it is not known.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;

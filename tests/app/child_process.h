@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@
 
 namespace barehand {
 
-/// A program that runs beside the test, its standard output and error in one pipe.
+/// A program that runs beside the test as a daemon would: no terminal, its standard output and error in one pipe.
 class ChildProcess {
  public:
   explicit ChildProcess(std::vector<std::string> arguments) {
@@ -20,6 +21,7 @@ class ChildProcess {
     if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
     std::vector<char*> argv;
@@ -47,17 +49,24 @@ class ChildProcess {
       if (!read_some()) return false;
     return true;
   }
+  /// Reads on; false at the end of the output.
+  bool wait_for_more() { return read_some(); }
+  pid_t pid() const { return pid_; }
   void signal(int number) { kill(pid_, number); }
   /// Waits for the end. Exit code, or 128 + the signal that ended it.
   int finish() {
     while (read_some()) {
     }
     int status = 0;
-    waitpid(pid_, &status, 0);
+    rusage used{};
+    wait4(pid_, &status, 0, &used);
+    peak_memory_ = used.ru_maxrss * 1024;
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
   const std::string& output() const { return output_; }
+  /// After finish(): most memory that was in RAM at once [bytes].
+  long peak_memory() const { return peak_memory_; }
 
  private:
   bool read_some() {
@@ -69,6 +78,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;
   int output_end_ = -1;
+  long peak_memory_ = 0;
   std::string output_;
 };
 

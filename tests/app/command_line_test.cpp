@@ -138,10 +138,35 @@ bool can_unshare() { return ChildProcess({"unshare", "-rn", "true"}).finish() ==
 
 TEST(Track, SaysHowToMendAMissingMulticastRoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
-  ChildProcess child(
-      {"unshare", "-rn", BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "udpm://239.255.76.67:7667?ttl=0"});
+  ChildProcess child({"unshare", "-rn", BAREHAND_PROGRAM, "track", "--source", "sim:fist,width=160,height=120",
+                      "--lcm-url", "udpm://239.255.76.67:7667?ttl=0"});
   EXPECT_EQ(child.finish(), 1);
   EXPECT_THAT(child.output(), HasSubstr("ip route add 224.0.0.0/4 dev lo"));
+}
+
+TEST(Track, WaitsForTheNetworkAsItWaitsForFrames) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  ChildProcess child(
+      {"unshare", "-rn", BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "udpm://239.255.76.67:7667?ttl=0"});
+  ASSERT_TRUE(child.wait_for("ip route add 224.0.0.0/4 dev lo")) << child.output();
+  EXPECT_EQ(ChildProcess({"nsenter", "--preserve-credentials", "-U", "-n", "-t", std::to_string(child.pid()), "sh",
+                          "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo"})
+                .finish(),
+            0);
+  ASSERT_TRUE(child.wait_for("info: tracking lcm:udpm")) << child.output();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+}
+
+TEST(Track, CanBeStoppedWhileItWaitsForTheNetwork) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  for (const auto& [signal, exit_code] : {std::pair(SIGTERM, 0), std::pair(SIGINT, 130)}) {
+    ChildProcess child({"unshare", "-rn", BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url",
+                        "udpm://239.255.76.67:7667?ttl=0"});
+    ASSERT_TRUE(child.wait_for("trying again")) << child.output();
+    child.signal(signal);
+    EXPECT_EQ(child.finish(), exit_code) << child.output();
+  }
 }
 
 TEST(Doctor, FindsTheMissingMulticastRoute) {

@@ -74,6 +74,28 @@ TEST_F(CommandedTrackerTest, IgnoresWhatItCannotReadAndWhatIsForOthers) {
   EXPECT_EQ(next()->handedness, Handedness::right);
 }
 
+TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
+  tracker_.start_at(pose_);
+  const HandEstimatePtr before = next();
+  TrackerParams params = cheap();
+  params.refinement.iterations += 1;
+  tracker_.change(params);
+  const HandEstimatePtr after = next();
+  EXPECT_EQ(after->status, TrackStatus::tracking);
+  EXPECT_EQ(after->hand_id, before->hand_id);
+  EXPECT_NEAR(after->profile->hand_length(), before->profile->hand_length(), 0.001) << "as fitted so far";
+  EXPECT_LT((after->segments[kPalm].T_camera_segment.t - pose_[kPalm].t).norm(), 0.005);
+}
+
+TEST_F(CommandedTrackerTest, OtherParametersAreInForceAtOnce) {
+  tracker_.start_at(pose_);
+  EXPECT_EQ(next()->status, TrackStatus::tracking);
+  TrackerParams params = cheap();
+  params.loss.min_hand_pixels = 1'000'000;
+  tracker_.change(params);
+  EXPECT_EQ(next()->status, TrackStatus::holding);
+}
+
 TEST_F(CommandedTrackerTest, ResetForgetsTheHand) {
   tracker_.start_at(pose_);
   const std::int32_t before = next()->hand_id;

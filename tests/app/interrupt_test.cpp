@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <latch>
+#include <semaphore>
 
 namespace barehand {
 namespace {
@@ -15,6 +16,29 @@ TEST(InterruptWatcher, CallsOnceAndRemembersTheSignal) {
   kill(getpid(), SIGTERM);
   called.wait();
   EXPECT_EQ(watcher.signal(), SIGTERM);
+}
+
+TEST(InterruptWatcher, HangupIsACallOfItsOwnAndMayComeAgain) {
+  std::binary_semaphore hung_up(0);
+  int stopped = 0;
+  InterruptWatcher watcher([&] { ++stopped; }, [&] { hung_up.release(); });
+  for (int i = 0; i < 3; ++i) {
+    kill(getpid(), SIGHUP);
+    hung_up.acquire();
+  }
+  EXPECT_EQ(watcher.signal(), 0);
+  EXPECT_EQ(stopped, 0);
+}
+
+TEST(InterruptWatcher, HangupAfterTheStopIsHarmless) {
+  std::latch called(1);
+  {
+    InterruptWatcher watcher([&] { called.count_down(); }, [] { ADD_FAILURE() << "whoever stops does not reload"; });
+    kill(getpid(), SIGTERM);
+    called.wait();
+    kill(getpid(), SIGHUP);
+  }
+  SUCCEED() << "the process is still there";
 }
 
 TEST(InterruptWatcher, RestoresTheSignalMask) {

@@ -259,6 +259,44 @@ TEST_P(PipelineLifecycle, FailingSinkCountsTheFrameAndEndsARunThatCannotWrite) {
   expect_balanced(result.health);
 }
 
+TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
+  std::atomic<int> consumed = 0;
+  int delivered = 0;
+  // The next frame comes when the last one was consumed, so that none is dropped at the door.
+  ScriptedSource source(true, [&](int) -> SourceEvent {
+    if (delivered > consumed) return Timeout{};
+    if (delivered == 10) return EndOfStream{};
+    return frame(delivered++);
+  });
+  world_.options.max_failures_in_a_row = 3;
+  world_.sink.on_frame = [&](const TrackedFrame&) -> Result<void> {
+    if (++consumed <= 8) return fail("network down");
+    return {};
+  };
+  const RunResult result = world_.run(source);
+  EXPECT_FALSE(result.error);
+  EXPECT_EQ(result.health.failed, 8);
+  EXPECT_EQ(result.health.published, 2);
+  EXPECT_THAT(result.incomplete, ElementsAre("recorder"));
+}
+
+TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
+  ScriptedSource source(false, frames_then_end(5));
+  PipelinePulse inside;
+  world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
+    if (tracked.frame->number == 4) inside = world_.pipeline->pulse();
+    return {};
+  };
+  world_.run(source);
+  EXPECT_EQ(inside.finished, 4);
+  EXPECT_EQ(inside.inside, 1) << "the one that the sink holds";
+  EXPECT_GE(inside.answers, 5);
+  const PipelinePulse after = world_.pipeline->pulse();
+  EXPECT_EQ(after.answers, 6) << "five frames and the end";
+  EXPECT_EQ(after.finished, 5);
+  EXPECT_EQ(after.inside, 0);
+}
+
 TEST_P(PipelineLifecycle, SinkThatCannotFinishIsAnError) {
   ScriptedSource source(false, frames_then_end(2));
   world_.sink.finish_result = fail("cannot flush");

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace barehand {
+
+/// Hands a value from one thread to another; a newer one replaces one that was not taken yet.
+template <typename T>
+class Slot {
+ public:
+  void put(T value) {
+    const std::lock_guard lock(mutex_);
+    value_ = std::move(value);
+  }
+  /// What was put since the last call.
+  std::optional<T> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(value_, std::nullopt);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<T> value_;
+};
+
+}  // namespace barehand
