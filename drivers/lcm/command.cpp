@@ -37,6 +37,10 @@ Result<Command> decode_command(WireBytes bytes) {
   if (command.kind == Command::Kind::set_profile && message->profile.empty()) {
     return fail("the hand profile is empty", "command");
   }
+  if (message->profile.size() > kLongestProfile) {
+    return fail("the hand profile has " + std::to_string(message->profile.size()) + " bytes", "command",
+                "give at most " + std::to_string(kLongestProfile));
+  }
   command.profile = message->profile;
   if (command.kind == Command::Kind::initialise) {
     auto pose = pose_of(*message);

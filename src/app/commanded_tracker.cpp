@@ -1,5 +1,8 @@
 #include "app/commanded_tracker.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -11,18 +14,30 @@ CommandedTracker::CommandedTracker(const TrackerParams& params, std::shared_ptr<
 }
 
 HandEstimatePtr CommandedTracker::process(const HandObservation& observation) {
-  if (inbox_) {
-    for (const Result<Command>& command : inbox_()) {
-      if (!command) {
-        log_.warn("command", "ignored a command: " + command.error().message());
-      } else if (concerns(*command, observation.frame->sensor)) {
-        follow(*command);
-      }
-    }
-  }
+  if (inbox_) collect(observation.frame->sensor);
+  if (++frames_ % kPause == 0) allowed_ = std::min(allowed_ + 1, kBurst);
+  if (allowed_ > 0 && !waiting_.empty()) follow_waiting();
   HandEstimatePtr estimate = tracker_->process(observation);
   hand_id_ = estimate->hand_id;
   return estimate;
+}
+
+void CommandedTracker::collect(const std::string& sensor) {
+  for (Result<Command>& command : inbox_()) {
+    if (!command) {
+      log_.warn("command", "ignored a command: " + command.error().message());
+    } else if (concerns(*command, sensor)) {
+      const auto replaced = std::erase_if(waiting_, [&](const Command& c) { return c.kind == command->kind; });
+      if (replaced > 0)
+        log_.warn("commands", "commands come faster than they are followed; the newest of a kind counts");
+      waiting_.push_back(std::move(*command));
+    }
+  }
+}
+
+void CommandedTracker::follow_waiting() {
+  --allowed_;
+  for (const Command& command : std::exchange(waiting_, {})) follow(command);
 }
 
 bool CommandedTracker::concerns(const Command& command, const std::string& sensor) const {

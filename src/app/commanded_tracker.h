@@ -11,9 +11,13 @@
 namespace barehand {
 
 /// A hand tracker that takes commands from outside (command_t) between two frames: reset, start at a pose, another
-/// hand profile. A command that cannot be read or followed is reported and changes nothing.
+/// hand profile. A command that cannot be read or followed is reported and changes nothing. A flood of commands cannot
+/// keep it from tracking: commands are followed on kBurst frames, then on one of kPause; of those that come meanwhile
+/// the newest of each kind is followed then.
 class CommandedTracker {
  public:
+  static constexpr int kBurst = 3, kPause = 150;
+
   /// What arrived since the last call; asked before every frame, on the thread of `process`. Empty: no commands.
   using Inbox = std::function<std::vector<Result<Command>>()>;
 
@@ -30,6 +34,8 @@ class CommandedTracker {
   }
 
  private:
+  void collect(const std::string& sensor);
+  void follow_waiting();
   bool concerns(const Command& command, const std::string& sensor) const;
   void follow(const Command& command);
   void use(std::shared_ptr<const HandProfile> profile);
@@ -41,6 +47,9 @@ class CommandedTracker {
   RepeatLog& log_;
   std::unique_ptr<HandTracker> tracker_;
   std::int32_t hand_id_ = 0;
+  std::vector<Command> waiting_;  // one of each kind at most, oldest first
+  int allowed_ = kBurst;          // frames on which commands may be followed
+  int frames_ = 0;
 };
 
 }  // namespace barehand

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
@@ -72,6 +73,40 @@ TEST_F(CommandedTrackerTest, IgnoresWhatItCannotReadAndWhatIsForOthers) {
   send(broken);
   waiting_.push_back(fail("truncated"));
   EXPECT_EQ(next()->handedness, Handedness::right);
+}
+
+TEST_F(CommandedTrackerTest, AFloodOfCommandsLeavesTimeToTrack) {
+  tracker_.start_at(pose_);
+  next();
+  std::set<std::int32_t> hands;
+  for (int frame = 0; frame < 20; ++frame) {
+    for (int i = 0; i < 5; ++i) {
+      send(Command{});
+      Command start;
+      start.kind = Command::Kind::initialise;
+      start.pose = pose_;
+      send(start);
+    }
+    const HandEstimatePtr estimate = next();
+    EXPECT_EQ(estimate->status, TrackStatus::tracking);
+    hands.insert(estimate->hand_id);
+  }
+  EXPECT_EQ(hands.size(), static_cast<std::size_t>(CommandedTracker::kBurst));
+}
+
+TEST_F(CommandedTrackerTest, WhatHadToWaitIsFollowedInTheEnd) {
+  tracker_.start_at(pose_);
+  for (int i = 0; i <= CommandedTracker::kBurst; ++i) {  // one more than is followed at once
+    Command start;
+    start.kind = Command::Kind::initialise;
+    start.pose = pose_;
+    send(start);
+    next();
+  }
+  const std::int32_t before = next()->hand_id;
+  std::int32_t last = before;
+  for (int frame = 0; frame < CommandedTracker::kPause && last == before; ++frame) last = next()->hand_id;
+  EXPECT_NE(last, before);
 }
 
 TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {

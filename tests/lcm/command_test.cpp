@@ -57,6 +57,8 @@ TEST(Command, SenselessOnesAreErrors) {
   m = message(command_t::SET_PROFILE);
   m.profile = "";
   EXPECT_FALSE(decode_command(encode_message(m)));
+  m.profile = std::string(kLongestProfile + 1, ' ');
+  EXPECT_FALSE(decode_command(encode_message(m)));
 }
 
 TEST(CommandInbox, KeepsTheNewestInOrder) {
