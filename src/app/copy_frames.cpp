@@ -21,7 +21,9 @@ class Copy {
         result_.stopped = true;
         break;
       }
-      if (!handle(source_.next(std::chrono::milliseconds(50)))) break;
+      const bool more = handle(source_.next(std::chrono::milliseconds(50)));
+      if (options_.on_step) options_.on_step(result_);
+      if (!more) break;
     }
     if (line_open_) report_ << "\n";
     return std::move(result_);
@@ -49,13 +51,36 @@ class Copy {
   }
 
   bool store(const RgbdFrame& frame) {
-    if (auto written = writer_.write(frame); !written) return end_with(written.error());
-    if (source_.live() && result_.written > 0)
-      result_.missing += std::max<std::int64_t>(0, frame.number - last_number_ - 1);
-    last_number_ = frame.number;
+    count_missing(frame.number);
+    if (auto written = writer_.write(frame); !written) return lose(written.error());
+    if (losing_) say("writing again; " + std::to_string(result_.lost) + " frames were lost so far");
+    losing_ = false;
     ++result_.written;
     show();
     return true;
+  }
+
+  bool lose(const Error& error) {
+    if (!source_.live()) return end_with(error);
+    ++result_.lost;
+    losing_ = true;
+    if (filter_.admit("lost")) say(std::to_string(result_.lost) + " frames lost so far: " + error.message());
+    return true;
+  }
+
+  /// Gaps in the numbers of a live source.
+  void count_missing(std::int64_t number) {
+    const bool gap = source_.live() && seen_ && number > last_number_ + 1;
+    if (gap) result_.missing += number - last_number_ - 1;
+    last_number_ = number;
+    seen_ = true;
+    if (!gap) return;
+    result_.dropped = 0;
+    for (const QueueHealth& queue : source_.queues())
+      if (queue.capacity > 0) result_.dropped += queue.dropped;
+    if (filter_.admit("missing"))
+      say(std::to_string(result_.missing) + " frames missing so far, " + std::to_string(result_.dropped) +
+          " of them because frames come faster than they can be written");
   }
 
   bool skip(const Error& error) {
@@ -78,13 +103,14 @@ class Copy {
   }
 
   void show() {
-    if (seconds_since(shown_us_) < (options_.terminal ? 0.2 : 5.0)) return;
+    if (options_.quiet || seconds_since(shown_us_) < (options_.terminal ? 0.2 : 5.0)) return;
     shown_us_ = clock_.steady_us();
     std::string text = std::to_string(result_.written);
     if (options_.expected) text += " of " + std::to_string(*options_.expected);
     text += " frames";
     if (result_.skipped > 0) text += ", " + std::to_string(result_.skipped) + " skipped";
     if (result_.missing > 0) text += ", " + std::to_string(result_.missing) + " missing";
+    if (result_.lost > 0) text += ", " + std::to_string(result_.lost) + " lost";
     report_ << (options_.terminal ? "\r\x1b[K" : "") << text << (options_.terminal ? "" : "\n") << std::flush;
     line_open_ = options_.terminal;
   }
@@ -103,7 +129,7 @@ class Copy {
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
   std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0;
-  bool line_open_ = false;
+  bool line_open_ = false, seen_ = false, losing_ = false;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 class LogFrameWriter : public FrameWriter {
  public:
-  LogFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<LcmLogWriter> log)
+  LogFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<MessageSink> log)
       : path_(std::move(path)), options_(options), log_(std::move(log)) {}
 
   Result<void> write(const RgbdFrame& frame) override {
@@ -24,7 +24,7 @@ class LogFrameWriter : public FrameWriter {
  private:
   std::string path_;
   FrameWriterOptions options_;
-  std::unique_ptr<LcmLogWriter> log_;
+  std::unique_ptr<MessageSink> log_;
 };
 
 class FolderFrameWriter : public FrameWriter {
@@ -60,6 +60,13 @@ bool is_log_path(const std::string& path) {
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
   if (std::filesystem::path(path).extension() == ".oni")
     return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
+  if (options.rotation && !is_log_path(path))
+    return fail("only a log goes on in new files", path, "give a name that ends in .lcmlog");
+  if (options.rotation) {
+    auto log = RotatingLog::create(path, *options.rotation, *options.clock);
+    if (!log) return tl::unexpected(log.error());
+    return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+  }
   if (is_log_path(path)) {
     auto log = LcmLogWriter::create(path, options.overwrite);
     if (!log) return tl::unexpected(log.error());

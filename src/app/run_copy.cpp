@@ -8,11 +8,12 @@
 #include "app/copy_frames.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/service_manager.h"
 
 namespace barehand {
 namespace {
 
-FrameWriterOptions writer_options(const CopyRequest& request) {
+FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock) {
   FrameWriterOptions options;
   options.encoding.depth = request.depth == "raw"    ? DepthEncoding::raw16
                            : request.depth == "zlib" ? DepthEncoding::zlib
@@ -24,20 +25,58 @@ FrameWriterOptions writer_options(const CopyRequest& request) {
   options.encoding.jpeg_quality = request.jpeg_quality;
   options.channel = request.out_channel;
   options.overwrite = request.overwrite;
+  options.clock = &clock;
+  if (request.max_size > 0 || request.max_age > 0 || request.quota > 0)
+    options.rotation =
+        LogRotation{static_cast<std::int64_t>(request.max_size), static_cast<std::int64_t>(request.max_age * 1e6),
+                    static_cast<std::int64_t>(request.quota)};
   return options;
 }
 
 int exit_code_of(const CopyResult& result, int signal) {
   if (result.error) return kExitFailure;
-  return result.stopped && signal == SIGINT ? kExitInterrupted : kExitOk;
+  if (result.stopped) return signal == SIGINT ? kExitInterrupted : kExitOk;
+  return result.lost > 0 ? kExitFailure : kExitOk;
 }
+
+std::string counts(const CopyResult& result, const std::string& place) {
+  const auto part = [](std::int64_t count, const char* what) {
+    return count > 0 ? ", " + std::to_string(count) + what : std::string();
+  };
+  return std::to_string(result.written) + " frames written to " + place +
+         part(result.skipped, " unreadable ones skipped") + part(result.missing - result.dropped, " never arrived") +
+         part(result.dropped, " came faster than they could be written") + part(result.lost, " lost: no room");
+}
+
+/// Tells systemd, where it listens, that the copy moves and how far it is.
+class ServiceReport {
+ public:
+  ServiceReport(ServiceManager& service, std::string place, const Clock& clock)
+      : service_(service), place_(std::move(place)), clock_(clock) {}
+  void operator()(const CopyResult& result) {
+    service_.alive();
+    if (clock_.steady_us() - told_us_ < 1'000'000) return;
+    told_us_ = clock_.steady_us();
+    service_.status(counts(result, place_));
+  }
+
+ private:
+  ServiceManager& service_;
+  const std::string place_;
+  const Clock& clock_;
+  std::int64_t told_us_ = 0;
+};
 
 }  // namespace
 
 int run_copy(const CopyRequest& request, const std::string& command) {
   const SystemClock clock;
   std::atomic<bool> stop = false;
-  const InterruptWatcher interrupt([&stop] { stop = true; });
+  ServiceManager service(clock);
+  const InterruptWatcher interrupt([&] {
+    service.stopping();
+    stop = true;
+  });
   const auto refuse = [&](const Error& error) {
     std::cerr << command << ": " << error.message() << "\n";
     return kExitUsage;
@@ -48,9 +87,13 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   input.openni2.cx = input.foreign.cx;
   input.openni2.cy = input.foreign.cy;
   auto source = open_source(input, clock);
+  if (!source && input.spec == "lcm") {  // the network may come later
+    refuse(source.error());
+    return kExitFailure;
+  }
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
-  auto writer = open_frame_writer(request.out, writer_options(request));
+  auto writer = open_frame_writer(request.out, writer_options(request, clock));
   if (!writer) return refuse(writer.error());
 
   CopyOptions options;
@@ -58,12 +101,12 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   options.seconds = request.seconds;
   options.expected = source->frames;
   options.terminal = isatty(STDERR_FILENO) != 0;
+  options.quiet = service.present();
+  if (service.present()) options.on_step = ServiceReport(service, (*writer)->name(), clock);
+  service.ready("recording " + source->source->name());
   const CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
-  std::cerr << command << ": " << result.written << " frames written to " << (*writer)->name();
-  if (result.skipped > 0) std::cerr << ", " << result.skipped << " unreadable ones skipped";
-  if (result.missing > 0) std::cerr << ", " << result.missing << " never arrived";
-  std::cerr << (result.stopped ? ", stopped\n" : "\n");
+  std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");
   return exit_code_of(result, interrupt.signal());
 }
 

@@ -22,6 +22,8 @@ struct CopyRequest {
   bool overwrite = false;
   std::int64_t frames = 0;
   double seconds = 0;
+  std::uint64_t max_size = 0, quota = 0;  ///< [bytes] of one file, of all; 0: no limit
+  double max_age = 0;                     ///< [s] of one file; 0: no limit
 };
 
 /// Runs it to the end, a limit or Ctrl-C; returns the exit code. `command` starts the messages on standard error.

@@ -30,7 +30,7 @@ Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& pa
 }
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
-  if (failed_) return fail("an earlier write failed, nothing more is written", path_);
+  if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   lcm::LogEvent event;
   event.eventnum = 0;  // set by LogFile
   event.timestamp = utime;
@@ -39,6 +39,7 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   event.data = const_cast<std::uint8_t*>(message.data());
   errno = 0;
   if (log_->writeEvent(&event) != 0 || std::fflush(log_->getFilePtr()) != 0) return cut_back(errno);
+  disk_full_ = false;
   constexpr std::int64_t kHeader = 28;
   good_ += kHeader + static_cast<std::int64_t>(channel.size() + message.size());
   ++events_;
@@ -46,12 +47,13 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
 }
 
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
-  failed_ = true;
+  disk_full_ = reason == ENOSPC || reason == EDQUOT;
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
-  const bool cut = ftruncate(fileno(file), good_) == 0;
+  const bool cut = ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
+  failed_ = !cut;
   return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
-              cut ? "the " + std::to_string(events_) + " events before are kept; make room and start again"
+              cut ? "the " + std::to_string(events_) + " events before are kept; make room"
                   : "the log ends in a broken event; readers skip it");
 }
 

@@ -102,6 +102,25 @@ TEST_F(CopyFrames, AFullDiskEndsTheCopyWithAnError) {
   EXPECT_EQ(result.written, 1);
 }
 
+TEST_F(CopyFrames, ALiveCopyOutlivesAFullDisk) {
+  class FullForAWhile : public FrameWriter {
+   public:
+    Result<void> write(const RgbdFrame& frame) override {
+      if (frame.number == 1 || frame.number == 2) return fail("No space left on device");
+      return {};
+    }
+    std::string name() const override { return "disk"; }
+  } disk;
+  ListSource source({frame_event(0), frame_event(1), frame_event(2), frame_event(3)}, true);
+  const CopyResult result = copy(source, disk);
+  EXPECT_FALSE(result.error);
+  EXPECT_EQ(result.written, 2);
+  EXPECT_EQ(result.lost, 2);
+  EXPECT_EQ(result.missing, 0);
+  EXPECT_NE(report_.str().find("1 frames lost so far: No space left"), std::string::npos) << report_.str();
+  EXPECT_NE(report_.str().find("writing again; 2 frames were lost"), std::string::npos) << report_.str();
+}
+
 TEST_F(CopyFrames, AFailingSourceKeepsWhatWasWritten) {
   ListSource source({frame_event(0), SourceFailed{{"unplugged", "", ""}}, frame_event(2)});
   const CopyResult result = copy(source, *writer("a.lcmlog"));

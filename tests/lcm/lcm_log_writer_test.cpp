@@ -106,5 +106,23 @@ TEST(LcmLogWriter, WhenTheDiskFillsUpTheWholeEventsStay) {
   EXPECT_EQ(log->damaged_bytes(), 0);
 }
 
+TEST(LcmLogWriter, GoesOnWhenThereIsRoomAgain) {
+  const test::TempFolder folder;
+  const std::vector<std::uint8_t> large(10'000, 7);
+  auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+  {
+    const FileSizeLimit limit(25'000);
+    ASSERT_TRUE(log->send("A", large, 1));
+    ASSERT_TRUE(log->send("A", large, 2));
+    for (int i = 0; i < 3; ++i) ASSERT_FALSE(log->send("A", large, 3));
+  }
+  ASSERT_TRUE(log->send("A", large, 4));
+  const auto read = LcmLogReader::open(folder / "a.lcmlog");
+  ASSERT_EQ(read->entries().size(), 3u);
+  EXPECT_EQ(read->entries().back().timestamp, 4);
+  EXPECT_EQ(read->damaged_bytes(), 0);
+  EXPECT_EQ(log->events(), 3);
+}
+
 }  // namespace
 }  // namespace barehand

@@ -1,6 +1,10 @@
 // The program as a user runs it, with the virtual sensor.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <thread>
@@ -33,6 +37,30 @@ TEST(OpenNiCommands, RecordsAndPlaysBack) {
   const Outcome copied = barehand({"convert", log, folder / "copy"});
   EXPECT_EQ(copied.exit_code, 0) << copied.output;
   EXPECT_THAT(copied.output, HasSubstr("12 frames written"));
+}
+
+TEST(OpenNiCommands, ARecordingSaysThatItsDiskCannotKeepUp) {
+  VirtualSensor sensor;
+  const test::TempFolder folder;
+  const std::string log = folder / "slow.lcmlog";  // a pipe: as slow as its reader
+  ASSERT_EQ(mkfifo(log.c_str(), 0600), 0);
+  const int reader = open(log.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  fcntl(reader, F_SETFL, 0);
+  ChildProcess record({BAREHAND_PROGRAM, "record", "--source", "openni2", "--overwrite", "--out", log});
+  ASSERT_TRUE(record.wait_for("opened Barehand Virtual Sensor")) << record.output();
+  std::atomic<bool> slow = true;
+  std::thread disk([&] {
+    char buffer[1 << 16];
+    while (read(reader, buffer, sizeof buffer) > 0)
+      if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  });
+  EXPECT_TRUE(record.wait_for("frames missing so far, ")) << record.output();
+  slow = false;
+  record.signal(SIGTERM);
+  EXPECT_EQ(record.finish(), 0) << record.output();
+  disk.join();
+  close(reader);
+  EXPECT_THAT(record.output(), HasSubstr(" came faster than they could be written"));
 }
 
 TEST(OpenNiCommands, ConvertsAnOniFileCompletely) {
