@@ -158,6 +158,38 @@ TEST(Track, WaitsForTheNetworkAsItWaitsForFrames) {
   EXPECT_EQ(child.finish(), 0) << child.output();
 }
 
+TEST(Track, OutlivesANetworkThatIsGoneForAWhile) {
+  if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  ChildProcess child({"unshare", "-rn", "sh", "-c",
+                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec " BAREHAND_PROGRAM
+                      " track --source sim:fist,live=true,loop=true,width=160,height=120 --health"
+                      " --lcm-url 'udpm://239.255.76.67:7667?ttl=0'"});
+  const auto ip = [&](const std::string& change) {
+    return ChildProcess({"nsenter", "--preserve-credentials", "-U", "-n", "-t", std::to_string(child.pid()), "sh", "-c",
+                         "ip route " + change + " 224.0.0.0/4 dev lo"})
+        .finish();
+  };
+  ASSERT_TRUE(child.wait_for("captured ")) << child.output();
+  EXPECT_EQ(ip("del"), 0);
+  ASSERT_TRUE(child.wait_for("LCM cannot publish")) << child.output();
+  const auto failed = [&] {
+    const std::string& said = child.output();
+    const auto at = said.rfind("failed ");
+    return at == std::string::npos ? 0 : std::atoi(said.c_str() + at + 7);
+  };
+  while (failed() <= 60) ASSERT_TRUE(child.wait_for_more()) << child.output();  // twice as many as end a replay
+  EXPECT_EQ(ip("add"), 0);
+  const auto published = [&] {
+    const std::string& said = child.output();
+    const auto at = said.rfind("published ");
+    return at == std::string::npos ? 0 : std::atoi(said.c_str() + at + 10);
+  };
+  const int before = published();
+  while (published() <= before + 10) ASSERT_TRUE(child.wait_for_more()) << child.output();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+}
+
 TEST(Track, CanBeStoppedWhileItWaitsForTheNetwork) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
   for (const auto& [signal, exit_code] : {std::pair(SIGTERM, 0), std::pair(SIGINT, 130)}) {

@@ -1,0 +1,61 @@
+#!/bin/bash
+# Runs the service of deploy/systemd under a real systemd: starts it, reloads it, lets it hang, stops it.
+#   under_systemd.sh PROGRAM SOURCE_TREE
+# systemd runs as a user's manager in a /run of its own, without the settings that only a machine's manager can follow
+# (another user, closed devices). Exit code 77 (skipped) where that cannot be.
+program=$1 tree=$2
+manager=/lib/systemd/systemd
+if [ -z "${IN_OWN_RUN-}" ]; then
+  [ -x $manager ] && [ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null || exit 77
+  IN_OWN_RUN=1 exec unshare -m --propagation private "$0" "$@"
+fi
+set -u
+mount -t tmpfs tmpfs /run || exit 77
+export XDG_RUNTIME_DIR=/run/user/0 XDG_CONFIG_HOME=/run/config
+mkdir -p /run/systemd/system /run/config/systemd/user $XDG_RUNTIME_DIR && chmod 700 $XDG_RUNTIME_DIR
+units=/run/config/systemd/user
+cp "$tree/configs/default.yaml" /run/config.yaml
+
+# What is left of the unit says how it starts, is watched, reloaded and started again; the watchdog bites sooner.
+sed -E -e "s#/usr/bin/barehand#$program#" -e 's/^WatchdogSec=.*/WatchdogSec=4/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
+  -e '/^(Dynamic|Supplementary|State|Working|Device|Capability|Lock|NoNew|Private|Protect|Restrict(A|N|R|S)|System|Memory|Tasks)/d' \
+  -e 's/^EnvironmentFile=.*/Environment="BAREHAND_SOURCE=sim:fist,live=true,loop=true,width=160,height=120" "BAREHAND_OPTIONS=--no-publish --config \/run\/config.yaml"/' \
+  "$tree/deploy/systemd/barehand.service" >$units/barehand.service
+
+log=/run/manager.log
+SYSTEMD_LOG_TARGET=console $manager --user --unit=basic.target >$log 2>&1 &
+manager_pid=$!
+trap 'kill $manager_pid; wait $manager_pid' EXIT
+is() { [ "$(systemctl --user show -P "$1" barehand.service 2>/dev/null)" = "$2" ]; }
+wait_until() {  # TEXT COMMAND...: for a minute at most
+  local text=$1
+  shift
+  for _ in $(seq 300); do "$@" && return; sleep 0.2; done
+  echo "never happened: $text"
+  systemctl --user status barehand.service --no-pager
+  cat $log
+  exit 1
+}
+status_says() { systemctl --user show -P StatusText barehand.service | grep -q "$1"; }
+
+wait_until "the manager runs" systemctl --user --quiet is-active basic.target 2>/dev/null
+systemctl --user start barehand.service || wait_until "the service starts" false
+wait_until "the service is ready" is ActiveState active
+wait_until "the status line tells of frames" status_says published
+
+systemctl --user reload barehand.service
+wait_until "the reload ends" status_says "reloaded\|published"
+echo "nonsense: 1" >>/run/config.yaml
+systemctl --user reload barehand.service
+wait_until "it goes on with the old configuration" is ActiveState active
+cp "$tree/configs/default.yaml" /run/config.yaml
+
+sleep 5  # longer than the watchdog's patience: it is fed
+is NRestarts 0 || wait_until "it was not started again while it worked" false
+kill -STOP "$(systemctl --user show -P MainPID barehand.service)"  # hangs
+wait_until "the watchdog bites and the service starts again" is NRestarts 1
+wait_until "it works again" status_says published
+
+systemctl --user stop barehand.service
+wait_until "it stops" is ActiveState inactive
+is Result success || wait_until "it stops in order" false
