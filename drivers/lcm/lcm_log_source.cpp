@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -10,6 +11,7 @@
 #include "drivers/lcm/frame_message.h"
 
 namespace barehand {
+namespace fs = std::filesystem;
 namespace {
 
 std::string joined(const std::set<std::string>& names) {
@@ -18,60 +20,84 @@ std::string joined(const std::set<std::string>& names) {
   return text;
 }
 
-/// Events of the channels that the pattern chooses; of the one channel with frames if there is no pattern.
-Result<std::vector<LogEntry>> choose(std::vector<LogEntry> entries, const std::string& pattern,
-                                     const std::string& path) {
-  std::set<std::string> all, with_frames;
-  for (const LogEntry& entry : entries) {
-    all.insert(entry.channel);
-    if (carries_frames(entry.hash)) with_frames.insert(entry.channel);
-  }
-  const auto unwanted = [&](const LogEntry& entry) {
-    return pattern.empty() ? !carries_frames(entry.hash) : fnmatch(pattern.c_str(), entry.channel.c_str(), 0) != 0;
-  };
-  std::erase_if(entries, unwanted);
-  if (pattern.empty() && with_frames.empty()) {
-    return fail("the log holds no frames; its channels are " + joined(all), path,
-                "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
-  }
-  if (pattern.empty() && with_frames.size() > 1) {
-    return fail("the log holds frames on several channels: " + joined(with_frames), path, "choose one");
-  }
-  if (entries.empty()) return fail("no channel matches \"" + pattern + "\"; there are " + joined(all), path);
-  return entries;
-}
-
-/// Frames whose time is not later than that of every frame before them on their channel.
-std::vector<bool> find_stale(const std::vector<LogEntry>& frames) {
-  std::map<std::string, std::int64_t> latest;
-  std::vector<bool> stale;
-  for (const LogEntry& frame : frames) {
-    const auto [at, first] = latest.try_emplace(frame.channel, std::numeric_limits<std::int64_t>::min());
-    stale.push_back(!first && carries_frames(frame.hash) && frame.utime <= at->second);
-    if (carries_frames(frame.hash)) at->second = std::max(at->second, frame.utime);
-  }
-  return stale;
+/// The log itself, or those of a folder; one that was killed before its first event is left out.
+Result<std::vector<std::string>> log_files(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return std::vector<std::string>{path};
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path, error))
+    if (entry.path().extension() == ".lcmlog" && entry.file_size(error) > 0) files.push_back(entry.path().string());
+  if (files.empty()) return fail("the folder holds no .lcmlog files", path);
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace
 
 Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path, const LcmLogOptions& options) {
   if (options.step == 0) return fail("a step of 0 plays nothing", path, "use 1, or -1 to play backwards");
-  auto reader = LcmLogReader::open(path);
-  if (!reader) return tl::unexpected(reader.error());
-  auto frames = choose(reader->entries(), options.channel, path);
-  if (!frames) return tl::unexpected(frames.error());
-  const auto count = static_cast<std::int64_t>(frames->size());
-  const std::int64_t start = options.start.value_or(options.step > 0 ? 0 : count - 1);
-  if (start < 0 || start >= count) {
-    return fail("there is no frame " + std::to_string(start), path,
+  std::unique_ptr<LcmLogSource> source(new LcmLogSource(path, options));
+  if (auto ready = source->open_files().and_then([&] { return source->choose(); }); !ready)
+    return tl::unexpected(ready.error());
+  const auto count = static_cast<std::int64_t>(source->frames_.size());
+  source->next_ = options.start.value_or(options.step > 0 ? 0 : count - 1);
+  if (source->next_ < 0 || source->next_ >= count) {
+    return fail("there is no frame " + std::to_string(source->next_), path,
                 "the log holds frames 0 to " + std::to_string(count - 1));
   }
-  std::unique_ptr<LcmLogSource> source(new LcmLogSource(path, options, std::move(*reader)));
-  source->stale_ = find_stale(*frames);
-  source->frames_ = std::move(*frames);
-  source->next_ = start;
+  source->find_stale();
   return source;
+}
+
+Result<void> LcmLogSource::open_files() {
+  const auto files = log_files(path_);
+  if (!files) return tl::unexpected(files.error());
+  for (const std::string& file : *files) {
+    auto reader = LcmLogReader::open(file);
+    if (!reader) return tl::unexpected(reader.error());
+    for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry});
+    files_.push_back(std::move(*reader));
+  }
+  return {};
+}
+
+/// Keeps the events of the channels that were asked for; of the one channel with frames if none were.
+Result<void> LcmLogSource::choose() {
+  const std::string& pattern = options_.channel;
+  std::set<std::string> all, with_frames;
+  for (const Event& event : frames_) {
+    all.insert(event.entry.channel);
+    if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
+  }
+  std::erase_if(frames_, [&](const Event& event) {
+    return pattern.empty() ? !carries_frames(event.entry.hash)
+                           : fnmatch(pattern.c_str(), event.entry.channel.c_str(), 0) != 0;
+  });
+  if (pattern.empty() && with_frames.empty()) {
+    return fail("the log holds no frames; its channels are " + joined(all), path_,
+                "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
+  }
+  if (pattern.empty() && with_frames.size() > 1) {
+    return fail("the log holds frames on several channels: " + joined(with_frames), path_, "choose one");
+  }
+  if (frames_.empty()) return fail("no channel matches \"" + pattern + "\"; there are " + joined(all), path_);
+  return {};
+}
+
+/// Frames whose time is not later than that of every frame before them on their channel.
+void LcmLogSource::find_stale() {
+  std::map<std::string, std::int64_t> latest;
+  for (const auto& [file, frame] : frames_) {
+    const auto [at, first] = latest.try_emplace(frame.channel, std::numeric_limits<std::int64_t>::min());
+    stale_.push_back(!first && carries_frames(frame.hash) && frame.utime <= at->second);
+    if (carries_frames(frame.hash)) at->second = std::max(at->second, frame.utime);
+  }
+}
+
+std::int64_t LcmLogSource::damaged_bytes() const {
+  std::int64_t bytes = 0;
+  for (const LcmLogReader& file : files_) bytes += file.damaged_bytes();
+  return bytes;
 }
 
 std::int64_t LcmLogSource::remaining() const {
@@ -88,12 +114,12 @@ SourceEvent LcmLogSource::next(std::chrono::milliseconds) {
 }
 
 SourceEvent LcmLogSource::read(std::int64_t position) {
-  const LogEntry& entry = frames_[static_cast<std::size_t>(position)];
+  const auto& [file, entry] = frames_[static_cast<std::size_t>(position)];
   const std::string where = path_ + " frame " + std::to_string(position) + " (" + entry.channel + ")";
   if (stale_[static_cast<std::size_t>(position)]) {
     return SkippedFrame{{"its time is not later than that of the frames before", where, ""}};
   }
-  const auto message = reader_.read(entry);
+  const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
   auto frame = decode_frame_message(*message, options_.foreign, position);
   if (frame) return *frame;

@@ -20,13 +20,14 @@ struct LcmLogOptions {
   ForeignCamera foreign = {};
 };
 
-/// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), never dropping one. A cut
+/// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of all .lcmlog files of a
+/// folder in the order of their names, as `barehand record` makes a set of them, never dropping one. A cut
 /// or damaged log replays every whole event. Messages of another type, damaged messages and frames that are not later
 /// than all frames before them come as SkippedFrame. Own frames keep their numbers, foreign ones get their position.
 class LcmLogSource : public FrameSource {
  public:
-  /// Errors: no LCM log, no matching channel (names those there are), several channels with frames and none chosen, a
-  /// start outside the log, a step of 0.
+  /// Errors: no LCM log, a folder without any, no matching channel (names those there are), several channels with
+  /// frames and none chosen, a start outside the log, a step of 0.
   static Result<std::unique_ptr<LcmLogSource>> open(const std::string& path, const LcmLogOptions& options = {});
 
   SourceEvent next(std::chrono::milliseconds patience) override;
@@ -36,18 +37,25 @@ class LcmLogSource : public FrameSource {
   /// Number of events `next` will deliver before the end: for progress.
   std::int64_t remaining() const;
   /// Bytes of the file that belong to no whole event; 0 for a healthy log.
-  std::int64_t damaged_bytes() const { return reader_.damaged_bytes(); }
+  std::int64_t damaged_bytes() const;
 
  private:
-  LcmLogSource(std::string path, const LcmLogOptions& options, LcmLogReader reader)
-      : path_(std::move(path)), options_(options), reader_(std::move(reader)) {}
+  /// One event, and which of the files it is in.
+  struct Event {
+    std::size_t file;
+    LogEntry entry;
+  };
+  LcmLogSource(std::string path, const LcmLogOptions& options) : path_(std::move(path)), options_(options) {}
+  Result<void> open_files();
+  Result<void> choose();
+  void find_stale();
   SourceEvent read(std::int64_t position);
 
   std::string path_;
   LcmLogOptions options_;
-  LcmLogReader reader_;
-  std::vector<LogEntry> frames_;  ///< of the chosen channels, in file order
-  std::vector<bool> stale_;       ///< not later than all before
+  std::vector<LcmLogReader> files_;
+  std::vector<Event> frames_;  ///< of the chosen channels, in file order
+  std::vector<bool> stale_;    ///< not later than all before
   std::int64_t next_ = 0;
 };
 

@@ -15,7 +15,7 @@ class ServiceManager {
 
   /// Whether there is somebody to tell.
   bool present() const { return present_; }
-  /// Any thread. Started, or done with reloading.
+  /// Any thread. Started, or done with reloading. Of `status` the first line is told.
   void ready(const std::string& status) const;
   /// Any thread. `ready` follows.
   void reloading() const;

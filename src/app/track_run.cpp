@@ -156,7 +156,8 @@ Step TrackRun::open_outputs() {
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
         clock_));
   auto progress = std::make_unique<ProgressSink>(
-      std::cerr, ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
+      std::cerr,
+      ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
   progress_ = progress.get();
   sinks_.push_back(std::move(progress));
   return {};

@@ -91,6 +91,8 @@ TEST_F(Record, ASetIsWithinItsQuotaAndEachFileReplays) {
     last = numbers.back();
   }
   EXPECT_LE(bytes, 200'000u);
+  EXPECT_EQ(replay(folder_ / "set").back(), last) << "a folder plays its files one after the other";
+  EXPECT_GT(replay(folder_ / "set").size(), replay(logs(folder_ / "set").back()).size());
   EXPECT_GT(logs(folder_ / "set").front().filename().string(), "take-000002") << "the oldest made room";
 }
 

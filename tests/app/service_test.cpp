@@ -82,6 +82,13 @@ TEST_F(Watchdog, IsFedNoOftenerThanItNeeds) {
   EXPECT_LE(messages, 40);
 }
 
+TEST(ServiceManager, TellsTheFirstLineOfAText) {
+  NotifySocket socket;
+  const ManualClock clock;
+  ServiceManager(clock).status("refused: key a\nWATCHDOG=1");
+  EXPECT_EQ(socket.next(), "STATUS=refused: key a");
+}
+
 TEST(ServiceManager, KeepsStillWithoutSystemd) {
   const ManualClock clock;
   ServiceManager manager(clock);

@@ -171,10 +171,23 @@ TEST_F(LcmLog, FilesThatAreNoLogsAreRejected) {
   EXPECT_NE(play().find("empty"), std::string::npos);
   replace_file(Bytes(100'000, 'x'));
   EXPECT_NE(play().find("is not an LCM log"), std::string::npos);
-  path_ = folder_ / ".";
-  EXPECT_NE(play().find("folder"), std::string::npos);
+  path_ = folder_ / "empty";
+  std::filesystem::create_directory(path_);
+  EXPECT_NE(play().find("holds no .lcmlog files"), std::string::npos);
   path_ = folder_ / "missing.lcmlog";
   EXPECT_NE(play().find("No such file"), std::string::npos);
+}
+
+TEST_F(LcmLog, AFolderPlaysItsLogsInTheOrderOfTheirNames) {
+  for (const auto& [name, number] : {std::pair("b.lcmlog", 3), std::pair("a.lcmlog", 1)}) {
+    const auto log = LcmLogWriter::create(folder_ / name, false).value();
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number + i), 42));
+  }
+  std::ofstream(folder_ / "c.lcmlog");  // killed before its first event
+  std::ofstream(folder_ / "notes.txt") << "no log";
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "1 2 3 4 end");
+  EXPECT_EQ(play({.start = 2, .step = -1}), "3 2 1 end");
 }
 
 TEST_F(LcmLog, ForeignFramesReplayWithGivenIntrinsics) {
