@@ -188,6 +188,7 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   while (true) {
     auto opened = open();
     if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
+    if (LcmBus::open(options_.lcm_url)) return open();  // it is there now, or something else is wrong
     log_.warn("LCM", opened.error().message() + "; trying again every second");
     service_.ready("waiting for the LCM network");
     service_.alive();
