@@ -200,10 +200,12 @@ TEST(Track, CanBeStoppedWhileItWaitsForTheNetwork) {
     EXPECT_EQ(child.finish(), exit_code) << child.output();
   }
 }
+// The doctor loads graphics drivers, which leak and are unloaded: under a sanitizer that would be its exit status.
+#define BAREHAND_DOCTOR "ASAN_OPTIONS=detect_leaks=0 " BAREHAND_PROGRAM " doctor"
 
 TEST(Doctor, FindsTheMissingMulticastRoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
-  ChildProcess child({"unshare", "-rn", BAREHAND_PROGRAM, "doctor"});
+  ChildProcess child({"unshare", "-rn", "sh", "-c", BAREHAND_DOCTOR});
   EXPECT_EQ(child.finish(), 1);
   EXPECT_THAT(child.output(),
               AllOf(HasSubstr("PROBLEM multicast route"), HasSubstr("ip route add 224.0.0.0/4 dev lo")));
@@ -212,7 +214,7 @@ TEST(Doctor, FindsTheMissingMulticastRoute) {
 TEST(Doctor, IsSatisfiedWithARoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
   ChildProcess child({"unshare", "-rn", "sh", "-c",
-                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_PROGRAM " doctor"});
+                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_DOCTOR});
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("Ready to track"));
 }
