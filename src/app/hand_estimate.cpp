@@ -10,10 +10,12 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr double kRotationGrowth = 10;  // [rad/m]: a segment is about 0.1 m long at most
 
-// Agreement of the visible skin with the data, less where little is visible; what is inferred stays below 0.3.
-double confidence(double visible, double matched, bool seen) {
-  const double agreement = visible > 0 ? std::clamp(matched / visible, 0.0, 1.0) : 0.0;
-  return seen ? agreement * (0.4 + 0.6 * std::min(1.0, visible / 0.6)) : 0.3 * agreement * visible + 0.1;
+// That both ends of the segment are near the truth; the less certain one decides.
+double confidence(const HandProfile& profile, const SegmentState& state, int segment) {
+  const Eigen::Vector3d bone = state.T_camera_segment.R * profile.segments[segment].distal;
+  const auto J_distal = point_jacobian(bone);
+  return std::min(probability_within(kConfidenceRadius, state.covariance.topLeftCorner<3, 3>()),
+                  probability_within(kConfidenceRadius, J_distal * state.covariance * J_distal.transpose()));
 }
 
 }  // namespace
@@ -28,26 +30,34 @@ HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const 
   out->handedness = model_->profile->handedness;
   out->profile = model_->profile;
   if (out->status == TrackStatus::tracking && fit) {
-    const RefinedPose& refined = fit->refined;
-    out->score = refined.score;
-    out->joint_gap = fit->joint_gap;
-    const double dt = last_tracked_ ? std::abs(out->utime - last_tracked_->utime) * kMicro : 0;
-    for (int s = 0; s < kSegmentCount; ++s) {
-      SegmentState& state = out->segments[s];
-      state.T_camera_segment = refined.pose[s];
-      state.covariance = refined.covariance[s] * (params_.refinement.enabled ? params_.covariance_scale : 1.0);
-      state.visible = refined.visible[s];
-      state.seen = refined.matched[s] >= params_.seen_fraction;
-      state.confidence = confidence(refined.visible[s], refined.matched[s], state.seen);
-      // Velocity needs a pose of the same track shortly before.
-      if (fit->prediction && dt > 0 && dt < params_.prediction.max_interval)
-        state.velocity = boxminus(state.T_camera_segment, last_tracked_->segments[s].T_camera_segment) / dt;
-    }
+    fill_segments(*out, *fit);
     last_tracked_ = out;
   } else if (last_tracked_ && (out->status == TrackStatus::holding || out->status == TrackStatus::lost)) {
     fill_held(*out, std::abs(out->utime - last_tracked_->utime) * kMicro);
   }
   return out;
+}
+
+void HandTracker::fill_segments(HandEstimate& out, const Fit& fit) {
+  const RefinedPose& refined = fit.refined;
+  out.score = refined.score;
+  out.joint_gap = fit.joint_gap;
+  const double dt = last_tracked_ ? std::abs(out.utime - last_tracked_->utime) * kMicro : 0;
+  std::array<bool, kSegmentCount> hidden;
+  for (int s = 0; s < kSegmentCount; ++s) hidden[s] = refined.matched[s] < params_.seen_fraction;
+  if (!fit.prediction) uncertainty_.restart();
+  const auto covariance = fit.belief ? *fit.belief : uncertainty_.covariance(*model_->profile, refined, hidden, dt);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    SegmentState& state = out.segments[s];
+    state.T_camera_segment = refined.pose[s];
+    state.covariance = covariance[s];
+    state.visible = refined.visible[s];
+    state.seen = !hidden[s];
+    state.confidence = confidence(*model_->profile, state, s);
+    // Velocity needs a pose of the same track shortly before.
+    if (fit.prediction && dt > 0 && dt < params_.prediction.max_interval)
+      state.velocity = boxminus(state.T_camera_segment, last_tracked_->segments[s].T_camera_segment) / dt;
+  }
 }
 
 void HandTracker::fill_held(HandEstimate& out, double held_s) const {

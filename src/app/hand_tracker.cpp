@@ -20,8 +20,10 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       log_(std::move(log)),
       model_(std::make_unique<HandModel>(params_, std::move(profile), workers_, log_)),
       motion_(params_.prediction, params_.icp),
-      loss_(params_.loss) {
-  if (params_.shape_fit.enabled && model_->profile->mean_hand) person_.emplace(params_.shape_fit, model_->profile);
+      loss_(params_.loss),
+      uncertainty_(params_.uncertainty, params_.refinement.energy) {
+  if (params_.shape_fit.enabled && model_->profile->origin == ProfileOrigin::mean)
+    person_.emplace(params_.shape_fit, model_->profile);
 }
 
 void HandTracker::reset() {
@@ -48,6 +50,7 @@ void HandTracker::change(const TrackerParams& params) {
   motion_ = motion;
   const bool followed = loss_.status() == TrackStatus::tracking || loss_.status() == TrackStatus::holding;
   loss_ = LossDetector(params.loss);
+  uncertainty_ = PoseUncertainty(params.uncertainty, params.refinement.energy);
   if (followed) loss_.start_tracking();
 }
 
@@ -178,7 +181,7 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   fit.joint_gap = raw_gap(fused.pose);
   if (!refine) {
     fit.refined = model_->refinement.evaluate(observation, fused.pose);
-    fit.refined.covariance = fused.covariance;
+    fit.belief = fused.covariance;
     return fit;
   }
   // A good local fit must not be spoilt by a sampled one that only looks as good.

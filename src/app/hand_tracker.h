@@ -8,6 +8,7 @@
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "stages/prediction/usual_score.h"
+#include "stages/refinement/pose_uncertainty.h"
 
 namespace barehand {
 
@@ -35,7 +36,8 @@ class HandTracker {
   struct Fit {
     RefinedPose refined;
     double joint_gap = 0;
-    std::optional<Prediction> prediction;  ///< none: found by a search
+    std::optional<Prediction> prediction;                       ///< none: found by a search
+    std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance by the sampler alone, without refinement
   };
   /// `best` becomes `other` if it is none or scores worse.
   static void keep_better(std::optional<Fit>& best, const Fit& other);
@@ -51,6 +53,7 @@ class HandTracker {
   void remember(const HandObservation& observation, const Fit& fit);
   void fit_person(const HandObservation& observation, const HandPose& pose);
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
+  void fill_segments(HandEstimate& out, const Fit& fit);
   void fill_held(HandEstimate& out, double held_s) const;
   double interval_factor(double dt) const;
   double raw_gap(const HandPose& pose) const;
@@ -63,6 +66,7 @@ class HandTracker {
   std::optional<PersonFit> person_;  // while a mean hand is fitted
   MotionModel motion_;
   LossDetector loss_;
+  PoseUncertainty uncertainty_;
 
   std::uint32_t frame_ = 0;  // observations so far: keys the random numbers
   int search_frames_ = 0;    // since the last hand

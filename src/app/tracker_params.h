@@ -7,6 +7,7 @@
 #include "stages/prediction/initialiser.h"
 #include "stages/prediction/loss_detector.h"
 #include "stages/prediction/motion_prediction.h"
+#include "stages/refinement/pose_uncertainty.h"
 #include "stages/refinement/refinement.h"
 #include "stages/refinement/shape_fit.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
@@ -30,11 +31,11 @@ struct TrackerParams {
   double search_convincing = 0.002;
   double doubt = 0.15;
   int doubt_every = 3;
-  double covariance_scale = 4;
   double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
   FusionParams fusion;
   RefinementParams refinement;
+  UncertaintyParams uncertainty;
   PredictionParams prediction;
   IcpParams icp;
   LossParams loss;
@@ -64,12 +65,11 @@ void visit(V& v, TrackerParams& p) {
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
   v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched");
-  v("covariance_scale", p.covariance_scale, 1e-3, 1e6,
-    "factor on the refinement's covariance: pixels are not independent");
   v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
   v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");
   v("refinement", p.refinement, "continuous refinement of the best hypothesis");
+  v("uncertainty", p.uncertainty, "how far the refined pose may be from the truth");
   v("prediction", p.prediction, "motion from frame to frame (Sec. 4.4)");
   v("icp", p.icp, "global motion (Sec. 4.4)");
   v("loss", p.loss, "when a hand counts as tracked");

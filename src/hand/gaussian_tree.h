@@ -16,6 +16,17 @@ struct GaussianTree {
   std::array<Vector6d, kSegmentCount> g;
 
   void set_zero();
+  /// Adds residuals r with information W that depend on a segment, which is not the palm, and on its parent.
+  template <int N>
+  void add(int child, const Eigen::Matrix<double, N, 6>& J_child, const Eigen::Matrix<double, N, 6>& J_parent,
+           const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& W) {
+    const int parent = parent_of(child);
+    H_self[child] += J_child.transpose() * W * J_child;
+    H_self[parent] += J_parent.transpose() * W * J_parent;
+    H_parent[child] += J_child.transpose() * W * J_parent;
+    g[child] -= J_child.transpose() * (W * r);
+    g[parent] -= J_parent.transpose() * (W * r);
+  }
   /// false (and nothing written) if H is not positive definite or a result is not finite.
   bool solve(std::array<Vector6d, kSegmentCount>& x) const;
   /// Diagonal 6x6 blocks of the inverse of H: the marginal covariances.

@@ -12,6 +12,9 @@ namespace barehand {
 /// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). Segments need not touch exactly.
 using HandPose = std::array<SE3, kSegmentCount>;
 
+/// A segment whose ends are both within this of the truth [m] is where it is said to be: what confidence is about.
+inline constexpr double kConfidenceRadius = 0.010;
+
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
 /// What is known of one segment in one frame. Camera frame, metres, radians.
@@ -19,7 +22,7 @@ struct SegmentState {
   SE3 T_camera_segment;
   Vector6d velocity = Vector6d::Zero();        ///< per second: of the origin, then angular, camera frame
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
-  double confidence = 0;                       ///< [0, 1]
+  double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius
   double visible = 0;                          ///< fraction of its own projected pixels that are front-most
   bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
 };

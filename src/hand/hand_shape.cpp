@@ -105,7 +105,7 @@ const std::array<ShapeParameter, kShapeCount>& shape_parameters() {
 
 HandProfile reshaped(const HandProfile& mean, const HandShape& shape) {
   HandProfile hand = mean;
-  hand.mean_hand = false;
+  hand.origin = ProfileOrigin::fitted;
   reshape_palm(hand.segments[kPalm], shape);
   for (int s = 1; s < kSegmentCount; ++s) {
     reshape_phalanx(hand.segments[s], s, shape);

@@ -27,11 +27,15 @@ struct SegmentProfile {
   std::vector<JointDof> dofs;                                ///< in the order applied; empty for the palm
 };
 
+/// How well a profile knows the person's hand: the person was measured, or it is an average of many people, or such an
+/// average fitted to the skin that the tracker saw, within which the joints keep to the average.
+enum class ProfileOrigin { measured, mean, fitted };
+
 /// A person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of the hand.
 /// Posed frame = parent frame * rest_relative * R(dof 1) * R(dof 2). File form: hand.json.
 struct HandProfile {
   Handedness handedness = Handedness::right;
-  bool mean_hand = false;  ///< an average of many people, not this person's
+  ProfileOrigin origin = ProfileOrigin::measured;
   std::array<SegmentProfile, kSegmentCount> segments;
 
   /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.

@@ -137,6 +137,14 @@ Result<Handedness> parse_handedness(const Object& object) {
   return fail("\"handedness\" is \"" + *side + "\"", object.where, "it must be \"right\" or \"left\"");
 }
 
+Result<ProfileOrigin> parse_origin(const Object& object) {
+  const auto found = object.json.find("mean_hand");
+  if (found == object.json.end() || *found == false) return ProfileOrigin::measured;
+  if (*found == true) return ProfileOrigin::mean;
+  if (*found == "fitted") return ProfileOrigin::fitted;
+  return fail("\"mean_hand\" is " + found->dump(), object.where, "it must be true, false or \"fitted\"");
+}
+
 Result<int> parse_index(const Object& object, const ParentNames& known) {
   const auto name = object.text("name");
   if (!name) return tl::unexpected(name.error());
@@ -177,11 +185,9 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   const auto side = parse_handedness({json, path});
   if (!side) return tl::unexpected(side.error());
   profile.handedness = *side;
-  if (json.contains("mean_hand")) {
-    if (!json.at("mean_hand").is_boolean())
-      return fail("\"mean_hand\" is " + json.at("mean_hand").dump(), path, "it must be true or false");
-    profile.mean_hand = json.at("mean_hand").get<bool>();
-  }
+  const auto origin = parse_origin({json, path});
+  if (!origin) return tl::unexpected(origin.error());
+  profile.origin = *origin;
 
   ParentNames parents;
   for (const Json& entry : json.at("segments")) {
@@ -220,7 +226,8 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
 
 Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   Json json = {{"handedness", to_string(profile.handedness)}, {"segments", Json::array()}};
-  if (profile.mean_hand) json["mean_hand"] = true;
+  if (profile.origin == ProfileOrigin::mean) json["mean_hand"] = true;
+  if (profile.origin == ProfileOrigin::fitted) json["mean_hand"] = "fitted";
   for (int s = 0; s < kSegmentCount; ++s) json["segments"].push_back(to_json(profile.segments[s], s));
   return json_fields::write_json(path, json);
 }

@@ -19,6 +19,12 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& w) {
   return m;
 }
 
+Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), -skew(arm);
+  return J;
+}
+
 Eigen::Matrix3d exp_so3(const Eigen::Vector3d& w) {
   const double angle_sq = w.squaredNorm();
   const Eigen::Matrix3d W = skew(w);

@@ -23,6 +23,8 @@ struct SE3 {
 };
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& w);
+/// Derivative of a point of a body by the body's boxplus twist; `arm`: the point minus the body's origin.
+Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm);
 /// Rodrigues' formula; exact limit at w = 0.
 Eigen::Matrix3d exp_so3(const Eigen::Vector3d& w);
 /// Rotation vector with angle in [0, pi].

@@ -20,19 +20,6 @@ using Jacobian = Eigen::Matrix<double, 3, 6>;
 double sq(double x) { return x * x; }
 float sq(float x) { return x * x; }
 
-// One block of residuals r (weighted information W) that depends on a segment and its parent.
-template <int N>
-void add_pair(GaussianTree& tree, int child, const Eigen::Matrix<double, N, 6>& J_child,
-              const Eigen::Matrix<double, N, 6>& J_parent, const Eigen::Matrix<double, N, 1>& r,
-              const Eigen::Matrix<double, N, N>& W) {
-  const int parent = parent_of(child);
-  tree.H_self[child] += J_child.transpose() * W * J_child;
-  tree.H_self[parent] += J_parent.transpose() * W * J_parent;
-  tree.H_parent[child] += J_child.transpose() * W * J_parent;
-  tree.g[child] -= J_child.transpose() * (W * r);
-  tree.g[parent] -= J_parent.transpose() * (W * r);
-}
-
 class DataTerm {
  public:
   DataTerm(const EnergyParams& p, double widening)
@@ -110,7 +97,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
     J_child << -Matrix3d::Identity(), Matrix3d::Zero();
     J_parent << Matrix3d::Identity(), -skew(joint.lever);
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
-    add_pair<3>(tree, s, J_child, J_parent, joint.gap, W_gap);
+    tree.add<3>(s, J_child, J_parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
     const JointLimits& limit = limits[s];
@@ -120,7 +107,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
         Vector3d(excess[0] != 0, excess[1] != 0, 1).asDiagonal().toDenseMatrix() / sq(params.sigma_angle_deg * kDegree);
     J_child << Matrix3d::Zero(), joint.d_angles * joint.R_camera_joint.transpose();
     J_parent = -J_child;
-    add_pair<3>(tree, s, J_child, J_parent, excess, W_angle);
+    tree.add<3>(s, J_child, J_parent, excess, W_angle);
     total += excess.dot(W_angle * excess);
   }
   return total;
@@ -147,7 +134,7 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
     Jacobian J_child, J_parent;
     J_child << Matrix3d::Zero(), joint.R_camera_joint.transpose();
     J_parent = -J_child;
-    add_pair<3>(tree, s, J_child, J_parent, turn, w * Matrix3d::Identity());
+    tree.add<3>(s, J_child, J_parent, turn, w * Matrix3d::Identity());
     total += w * turn.squaredNorm();
   }
   return total;

@@ -44,10 +44,11 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
 }
 
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening,
-                      Workspace& work, HandPose& pose) const {
-  GaussianTree& tree = work.tree;
-  tree.set_zero();
-  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, tree);
+                      Workspace& work, RefinedPose& refined) const {
+  HandPose& pose = refined.pose;
+  refined.evidence.set_zero();
+  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, refined.evidence);
+  GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -73,6 +74,7 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
   const auto work = workspaces_.take();
   RefinedPose result;
   result.pose = pose;
+  result.evidence.set_zero();
   compare_at(observation, pose, Normals::left_out, *work);
   summarise(*work, result);
   return result;
@@ -81,20 +83,18 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
 RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                                int iterations) const {
   const auto work = workspaces_.take();
-  HandPose pose = start;
-  compare_at(observation, pose, Normals::computed, *work);
   RefinedPose result;
+  result.pose = start;
+  result.evidence.set_zero();
+  compare_at(observation, start, Normals::computed, *work);
   summarise(*work, result);
   const std::array<double, kSegmentCount> seen = freedom(result);
-  work->tree.set_zero();  // what it holds if there is no step
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
-    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), *work, pose)) break;
-    compare_at(observation, pose, i + 1 < iterations ? Normals::computed : Normals::left_out, *work);
+    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), *work, result)) break;
+    compare_at(observation, result.pose, i + 1 < iterations ? Normals::computed : Normals::left_out, *work);
   }
-  result.pose = pose;
   summarise(*work, result);
-  if (!work->tree.marginals(result.covariance)) result.covariance.fill(Matrix6d::Identity() * 1e-2);
   return result;
 }
 

@@ -34,10 +34,10 @@ void visit(V& v, RefinementParams& p) {
 /// A pose, how well it explains the frame, and what was seen of each segment there.
 struct RefinedPose {
   HandPose pose;
-  double score = 0;                                  ///< ModelComparison::score [m]
-  std::array<double, kSegmentCount> visible{};       ///< fraction of the projected skin that is front-most
-  std::array<double, kSegmentCount> matched{};       ///< fraction of the projected skin that agrees with hand data
-  std::array<Matrix6d, kSegmentCount> covariance{};  ///< marginals of the Gaussian at the optimum (boxplus twist)
+  double score = 0;                             ///< ModelComparison::score [m]
+  std::array<double, kSegmentCount> visible{};  ///< fraction of the projected skin that is front-most
+  std::array<double, kSegmentCount> matched{};  ///< fraction of the projected skin that agrees with hand data
+  GaussianTree evidence;  ///< what the data alone says about the last step; none if no step was taken
 };
 
 /// Robust Gauss-Newton on all 96 numbers with the paper's soft joints: one model with the sampler, since the energy is
@@ -67,7 +67,7 @@ class Refinement {
   void compare_at(const HandObservation& observation, const HandPose& pose, Normals normals, Workspace& work) const;
   void summarise(const Workspace& work, RefinedPose& result) const;
   bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, Workspace& work,
-            HandPose& pose) const;
+            RefinedPose& refined) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;

@@ -43,7 +43,7 @@ Counts allocations_per_frame(const TrackerParams& params) {
   constexpr int kWarmUp = 20, kCounted = 10;
   const Intrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
   auto measured = std::make_shared<HandProfile>(*test::adult_hand());
-  measured->mean_hand = false;  // fitting a mean hand to the person is no steady state
+  measured->origin = ProfileOrigin::measured;  // fitting a mean hand to the person is no steady state
   const std::shared_ptr<const HandProfile> profile = measured;
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);

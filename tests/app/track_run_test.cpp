@@ -177,7 +177,7 @@ TEST_F(TrackRun, SavesTheHandAsFittedToThePerson) {
   ASSERT_EQ(child.finish(), 0) << child.output();
   const auto hand = load_profile(folder_ + "/mine.json");
   ASSERT_TRUE(hand) << hand.error().message();
-  EXPECT_FALSE(hand->mean_hand);
+  EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
   EXPECT_NE(hand->hand_length(), test::adult_hand()->hand_length());
 }
 

@@ -37,8 +37,8 @@ TEST_F(HandShapeTest, ZeroIsTheMeanHand) {
     EXPECT_EQ(same.segments[s].half_width, mean_->segments[s].half_width) << s;
     EXPECT_LT((same.segments[s].T_hand_segment.t - mean_->segments[s].T_hand_segment.t).norm(), 1e-12) << s;
   }
-  EXPECT_TRUE(mean_->mean_hand);
-  EXPECT_FALSE(same.mean_hand);
+  EXPECT_EQ(mean_->origin, ProfileOrigin::mean);
+  EXPECT_EQ(same.origin, ProfileOrigin::fitted);
 }
 
 TEST_F(HandShapeTest, SizeEnlargesEverythingAlike) {

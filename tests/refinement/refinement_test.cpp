@@ -54,8 +54,6 @@ TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
       (distal_end(*profile_, refined.pose, segment_of(2, 2)) - distal_end(*profile_, truth, segment_of(2, 2))).norm(),
       0.006);
   EXPECT_LT(refined.visible[segment_of(2, 2)], 0.05);
-  const auto position_variance = [&](int s) { return refined.covariance[s].diagonal().head(3).sum(); };
-  EXPECT_GT(position_variance(segment_of(2, 2)), 4 * position_variance(kPalm));
 }
 
 }  // namespace

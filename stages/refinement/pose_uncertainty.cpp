@@ -1,0 +1,90 @@
+#include "stages/refinement/pose_uncertainty.h"
+
+#include <cmath>
+#include <limits>
+#include <unsupported/Eigen/SpecialFunctions>
+
+#include "hand/joint_linearisation.h"
+#include "math/angles.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Jacobian = Eigen::Matrix<double, 3, 6>;
+
+constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
+constexpr double kCorrespondenceArea = 5e-6;  // m^2 of skin that a correspondence of weight 1 stands for
+constexpr double kRangeDeviation = 0.2887;    // of a uniform distribution over a range of 1
+constexpr double kAnywhere = 1.0;             // m and rad: the palm without data
+
+double sq(double x) { return x * x; }
+
+// Deviations of flexion, abduction and twist about their estimates [rad].
+Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const JointLimits& limits, double hidden_for) {
+  const double twist = energy.sigma_angle_deg * kDegree;
+  const double moved = std::hypot(p.just_hidden_deg, p.growth_deg * std::sqrt(hidden_for)) * kDegree;
+  const double share = p.range_share * kRangeDeviation;
+  const double flexion = std::min(moved, share * (limits.flexion_hi - limits.flexion_lo));
+  const double abduction = std::min(moved, share * (limits.abduction_hi - limits.abduction_lo));
+  return {std::max(flexion, twist), std::max(abduction, twist), twist};
+}
+
+// The joint's ends meet, and its angles are as estimated to within `deviation`.
+void hold_joint(const JointLinearisation& joint, int s, const Vector3d& deviation, double sigma_gap,
+                GaussianTree& tree) {
+  const Vector3d zero = Vector3d::Zero();
+  Jacobian J_child, J_parent;
+  J_child << -Matrix3d::Identity(), Matrix3d::Zero();
+  J_parent << Matrix3d::Identity(), -skew(joint.lever);
+  tree.add<3>(s, J_child, J_parent, zero, Matrix3d::Identity() / sq(sigma_gap));
+  J_child << Matrix3d::Zero(), joint.d_angles * joint.R_camera_joint.transpose();
+  J_parent = -J_child;
+  tree.add<3>(s, J_child, J_parent, zero, deviation.cwiseAbs2().cwiseInverse().asDiagonal());
+}
+
+}  // namespace
+
+PoseUncertainty::PoseUncertainty(const UncertaintyParams& params, const EnergyParams& energy)
+    : params_(params), energy_(energy) {
+  restart();
+}
+
+void PoseUncertainty::restart() { hidden_for_.fill(kNeverSeen); }
+
+std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfile& profile, const RefinedPose& refined,
+                                                                const std::array<bool, kSegmentCount>& hidden,
+                                                                double dt) {
+  const double factor = profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor;
+  // A patch counts once, with the deviation of the skin instead of that of a pixel.
+  const double scale =
+      kCorrespondenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);
+  GaussianTree tree = refined.evidence;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    tree.H_self[s] *= scale;
+    tree.H_parent[s] *= scale;
+  }
+  tree.H_self[kPalm].diagonal().array() += 1 / sq(kAnywhere);
+  const auto limits = widened_limits(profile, energy_.limit_widening_deg * kDegree);
+  for (int s = 1; s < kSegmentCount; ++s) {
+    hidden_for_[s] = hidden[s] ? hidden_for_[s] + dt : 0;
+    // What is seen is held by its data; its joint might be anywhere.
+    const Vector3d deviation = spread(params_, energy_, limits[s], hidden[s] ? hidden_for_[s] : kNeverSeen);
+    const JointLinearisation joint = linearise_joint(profile, refined.pose, s);
+    hold_joint(joint, s, deviation, energy_.sigma_gap, tree);
+  }
+  std::array<Matrix6d, kSegmentCount> covariance;
+  if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * sq(kAnywhere));
+  for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += sq(factor * params_.joint_deviation);
+  return covariance;
+}
+
+double probability_within(double radius, const Matrix3d& covariance) {
+  const double mean = covariance.trace(), spread = covariance.squaredNorm();
+  if (!(mean > 0)) return 1;
+  const double degrees = sq(mean) / spread;  // of freedom
+  return Eigen::numext::igamma(degrees / 2, sq(radius) * mean / (2 * spread));
+}
+
+}  // namespace barehand
