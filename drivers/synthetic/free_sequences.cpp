@@ -1,3 +1,5 @@
+#include <iterator>
+
 #include "drivers/synthetic/stage_set.h"
 
 namespace barehand::synthetic {
@@ -65,6 +67,37 @@ std::unique_ptr<Sequence> make_wave(std::uint64_t seed) {
                                                  {6.6, here, {0, 0.5, 0}, open_spread()},
                                                  {7.4, here, {0, 0, 0}, open_spread()}},
                                                 seed));
+}
+
+/// A hand leaves the view and comes back elsewhere, ten times and more: on another side, at another distance, turned otherwise.
+std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
+  struct Visit {
+    Vector3d from, here, turn;
+    HandAngles angles;
+  };
+  const Vector3d left(-0.75, 0.1, 0.6), right(0.75, 0.1, 0.6), below(0.05, 0.65, 0.6);
+  const Visit visits[] = {{right, {0.0, 0.08, 0.6}, {0, 0, 0}, open_spread()},
+                          {right, {0.05, 0.08, 0.5}, {0.1, 0, 0.4}, open_relaxed()},
+                          {below, {0.0, 0.1, 0.7}, {0, 0.2, -0.3}, open_joined()},
+                          {left, {-0.06, 0.06, 0.55}, {0.3, 0, 0}, open_spread()},
+                          {right, {0.08, 0.1, 0.65}, {0, 2.9, 0}, open_relaxed()},
+                          {below, {-0.03, 0.09, 0.45}, {0, 0, 0.7}, open_spread()},
+                          {left, {0.0, 0.07, 0.8}, {0, 0.6, 0.2}, open_relaxed()},
+                          {below, {0.02, 0.08, 0.6}, {0.2, 0.1, -0.6}, fist()},
+                          {right, {-0.05, 0.12, 0.5}, {0, -0.7, 0}, open_joined()},
+                          {below, {0.04, 0.06, 0.7}, {-0.3, 3.0, 0.2}, open_spread()},
+                          {left, {0.0, 0.08, 0.55}, {0, 0, 0.2}, open_relaxed()}};
+  constexpr double kVisit = 3.5;  // s, of which 1.4 out of view
+  std::vector<HandKey> keys;
+  for (const Visit& visit : visits) {
+    const double start = kVisit * static_cast<double>(keys.size()) / 4;
+    keys.push_back({start, visit.from, visit.turn, visit.angles});
+    keys.push_back({start + 0.8, visit.here, visit.turn, visit.angles});
+    keys.push_back({start + 1.3, visit.here, visit.turn + Vector3d(0.1, 0.1, 0.1), open_relaxed()});
+    keys.push_back({start + 2.1, visit.from, visit.turn, open_relaxed()});
+  }
+  keys.front().position = visits[0].here;  // the first one is there from the start
+  return std::make_unique<FreeSequence>(setting(kVisit * std::size(visits), std::move(keys), seed));
 }
 
 }  // namespace barehand::synthetic

@@ -41,6 +41,7 @@ class FreeSequence : public Sequence {
 std::unique_ptr<Sequence> make_fist(std::uint64_t seed);
 std::unique_ptr<Sequence> make_open(std::uint64_t seed);
 std::unique_ptr<Sequence> make_wave(std::uint64_t seed);
+std::unique_ptr<Sequence> make_returns(std::uint64_t seed);
 /// `degree` 0..6: the occluder hides degree / 6 of the fingers.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed);
 enum class GraspedThing { mug, ball, pliers };

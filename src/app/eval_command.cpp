@@ -7,6 +7,7 @@
 
 #include "app/eval_report.h"
 #include "app/exit_code.h"
+#include "app/stated_poses.h"
 #include "io/hand_json.h"
 #include "io/recording.h"
 
@@ -14,20 +15,26 @@ namespace barehand {
 namespace {
 
 struct EvalOptions {
-  std::vector<std::string> truths, results, labels;
+  std::vector<std::string> truths, results, labels, states;
   std::string hand, plots, json, fingertips, recording;
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
 };
 
 Result<void> check(const EvalOptions& o) {
+  if (o.results.empty() && o.states.empty())
+    return fail("there is nothing to judge", "eval", "give --result or --states");
   if (o.truths.empty() && o.fingertips.empty())
     return fail("there is nothing to compare with", "eval",
                 "give --truth, or --fingertips with --recording and --hand");
-  if (o.truths.size() > 1 && o.truths.size() != o.results.size())
+  if (!o.results.empty() && o.truths.size() > 1 && o.truths.size() != o.results.size())
     return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
                     std::to_string(o.results.size()) + " results",
                 "eval", "give it once for all results, or once for each");
+  if (!o.states.empty() && o.states.size() != o.truths.size())
+    return fail("--states is given " + std::to_string(o.states.size()) + " times for " +
+                    std::to_string(o.truths.size()) + " truths",
+                "eval", "give a log of hand states for each --truth");
   if (!o.labels.empty() && o.labels.size() != o.results.size())
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
@@ -50,6 +57,21 @@ Result<void> evaluate_runs(const EvalOptions& o, const std::vector<ResultTable>&
   return {};
 }
 
+Result<void> judge_states(const EvalOptions& o, EvalReport& report) {
+  std::vector<std::pair<ResultTable, StatedPoses>> sequences;
+  for (std::size_t i = 0; i < o.states.size(); ++i) {
+    auto truth = read_table(o.truths[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    auto states = read_stated_poses(o.states[i]);
+    if (!states) return tl::unexpected(states.error());
+    sequences.emplace_back(std::move(*truth), std::move(*states));
+  }
+  auto reliability = judge_reliability(sequences);
+  if (!reliability) return tl::unexpected(reliability.error());
+  report.reliability = std::move(*reliability);
+  return {};
+}
+
 Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
                                 const HandProfile& profile, EvalReport& report) {
   const auto labels = read_fingertip_labels(o.fingertips);
@@ -69,6 +91,8 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   }
   EvalReport report;
   if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
+  if (!o.states.empty())
+    if (const auto judged = judge_states(o, report); !judged) return tl::unexpected(judged.error());
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());
@@ -103,8 +127,9 @@ int run(const EvalOptions& o) {
 void add_eval_command(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<EvalOptions>();
   CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
-  eval->add_option("--result", o->results, "result table; several are compared with one another")->required();
+  eval->add_option("--result", o->results, "result table; several are compared with one another");
   eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
+  eval->add_option("--states", o->states, "log of hand states, one for each truth: is the stated uncertainty right?");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame the result was to track, as given to track");

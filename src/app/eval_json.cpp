@@ -42,6 +42,10 @@ Json to_json(const EvaluatedRun& run, const std::optional<double>& hand_length) 
                {"joint_gap_mm", to_json(e.joint_gap, kMillimetre)}};
   for (int s = 0; s < kSegmentCount; ++s)
     json["segments_mm"][std::string(kSegmentNames[s])] = to_json(e.per_segment[s], kMillimetre);
+  json["phantom_frames"] = e.phantoms;
+  json["returns"] = Json::array();
+  for (const Return& r : e.returns)
+    json["returns"].push_back({{"frame", r.number}, {"frames_until_tracked", r.frames ? Json(*r.frames) : Json()}});
   if (hand_length) {
     json["hand_length_mm"] = rounded(*hand_length * kMillimetre);
     if (e.frame_error.count > 0) json["mean_frame_error_over_hand_length"] = rounded(e.frame_error.mean / *hand_length);
@@ -55,12 +59,38 @@ Json to_json(const FingertipEvaluation& e) {
   return json;
 }
 
+Json to_json(const Coverage& c) {
+  constexpr double kMillimetre = 1000;
+  Json json = {{"intervals", c.intervals}};
+  if (c.intervals == 0) return json;
+  json["covered"] = rounded(c.covered);
+  json["stated_mm"] = rounded(c.stated * kMillimetre);
+  json["actual_mm"] = rounded(c.actual * kMillimetre);
+  return json;
+}
+
+Json to_json(const std::vector<ReliabilityBin>& bins, double scale) {
+  Json json = Json::array();
+  for (const ReliabilityBin& bin : bins)
+    json.push_back(
+        {{"count", bin.count}, {"stated", rounded(bin.stated * scale)}, {"actual", rounded(bin.actual * scale)}});
+  return json;
+}
+
+Json to_json(const Reliability& r) {
+  return {{"frames", r.frames},
+          {"intervals_90", {{"all", to_json(r.all)}, {"seen", to_json(r.seen)}, {"inferred", to_json(r.inferred)}}},
+          {"errors_mm", to_json(r.errors, 1000)},
+          {"within_10_mm", to_json(r.confidences, 1)}};
+}
+
 }  // namespace
 
 Result<void> write_json_report(const EvalReport& report, const std::string& path) {
   Json json = {{"runs", Json::array()}};
   for (const EvaluatedRun& run : report.runs) json["runs"].push_back(to_json(run, report.hand_length));
   if (report.fingertips) json["fingertips"] = to_json(*report.fingertips);
+  if (report.reliability) json["reliability"] = to_json(*report.reliability);
   return json_fields::write_json(path, json);
 }
 

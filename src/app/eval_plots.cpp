@@ -55,6 +55,18 @@ BoxChart fingertips_chart(const FingertipEvaluation& fingertips) {
   return chart;
 }
 
+LineChart reliability_chart(const std::vector<ReliabilityBin>& bins, ChartText text, double scale) {
+  LineChart chart;
+  chart.text = std::move(text);
+  chart.series = {{"found", {}, {}}, {"as stated", {}, {}}};
+  for (const ReliabilityBin& bin : bins) {
+    for (auto& series : chart.series) series.x.push_back(bin.stated * scale);
+    chart.series[0].y.push_back(bin.actual * scale);
+    chart.series[1].y.push_back(bin.stated * scale);
+  }
+  return chart;
+}
+
 }  // namespace
 
 Result<void> write_plots(const EvalReport& report, const std::string& directory) {
@@ -68,6 +80,14 @@ Result<void> write_plots(const EvalReport& report, const std::string& directory)
                .and_then([&] { return write_chart(time_chart(report.runs), directory + "/time.png"); });
   if (done && report.fingertips)
     done = write_chart(fingertips_chart(*report.fingertips), directory + "/fingertips.png");
+  if (done && report.reliability) {
+    const Reliability& r = *report.reliability;
+    const ChartText errors{"Error of segment ends (root mean square)", "stated [mm]", "actual [mm]"};
+    const ChartText confidences{"Segments within 10 mm of the truth", "confidence [%]", "found [%]"};
+    done = write_chart(reliability_chart(r.errors, errors, kMillimetre), directory + "/reliability.png").and_then([&] {
+      return write_chart(reliability_chart(r.confidences, confidences, 100), directory + "/confidence.png");
+    });
+  }
   return done;
 }
 

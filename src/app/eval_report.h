@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/evaluation.h"
 #include "io/fingertips.h"
+#include "io/reliability.h"
 
 namespace barehand {
 
@@ -28,13 +29,15 @@ struct EvalReport {
   std::vector<EvaluatedRun> runs;
   std::optional<double> hand_length;  ///< [m], for errors as a fraction of it
   std::optional<FingertipEvaluation> fingertips;
+  std::optional<Reliability> reliability;
 };
 
 /// Tables for people, in millimetres and pixels.
 std::string text_report(const EvalReport& report);
 /// The same for programs.
 Result<void> write_json_report(const EvalReport& report, const std::string& path);
-/// runs.png (paper Fig. 7), segments.png, time.png, fingertips.png: those there is something for. Makes the folder.
+/// runs.png (paper Fig. 7), segments.png, time.png, fingertips.png, reliability.png, confidence.png: those there is
+/// something for. Makes the folder.
 Result<void> write_plots(const EvalReport& report, const std::string& directory);
 
 }  // namespace barehand

@@ -35,6 +35,16 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
   return text;
 }
 
+void print_returns(std::string& out, const Evaluation& e) {
+  if (!e.phantoms.empty()) out += "  a hand where there is none: " + frame_list(e.phantoms) + "\n";
+  if (e.returns.empty()) return;
+  out += formatted("  %zu returns into view (frame: frames until tracked):", e.returns.size());
+  for (const Return& r : e.returns)
+    out += formatted(" %lld: %s", static_cast<long long>(r.number),
+                     r.frames ? std::to_string(*r.frames).c_str() : "never");
+  out += "\n";
+}
+
 void print_run(std::string& out, const EvaluatedRun& run, const std::optional<double>& hand_length) {
   const Evaluation& e = run.evaluation;
   out += formatted("%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
@@ -43,6 +53,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
                    e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked,
                    e.lost.size() - e.untracked, kLostFrameError * kMillimetre);
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
+  print_returns(out, e);
   print_head(out, "error [mm]");
   print_row(out, "frame", e.frame_error, kMillimetre);
   print_row(out, "frame without palm", e.frame_error_without_palm, kMillimetre);
@@ -66,12 +77,35 @@ void print_fingertips(std::string& out, const FingertipEvaluation& e) {
   for (int f = 0; f < kFingerCount; ++f) print_row(out, std::string(kFingerNames[f]), e.per_finger[f], 1);
 }
 
+void print_coverage(std::string& out, const char* name, const Coverage& c) {
+  if (c.intervals == 0) return;
+  out += formatted("  %-22s %9zu %9.1f %% %12.2f %12.2f\n", name, c.intervals, c.covered * 100, c.stated * kMillimetre,
+                   c.actual * kMillimetre);
+}
+
+void print_bins(std::string& out, const char* title, const std::vector<ReliabilityBin>& bins, double scale) {
+  out += formatted("  %-22s %9s %12s %12s\n", title, "count", "stated", "actual");
+  for (const ReliabilityBin& bin : bins)
+    out += formatted("  %-22s %9zu %12.2f %12.2f\n", "", bin.count, bin.stated * scale, bin.actual * scale);
+}
+
+void print_reliability(std::string& out, const Reliability& r) {
+  out += formatted("stated uncertainty, %zu frames\n", r.frames);
+  out += formatted("  %-22s %9s %11s %12s %12s\n", "90 % intervals", "count", "covered", "stated [mm]", "actual [mm]");
+  print_coverage(out, "all", r.all);
+  print_coverage(out, "seen", r.seen);
+  print_coverage(out, "inferred", r.inferred);
+  print_bins(out, "error of an end [mm]", r.errors, kMillimetre);
+  print_bins(out, "within 10 mm [%]", r.confidences, 100);
+}
+
 }  // namespace
 
 std::string text_report(const EvalReport& report) {
   std::string out;
   for (const EvaluatedRun& run : report.runs) print_run(out, run, report.hand_length);
   if (report.fingertips) print_fingertips(out, *report.fingertips);
+  if (report.reliability) print_reliability(out, *report.reliability);
   return out;
 }
 

@@ -71,6 +71,41 @@ struct Collected {
   }
 };
 
+bool half_in_view(const TableFrame& truth) {
+  double visible = 0;
+  for (const TableRow& row : truth.rows) visible += row.visible / kSegmentCount;
+  return visible >= 0.5;
+}
+
+/// `truths` and `frames` in step, every `step`-th frame of the recording where there is a hand.
+std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, const std::vector<FrameErrors>& frames,
+                                 std::int64_t step) {
+  std::vector<Return> returns;
+  bool away = false, waiting = false;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    if (frames[i].number - frames[i - 1].number != step) away = true, waiting = false;
+    if (away && half_in_view(*truths[i])) {
+      returns.push_back({frames[i].number, std::nullopt});
+      away = false;
+      waiting = true;
+    }
+    if (!waiting || frames[i].lost()) continue;
+    returns.back().frames = static_cast<int>((frames[i].number - returns.back().number) / step);
+    waiting = false;
+  }
+  return returns;
+}
+
+/// Frames of the result between the truth's first and last that the truth does not have.
+std::vector<std::int64_t> find_phantoms(const ResultTable& truth, const ResultTable& result) {
+  const FramesByNumber truths = by_number(truth);
+  std::vector<std::int64_t> phantoms;
+  for (const auto& [number, frame] : by_number(result))
+    if (number > truths.begin()->first && number < truths.rbegin()->first && !truths.contains(number))
+      phantoms.push_back(number);
+  return phantoms;
+}
+
 }  // namespace
 
 double segment_error(const TableRow& truth, const TableRow& result) {
@@ -82,7 +117,8 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
   const FramesByNumber results = by_number(result);
   Evaluation evaluation;
   Collected collected;
-  for (const TableFrame* frame_of_truth : expected_frames(truth, expected)) {
+  const std::vector<const TableFrame*> truths = expected_frames(truth, expected);
+  for (const TableFrame* frame_of_truth : truths) {
     const TableFrame& frame = *frame_of_truth;
     FrameErrors errors{frame.number, frame.timestamp, false, {}, 0, 0};
     if (const auto found = results.find(frame.number); found != results.end()) {
@@ -101,6 +137,8 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
   if (evaluation.frames.empty()) return fail("the truth has none of the frames asked for", {}, "check start and step");
   collected.summarise_into(evaluation);
+  evaluation.returns = find_returns(truths, evaluation.frames, expected.step);
+  evaluation.phantoms = find_phantoms(truth, result);
   return evaluation;
 }
 

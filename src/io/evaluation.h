@@ -34,6 +34,12 @@ struct FrameErrors {
   bool lost() const { return !tracked || mean > kLostFrameError; }
 };
 
+/// The hand came back into view.
+struct Return {
+  std::int64_t number = 0;    ///< first frame in which half of the hand is seen
+  std::optional<int> frames;  ///< from there to the first one that is not lost; none: not before it left again
+};
+
 /// The paper's metrics (Sec. 5) of one result against the truth [m]. Frames without rows enter no mean; they count as
 /// lost.
 struct Evaluation {
@@ -44,7 +50,9 @@ struct Evaluation {
   Distribution segment_error;  ///< over all segments of all frames
   Distribution seen, hidden;   ///< of the segments that are visible in truth, and that are not
   std::array<Distribution, kSegmentCount> per_segment;
-  Distribution joint_gap;  ///< between adjacent ends in the result, joints of the palm left out
+  std::vector<Return> returns;         ///< of the hand, after frames of which the truth has no rows
+  std::vector<std::int64_t> phantoms;  ///< frames with rows in which the truth has none
+  Distribution joint_gap;              ///< between adjacent ends in the result, joints of the palm left out
 };
 
 /// Error: the tables have no frame in common, or a frame's time stamps differ by more than 1 ms.

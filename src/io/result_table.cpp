@@ -146,7 +146,7 @@ Result<void> TableWriter::write(const TableFrame& frame) {
 }
 
 Result<void> TableWriter::write(const HandEstimate& estimate) {
-  if (!estimate.has_pose()) return {};
+  if (estimate.status != TrackStatus::tracking) return {};
   return write(table_frame(estimate));
 }
 

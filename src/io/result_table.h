@@ -40,7 +40,7 @@ class TableWriter {
   static Result<TableWriter> create(const std::string& path);
   /// A full disk is an error.
   Result<void> write(const TableFrame& frame);
-  /// Writes nothing for an estimate without a pose: a frame in which no hand is tracked has no rows.
+  /// Writes nothing unless the hand is tracked: a pose that is merely held is no measurement.
   Result<void> write(const HandEstimate& estimate);
 
  private:

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "drivers/lcm/layouts.h"
 #include "io/hand_json.h"
+#include "io/lcm_log_writer.h"
 #include "io/recording_writer.h"
 #include "io/result_table.h"
 #include "support/temp_folder.h"
@@ -86,7 +88,42 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/fingertips.png"));
 }
 
+TEST_F(EvalCommand, JudgesTheUncertaintyOfStatesInALog) {
+  auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
+  ASSERT_TRUE(log);
+  for (int i = 0; i < 3; ++i) {
+    hand_state_t state{};
+    state.frame_number = i;
+    state.has_pose = i < 2;
+    for (segment_state_t& s : state.segments) {  // 2 mm off along x, as the truth's second table
+      s.position[0] = 0.002, s.position[2] = s.distal[2] = 0.5, s.distal[0] = 0.002 - 0.03;
+      for (int k = 0; k < 3; ++k) s.covariance[k][k] = 1e-6;
+      s.covariance[4][4] = 0.01;  // a turn about y moves the distal end, 30 mm along -x, in depth
+      s.confidence = 0.95;
+    }
+    ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), i));
+    ASSERT_TRUE((*log)->send("OTHER", std::vector<std::uint8_t>(24), i));
+  }
+  log->reset();
+  ASSERT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog --json %/e.json --plots %/plots"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("stated uncertainty, 2 frames"));
+  const json judged = json::parse(test::read_text(folder_ / "e.json"))["reliability"];
+  EXPECT_NEAR(judged["intervals_90"]["all"]["covered"], 2.0 / 3, 1e-6) << "2 mm is more than 1.645 of 1 mm, along x";
+  EXPECT_NEAR(judged["intervals_90"]["all"]["actual_mm"], 2, 1e-6);
+  EXPECT_NEAR(judged["errors_mm"][0]["stated"], std::sqrt(3), 1e-5) << "proximal ends";
+  EXPECT_NEAR(judged["errors_mm"][1]["stated"], std::sqrt(3 + 9), 1e-5) << "distal ends: 0.1 rad of 30 mm on top";
+  EXPECT_NEAR(judged["within_10_mm"][0]["actual"], 1, 1e-9);
+  for (const char* plot : {"reliability.png", "confidence.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/" + plot)) << plot;
+}
+
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
+  EXPECT_EQ(run("eval --truth %/truth.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("--result or --states"));
+  EXPECT_EQ(run("eval --truth %/truth.csv --states a.lcmlog b.lcmlog"), 2);
+  EXPECT_THAT(err_, HasSubstr("a log of hand states for each"));
+  EXPECT_EQ(run("eval --truth %/truth.csv --states %/truth.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("truth.csv"));
   EXPECT_EQ(run("eval --result %/out.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("give --truth"));
   EXPECT_EQ(run("eval --result %/out.csv --fingertips tips.csv"), 2);

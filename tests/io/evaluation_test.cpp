@@ -66,6 +66,21 @@ TEST(Evaluation, FramesWithoutRowsAndFarOffFramesAreLost) {
   EXPECT_NEAR(e->frame_error.max, 0.0201, 1e-9);
 }
 
+TEST(Evaluation, ReturnsIntoViewAndHandsWhereThereIsNone) {
+  ResultTable truth, result;
+  for (int i : {0, 1, 2, 6, 7, 8, 9, 14, 15}) truth.frames.push_back(truth_frame(i));
+  for (TableRow& row : truth.frames[3].rows) row.visible = 0.4;                   // frame 6: hardly in view yet
+  for (int i : {0, 1, 2, 3, 9, 12, 20}) result.frames.push_back(truth_frame(i));  // 20: the truth does not go so far
+  const auto e = evaluate(truth, result);
+  ASSERT_TRUE(e);
+  EXPECT_THAT(e->phantoms, ElementsAre(3, 12));
+  ASSERT_EQ(e->returns.size(), 2u);
+  EXPECT_EQ(e->returns[0].number, 7);
+  EXPECT_EQ(e->returns[0].frames, 2);
+  EXPECT_EQ(e->returns[1].number, 14);
+  EXPECT_EQ(e->returns[1].frames, std::nullopt);
+}
+
 TEST(Evaluation, NoHandAtAllIsLostThroughout) {
   const auto e = evaluate(truth_of(3), {});
   ASSERT_TRUE(e);

@@ -33,7 +33,7 @@ TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
         EXPECT_LT((frame.pose[s].t - before[s].t).norm() * sim.fps(), 2.0) << "m/s, frame " << i;
     }
     before = frame.pose;
-    if (GetParam() == "wave") continue;
+    if (GetParam() == "wave" || GetParam() == "returns") continue;
     ASSERT_TRUE(frame.truth.has_value());
     for (const TableRow& row : frame.truth->rows)
       for (const Eigen::Vector3d& end : {row.proximal, row.distal}) {
@@ -61,6 +61,19 @@ TEST(Wave, LeavesTheViewAndComesBack) {
   EXPECT_EQ(presence.back(), 'x');
   EXPECT_NE(presence.find("..."), std::string::npos);
   EXPECT_EQ(presence.find_last_of('.') - presence.find('.'), std::count(presence.begin(), presence.end(), '.') - 1);
+}
+
+TEST(Returns, LeavesTheViewTenTimes) {
+  Simulator sim = simulator(small("returns"));
+  int departures = 0;
+  bool was_there = true;
+  for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames it leaves for good
+    const bool there = sim.render(i).truth.has_value();
+    departures += was_there && !there;
+    was_there = there;
+  }
+  EXPECT_TRUE(sim.render(0).truth);
+  EXPECT_GE(departures, 10);
 }
 
 TEST(Fist, ClosesTwice) {

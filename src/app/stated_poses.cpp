@@ -1,0 +1,47 @@
+#include "app/stated_poses.h"
+
+#include "barehand/hand_state_t.hpp"
+#include "drivers/lcm/layouts.h"
+#include "hand/hand_pose.h"
+#include "io/lcm_log_reader.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+StatedSegment stated(const segment_state_t& state) {
+  StatedSegment out;
+  out.proximal = Eigen::Map<const Vector3d>(state.position);
+  out.distal = Eigen::Map<const Vector3d>(state.distal);
+  const Matrix6d covariance = Eigen::Map<const Matrix6d>(state.covariance[0]);  // symmetric: either order
+  const auto J_distal = point_jacobian(out.distal - out.proximal);
+  out.proximal_covariance = covariance.topLeftCorner<3, 3>();
+  out.distal_covariance = J_distal * covariance * J_distal.transpose();
+  out.confidence = state.confidence;
+  out.seen = state.seen;
+  return out;
+}
+
+}  // namespace
+
+Result<StatedPoses> read_stated_poses(const std::string& log_path) {
+  auto log = LcmLogReader::open(log_path);
+  if (!log) return tl::unexpected(log.error());
+  StatedPoses poses;
+  for (const LogEntry& entry : log->entries()) {
+    if (entry.hash != hand_state_t::getHash()) continue;
+    const auto bytes = log->read(entry);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto state = decode_message<hand_state_t>(*bytes);
+    if (!state || !state->has_pose) continue;
+    auto& segments = poses[state->frame_number];
+    for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
+  }
+  if (poses.empty())
+    return fail("holds no hand state with a pose", log_path, "give a log written by barehand track --states-log");
+  return poses;
+}
+
+}  // namespace barehand
