@@ -10,7 +10,6 @@ namespace {
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 
-constexpr float kReferenceArea = 5e-6f;  // [m^2]: 2 pixels at 0.6 m and 525 px
 constexpr float kWristMargin = 0.010f;   // data this far behind the wrist belongs to the forearm [m]
 
 class Comparer {

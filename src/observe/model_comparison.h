@@ -10,6 +10,9 @@
 
 namespace barehand {
 
+/// Skin that a correspondence of weight 1 stands for [m^2]: 2 pixels at 0.6 m and 525 px.
+inline constexpr float kReferenceArea = 5e-6f;
+
 struct ComparisonParams {
   int stride = 2;                      ///< compare every n-th pixel of the region of interest
   double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
@@ -33,7 +36,7 @@ struct Correspondence {
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
   Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero where it was left out
-  float weight;                         ///< skin area of the cell relative to 5 mm^2
+  float weight;                         ///< skin area of the cell relative to kReferenceArea
 };
 
 /// Evidence of a whole rendered hand against an observation, in both directions: model explained by data (surface,

@@ -15,9 +15,8 @@ using Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 6>;
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
-constexpr double kCorrespondenceArea = 5e-6;  // m^2 of skin that a correspondence of weight 1 stands for
-constexpr double kRangeDeviation = 0.2887;    // of a uniform distribution over a range of 1
-constexpr double kAnywhere = 1.0;             // m and rad: the palm without data
+constexpr double kRangeDeviation = 0.2887;  // of a uniform distribution over a range of 1
+constexpr double kAnywhere = 1.0;           // m and rad: the palm without data
 
 double sq(double x) { return x * x; }
 
@@ -59,7 +58,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
   const double factor = profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor;
   // A patch counts once, with the deviation of the skin instead of that of a pixel.
   const double scale =
-      kCorrespondenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);
+      kReferenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);
   GaussianTree tree = refined.evidence;
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s] *= scale;

@@ -24,7 +24,7 @@ void visit(V& v, UncertaintyParams& p) {
   v("range_share", p.range_share, 0.01, 10.0,
     "deviation of a joint that was not seen for long, relative to that of its whole range");
   v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0, "degrees, deviation of a joint when it vanishes");
-  v("growth_deg", p.growth_deg, 0.0, 3600.0, "degrees after a second, growth of it with the square root of the time");
+  v("growth_deg", p.growth_deg, 0.1, 3600.0, "degrees after a second, growth of it with the square root of the time");
 }
 
 /// Covariance of every segment of a refined pose: marginals, on the hand's tree, of what the frame says (every patch of
