@@ -27,7 +27,8 @@ class MeasuringSink : public Sink {
   Result<void> consume(const TrackedFrame& tracked) override {
     if (++seen_ == conditions_.warm_up) start();
     if (seen_ <= conditions_.warm_up) return {};
-    tracked_ += tracked.estimate->status == TrackStatus::tracking;
+    tracked_ += std::ranges::all_of(tracked.estimates,
+                                    [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
     const std::int64_t step = std::max<std::int64_t>(1, conditions_.frames / kMemoryPoints);
     if ((seen_ - conditions_.warm_up) % step == 0)
       resident_mb_.push_back(static_cast<double>(memory_usage().resident - stored_bytes_) / kMegabyte);
@@ -90,7 +91,7 @@ class Reception {
 }  // namespace
 
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             std::shared_ptr<const HandProfile> hand) {
+                             const HandsTracker::Profiles& hands) {
   const SystemClock clock;
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);
@@ -110,7 +111,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       {[&] { return pipeline->health(); }, static_cast<std::int64_t>(bench.config.run.health_period * 1e6), "bench"},
       clock);
   if (!publish) return tl::unexpected(publish.error());
-  TrackStages stages = make_track_stages(bench.config, std::move(hand), std::nullopt, {}, **workers, log);
+  TrackStages stages = make_track_stages(bench.config, hands, std::nullopt, {}, **workers, log);
   PipelineOptions options;
   options.threaded = !conditions.inline_stages;
   pipeline = std::make_unique<Pipeline>(

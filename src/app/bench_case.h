@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/config.h"
+#include "app/hands_tracker.h"
 #include "app/memory_source.h"
 #include "core/statistics.h"
 
@@ -45,6 +46,6 @@ struct BenchResult {
 /// Runs the pipeline of `barehand track` over stored frames. Errors: an LCM network that cannot be opened, a stage that
 /// fails, an absurd number of threads.
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             std::shared_ptr<const HandProfile> hand);
+                             const HandsTracker::Profiles& hands);
 
 }  // namespace barehand

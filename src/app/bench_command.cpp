@@ -17,7 +17,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* bench = app.add_subcommand("bench", "Measure speed, latency and memory of track, over frames in memory");
   bench->add_option("--source", o.source, "folder:DIR | log:FILE | sim:NAME")->capture_default_str();
   bench->add_option("--config", o.configs, "one or more configurations, measured in turn")->capture_default_str();
-  bench->add_option("--hand", o.hand, "hand.json; default: the source's own, else the shipped mean adult hand");
+  bench->add_option("--hand", o.hands, "hand.json, or right, left, both: the shipped mean adult hand; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   bench->add_option("--store", o.store, "frames to keep in memory; they are played forth and back")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -35,7 +37,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   bench->add_option("--json", o.json, "file for the figures");
   bench->add_option("--plots", o.plots, "folder for plots (PNG) of what --json or --draw names");
   bench->add_option("--draw", o.draw, "measure nothing, draw this file of figures");
-  bench->footer("Frames are read or rendered before the clock starts. One hand is tracked: more are not possible yet.");
+  bench->footer("Frames are read or rendered before the clock starts.");
   bench->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }
 

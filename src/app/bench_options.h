@@ -11,7 +11,7 @@ namespace barehand {
 struct BenchOptions {
   std::string source = "sim:grasp_ball";
   std::vector<std::string> configs = {"default.yaml"};
-  std::string hand;  ///< "": the source's own, or the shipped adult hand
+  std::vector<std::string> hands;  ///< none: the source's own, or the shipped adult hand
   std::int64_t store = 120;
   std::int64_t frames = 300;
   std::int64_t warm_up = 30;

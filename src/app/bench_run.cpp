@@ -49,7 +49,7 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
 
 struct Input {
   FrameStore store;
-  std::shared_ptr<const HandProfile> hand;
+  HandsTracker::Profiles hands;
 };
 
 Result<Input> read_input(const BenchOptions& options) {
@@ -58,17 +58,17 @@ Result<Input> read_input(const BenchOptions& options) {
   request.spec = options.source;
   auto source = open_source(request, clock);
   if (!source) return tl::unexpected(source.error());
-  auto hand = choose_hand(options.hand, *source);
-  if (!hand) return tl::unexpected(hand.error());
+  auto hands = choose_hands(options.hands, *source);
+  if (!hands) return tl::unexpected(hands.error());
   std::cerr << "reading frames of " << source->source->name() << "\n";
   auto store = read_frames(*source->source, options.store);
   if (!store) return tl::unexpected(store.error());
-  return Input{std::move(*store), std::move(hand->profile)};
+  return Input{std::move(*store), profiles_of(*hands)};
 }
 
 Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditions, const Input& input) {
   const FrameStore store = decimated(input.store, named.bench.decimate);
-  auto result = run_case(named.bench, conditions, store, input.hand);
+  auto result = run_case(named.bench, conditions, store, input.hands);
   if (!result) return tl::unexpected(result.error());
   const Intrinsics& camera = store.frames[0]->camera;
   return BenchRow{named.bench.sweep, named.bench.value, named.config,      named.bench.threads,

@@ -7,27 +7,24 @@
 
 namespace barehand {
 
-CommandedTracker::CommandedTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile,
+CommandedTracker::CommandedTracker(const TrackerParams& params, const HandsTracker::Profiles& profiles,
                                    std::uint64_t seed, Workers& workers, Inbox inbox, RepeatLog& log)
-    : params_(params), seed_(seed), workers_(workers), inbox_(std::move(inbox)), log_(log) {
-  use(std::move(profile));
-}
+    : inbox_(std::move(inbox)), log_(log), tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 
-HandEstimatePtr CommandedTracker::process(const HandObservation& observation) {
-  if (inbox_) collect(observation.frame->sensor);
+HandEstimates CommandedTracker::process(const HandObservations& observations) {
+  if (inbox_) collect(observations[0]->frame->sensor);
   if (++frames_ % kPause == 0) allowed_ = std::min(allowed_ + 1, kBurst);
   if (allowed_ > 0 && !waiting_.empty()) follow_waiting();
-  HandEstimatePtr estimate = tracker_->process(observation);
-  hand_id_ = estimate->hand_id;
-  return estimate;
+  return last_ = tracker_.process(observations);
 }
 
 void CommandedTracker::collect(const std::string& sensor) {
   for (Result<Command>& command : inbox_()) {
     if (!command) {
       log_.warn("command", "ignored a command: " + command.error().message());
-    } else if (concerns(*command, sensor)) {
-      const auto replaced = std::erase_if(waiting_, [&](const Command& c) { return c.kind == command->kind; });
+    } else if ((command->sensor.empty() || command->sensor == sensor) && !concerned(*command).empty()) {
+      const auto replaced = std::erase_if(
+          waiting_, [&](const Command& c) { return c.kind == command->kind && c.hand_id == command->hand_id; });
       if (replaced > 0)
         log_.warn("commands", "commands come faster than they are followed; the newest of a kind counts");
       waiting_.push_back(std::move(*command));
@@ -40,27 +37,38 @@ void CommandedTracker::follow_waiting() {
   for (const Command& command : std::exchange(waiting_, {})) follow(command);
 }
 
-bool CommandedTracker::concerns(const Command& command, const std::string& sensor) const {
-  return (command.sensor.empty() || command.sensor == sensor) && (!command.hand_id || *command.hand_id == hand_id_);
+std::vector<int> CommandedTracker::concerned(const Command& command) const {
+  std::vector<int> hands;
+  for (int k = 0; k < tracker_.count(); ++k)
+    if (!command.hand_id || *command.hand_id == (last_.empty() ? 0 : last_[k]->hand_id)) hands.push_back(k);
+  return hands;
 }
 
 void CommandedTracker::follow(const Command& command) {
+  const std::vector<int> hands = concerned(command);
+  if (hands.empty()) return;
   if (command.kind == Command::Kind::reset) {
     log_.logger().info("command: forget the hand and search again");
-    tracker_->reset();
+    for (const int k : hands) tracker_.hand(k).reset();
   } else if (command.kind == Command::Kind::initialise) {
+    if (hands.size() > 1) return log_.warn("command", "ignored a pose: two hands are tracked, it must say whose it is");
     log_.logger().info("command: track from the given pose");
-    tracker_->start_at(command.pose);
+    tracker_.hand(hands[0]).start_at(command.pose);
   } else {
     auto profile = parse_profile(command.profile, "command");
     if (!profile) return log_.warn("command", "ignored a hand profile: " + profile.error().message());
-    log_.logger().info("command: use the given hand profile");
-    use(std::make_shared<const HandProfile>(std::move(*profile)));
+    use(hands, std::move(*profile));
   }
 }
 
-void CommandedTracker::use(std::shared_ptr<const HandProfile> profile) {
-  tracker_ = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_.shared_logger());
+void CommandedTracker::use(const std::vector<int>& hands, HandProfile profile) {
+  for (const int k : hands) {
+    const bool of_this_side = last_.empty() || last_[k]->handedness == profile.handedness;
+    if (tracker_.count() > 1 && !of_this_side) continue;
+    log_.logger().info("command: use the given hand profile");
+    return tracker_.use(k, std::make_shared<const HandProfile>(std::move(profile)));
+  }
+  log_.warn("command", "ignored a hand profile: it is of the other side than the hand it is for");
 }
 
 }  // namespace barehand

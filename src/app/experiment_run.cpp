@@ -108,7 +108,7 @@ tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::stri
             << variant.label << std::endl;
   TrackOptions options;
   options.source = "folder:" + recording(sequence);
-  options.hand = options_.hand;
+  if (!options_.hand.empty()) options.hands = {options_.hand};
   if (!options_.search_start) options.init = recording(sequence) + "/start_pose.json";
   options.result = options_.out + "/results/" + name + ".csv";
   options.overlay = options_.out + "/snapshots/" + name;

@@ -1,13 +1,33 @@
 #include "app/file_sinks.h"
 
+#include <filesystem>
+
 #include "io/hand_json.h"
 
 namespace barehand {
 
-Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path) {
-  auto writer = TableWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  return std::unique_ptr<Sink>(new ResultTableSink(std::move(*writer)));
+std::string path_of_hand(const std::string& path, int k, Handedness side) {
+  if (k == 0) return path;
+  const std::filesystem::path whole(path);
+  return whole.parent_path() /
+         (whole.stem().string() + "_" + std::string(to_string(side)) + whole.extension().string());
+}
+
+Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path, const std::vector<Handedness>& sides) {
+  std::vector<TableWriter> writers;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), sides[k]));
+    if (!writer) return tl::unexpected(writer.error());
+    writers.push_back(std::move(*writer));
+  }
+  return std::unique_ptr<Sink>(new ResultTableSink(std::move(writers)));
+}
+
+Result<void> ResultTableSink::consume(const TrackedFrame& tracked) {
+  Result<void> result;
+  for (std::size_t k = 0; k < writers_.size(); ++k)
+    if (auto written = writers_[k].write(*tracked.estimates[k]); !written && result) result = std::move(written);
+  return result;
 }
 
 Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every) {
@@ -16,9 +36,21 @@ Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, doubl
   return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every));
 }
 
+Result<void> SaveHandSink::consume(const TrackedFrame& tracked) {
+  profiles_.resize(tracked.estimates.size());
+  for (std::size_t k = 0; k < profiles_.size(); ++k)
+    if (tracked.estimates[k]->has_pose()) profiles_[k] = tracked.estimates[k]->profile;
+  return {};
+}
+
 Result<void> SaveHandSink::finish() {
-  if (!profile_) return fail("no hand was tracked, nothing to save", path_, "hold the open hand before the sensor");
-  return save_profile(*profile_, path_);
+  Result<void> result = fail("no hand was tracked, nothing to save", path_, "hold the open hand before the sensor");
+  for (std::size_t k = 0; k < profiles_.size(); ++k) {
+    if (!profiles_[k]) continue;
+    result = save_profile(*profiles_[k], path_of_hand(path_, static_cast<int>(k), profiles_[k]->handedness));
+    if (!result) return result;
+  }
+  return result;
 }
 
 }  // namespace barehand

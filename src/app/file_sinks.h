@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/sink.h"
 #include "io/overlay.h"
@@ -8,26 +10,31 @@
 
 namespace barehand {
 
-/// --result: the table of formats.md.
+/// Where a file of the k-th hand goes: the first one's to `path`, that of another one, of the other side, beside it:
+/// out.csv, out_left.csv.
+std::string path_of_hand(const std::string& path, int k, Handedness side);
+
+/// --result: the table of formats.md, one a hand.
 class ResultTableSink : public Sink {
  public:
-  static Result<std::unique_ptr<Sink>> create(const std::string& path);
+  /// `sides`: of the hands.
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, const std::vector<Handedness>& sides);
   std::string name() const override { return "result table"; }
-  Result<void> consume(const TrackedFrame& tracked) override { return writer_.write(*tracked.estimate); }
+  Result<void> consume(const TrackedFrame& tracked) override;
 
  private:
-  explicit ResultTableSink(TableWriter writer) : writer_(std::move(writer)) {}
-  TableWriter writer_;
+  explicit ResultTableSink(std::vector<TableWriter> writers) : writers_(std::move(writers)) {}
+  std::vector<TableWriter> writers_;
 };
 
-/// --overlay: the tracked hand drawn over the images, on the first and then on each `every`-th frame.
+/// --overlay: the tracked hands drawn over the images, on the first and then on each `every`-th frame.
 class OverlaySink : public Sink {
  public:
   static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every);
   std::string name() const override { return "overlay"; }
   Result<void> consume(const TrackedFrame& tracked) override {
     if (seen_++ % every_ != 0) return {};
-    return writer_.write(*tracked.frame, *tracked.estimate);
+    return writer_.write(*tracked.frame, tracked.estimates);
   }
   Result<void> finish() override { return writer_.finish(); }
 
@@ -38,20 +45,17 @@ class OverlaySink : public Sink {
   std::int64_t seen_ = 0;
 };
 
-/// --save-hand: the hand that was tracked with in the end, as fitted to the person.
+/// --save-hand: the hands that were tracked with in the end, as fitted to the person.
 class SaveHandSink : public Sink {
  public:
   explicit SaveHandSink(std::string path) : path_(std::move(path)) {}
   std::string name() const override { return "hand profile"; }
-  Result<void> consume(const TrackedFrame& tracked) override {
-    if (tracked.estimate->has_pose()) profile_ = tracked.estimate->profile;
-    return {};
-  }
+  Result<void> consume(const TrackedFrame& tracked) override;
   Result<void> finish() override;
 
  private:
   const std::string path_;
-  std::shared_ptr<const HandProfile> profile_;
+  std::vector<std::shared_ptr<const HandProfile>> profiles_;  // null: of a hand that was not tracked
 };
 
 }  // namespace barehand

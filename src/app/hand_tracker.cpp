@@ -13,7 +13,7 @@ constexpr double kDistinct = 0.001;              // start poses closer than this
 }  // namespace
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-                         Workers& workers, std::shared_ptr<spdlog::logger> log)
+                         Workers& workers, std::shared_ptr<spdlog::logger> log, HandIds ids)
     : params_(params),
       seed_(seed),
       workers_(workers),
@@ -21,7 +21,8 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       model_(std::make_unique<HandModel>(params_, std::move(profile), workers_, log_)),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
-      uncertainty_(params_.uncertainty, params_.refinement.energy) {
+      uncertainty_(params_.uncertainty, params_.refinement.energy),
+      ids_(ids) {
   if (params_.shape_fit.enabled && model_->profile->origin == ProfileOrigin::mean)
     person_.emplace(params_.shape_fit, model_->profile);
 }
@@ -55,14 +56,32 @@ void HandTracker::change(const TrackerParams& params) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
-  ++frame_;
-  const std::int64_t utime = observation.frame->utime;
   if (requested_start_) {
-    motion_.restart(*requested_start_, utime);
+    motion_.restart(*requested_start_, observation.frame->utime);
     loss_.start_tracking();
-    ++hand_id_;
+    give_new_id();
     requested_start_.reset();
   }
+  const TrackEvidence seen = evidence(observation);
+  std::optional<Fit> fit;
+  if (seen.hand_pixels >= params_.loss.min_hand_pixels) fit = explain(observation, loss_.bad_threshold(seen));
+  return judge(observation, fit, seen);
+}
+
+HandEstimatePtr HandTracker::process(const HandObservation& observation, std::optional<Fit> found) {
+  ++search_frames_;
+  TrackEvidence seen = evidence(observation);
+  if (!found) seen.hand_pixels = 0;
+  return judge(observation, found, seen);
+}
+
+std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation) {
+  if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
+  return search(observation);
+}
+
+TrackEvidence HandTracker::evidence(const HandObservation& observation) {
+  const std::int64_t utime = observation.frame->utime;
   TrackEvidence evidence;
   // A recording played backwards has falling stamps: what counts is the time between frames.
   evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * kMicro : 0.0;
@@ -70,9 +89,12 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   evidence.noise = observation.noise;
   evidence.hand_length = model_->profile->hand_length();
   last_utime_ = utime;
+  return evidence;
+}
 
-  std::optional<Fit> fit;
-  if (evidence.hand_pixels >= params_.loss.min_hand_pixels) fit = explain(observation, loss_.bad_threshold(evidence));
+HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std::optional<Fit>& fit,
+                                   TrackEvidence evidence) {
+  ++frame_;
   if (fit) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
@@ -98,6 +120,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     found = search_once(observation, Effort::quick, 0);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
     found = search(observation);
+    ++search_frames_;
   }
   if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
   return fit;
@@ -112,7 +135,7 @@ bool HandTracker::doubtful(double score) {
 
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   if (!fit.prediction) {
-    if (!motion_.has_pose()) ++hand_id_;
+    if (!motion_.has_pose()) give_new_id();
     motion_.restart(fit.refined.pose, observation.frame->utime);
     return;
   }
@@ -196,7 +219,7 @@ void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
 }
 
 std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
-  const Effort effort = search_frames_++ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
+  const Effort effort = search_frames_ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
   // A hand that was tracked before is near its last pose; only a first start is worth several attempts.
   const int attempts = effort == Effort::full && !last_good_ ? params_.search_attempts : 1;
   std::optional<Fit> best;

@@ -12,17 +12,39 @@
 
 namespace barehand {
 
+/// The ids that a tracker gives to the hands it finds, one after the other.
+struct HandIds {
+  std::int32_t first = 1, step = 1;
+};
+
 /// Tracks one hand through a sequence of observations, in order: prediction, then segment tracker and fusion level by
 /// level, then refinement and the choice of the best hypothesis by one global score. Without a hand, or after a loss,
 /// it searches. Synchronous; owns no thread, clock, file or socket. Same observations and seed, same estimates.
 class HandTracker {
  public:
+  /// What one frame yielded before it is judged.
+  struct Fit {
+    RefinedPose refined;
+    double joint_gap = 0;
+    std::optional<Prediction> prediction;                       ///< none: found by a search
+    std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance by the sampler alone, without refinement
+  };
+
   /// `workers` outlives it; `log` hears what compares samples with the data, and when that is lost.
   HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-              Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger());
+              Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger(), HandIds ids = {});
 
   /// Never null; says searching or lost where there is no hand.
   HandEstimatePtr process(const HandObservation& observation);
+  /// The same where somebody else decides whether it is this hand: `found` by look(), or nothing.
+  HandEstimatePtr process(const HandObservation& observation, std::optional<Fit> found);
+  /// The best pose that a search finds in the next observation, if that shows this hand.
+  std::optional<Fit> look(const HandObservation& observation);
+  /// As of the last observation.
+  TrackStatus status() const { return loss_.status(); }
+  /// As fitted to the person so far.
+  const HandProfile& profile() const { return *model_->profile; }
+  bool start_is_given() const { return requested_start_.has_value(); }
   /// The next observation is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
   /// Goes on with other parameters: the same hand from its last pose, as fitted to the person so far. What fits it
@@ -32,13 +54,6 @@ class HandTracker {
   void reset();
 
  private:
-  /// What one frame yielded before it is judged.
-  struct Fit {
-    RefinedPose refined;
-    double joint_gap = 0;
-    std::optional<Prediction> prediction;                       ///< none: found by a search
-    std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance by the sampler alone, without refinement
-  };
   /// `best` becomes `other` if it is none or scores worse.
   static void keep_better(std::optional<Fit>& best, const Fit& other);
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
@@ -47,6 +62,9 @@ class HandTracker {
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
+  TrackEvidence evidence(const HandObservation& observation);
+  HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
+  void give_new_id() { hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first; }
   void relax_hidden(const HandObservation& observation, RefinedPose& found);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
@@ -68,11 +86,12 @@ class HandTracker {
   LossDetector loss_;
   PoseUncertainty uncertainty_;
 
-  std::uint32_t frame_ = 0;  // observations so far: keys the random numbers
+  std::uint32_t frame_ = 1;  // of the next observation: keys the random numbers
   int search_frames_ = 0;    // since the last hand
   int doubtful_frames_ = 0;
   UsualScore usual_score_;
   std::int64_t last_utime_ = 0;
+  const HandIds ids_;
   std::int32_t hand_id_ = 0;
   std::optional<HandPose> requested_start_, last_good_;
   HandEstimatePtr last_tracked_;  // base of velocities and of holding

@@ -59,10 +59,10 @@ void Pipeline::run_threaded() {
   });
   std::jthread preprocessor([&] {
     while (true) {
-      const HandEstimatePtr hint = take_hint();  // first: a frame that waits for it at the door can still be replaced
+      const HandEstimates hints = take_hints();  // first: a frame that waits for it at the door can still be replaced
       auto item = pop(kDoor);
       if (!item) break;
-      if (preprocess(*item, hint.get())) push(kToTrack, std::move(*item));
+      if (preprocess(*item, hints)) push(kToTrack, std::move(*item));
     }
     queues_[kToTrack].close();
   });
@@ -103,12 +103,12 @@ std::optional<Pipeline::Item> Pipeline::waited_for(QueueIndex queue, std::option
 }
 
 void Pipeline::process(Item item) {
-  const HandEstimatePtr hint = take_hint();
-  if (preprocess(item, hint.get()) && track(item)) deliver(item);
+  const HandEstimates hints = take_hints();
+  if (preprocess(item, hints) && track(item)) deliver(item);
 }
 
-HandEstimatePtr Pipeline::take_hint() {
-  return next_index_ >= kFeedbackLag ? feedback_.take(next_index_ - kFeedbackLag) : nullptr;
+HandEstimates Pipeline::take_hints() {
+  return next_index_ >= kFeedbackLag ? feedback_.take(next_index_ - kFeedbackLag) : HandEstimates{};
 }
 
 Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
@@ -123,7 +123,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
     notice_at_ = kFirstNotice;
-    push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), nullptr, nullptr}});
+    push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), {}, {}}});
     return Capture::frame;
   }
   if (auto* skipped = std::get_if<SkippedFrame>(&event)) {
@@ -149,28 +149,28 @@ Pipeline::Capture Pipeline::waited(std::chrono::milliseconds patience) {
   return Capture::nothing;
 }
 
-bool Pipeline::preprocess(Item& item, const HandEstimate* hint) {
+bool Pipeline::preprocess(Item& item, const HandEstimates& hints) {
   item.index = next_index_++;
-  auto observation = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, hint); });
-  if (observation) {
-    item.data.observation = std::move(*observation);
+  auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, hints); });
+  if (observations) {
+    item.data.observations = std::move(*observations);
     return true;
   }
-  feedback_.post(item.index, nullptr);
+  feedback_.post(item.index, {});
   ++failed_;
-  report(preprocess_monitor_, item, observation.error());
-  end_if_hopeless(preprocess_monitor_, observation.error());
+  report(preprocess_monitor_, item, observations.error());
+  end_if_hopeless(preprocess_monitor_, observations.error());
   return false;
 }
 
 bool Pipeline::track(Item& item) {
-  auto estimate = track_monitor_.run([&] { return stages_.track(item.data.observation); });
-  if (estimate) item.data.estimate = std::move(*estimate);
-  feedback_.post(item.index, item.data.estimate);
-  if (estimate) return true;
+  auto estimates = track_monitor_.run([&] { return stages_.track(item.data.observations); });
+  if (estimates) item.data.estimates = std::move(*estimates);
+  feedback_.post(item.index, item.data.estimates);
+  if (estimates) return true;
   ++failed_;
-  report(track_monitor_, item, estimate.error());
-  end_if_hopeless(track_monitor_, estimate.error());
+  report(track_monitor_, item, estimates.error());
+  end_if_hopeless(track_monitor_, estimates.error());
   return false;
 }
 

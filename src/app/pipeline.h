@@ -20,7 +20,7 @@
 
 namespace barehand {
 
-/// Preprocess gets, with the k-th frame, the estimate of frame k - kFeedbackLag: always that one, so that the threaded
+/// Preprocess gets, with the k-th frame, the estimates of frame k - kFeedbackLag: always that one, so that the threaded
 /// and the inline runner give identical results. 1 would make preprocess wait for the tracker to finish the frame
 /// before, and nothing would run side by side; 2 lets preprocess of one frame run while the one before is tracked.
 inline constexpr std::int64_t kFeedbackLag = 2;
@@ -28,9 +28,9 @@ inline constexpr std::int64_t kFeedbackLag = 2;
 /// The stages that the pipeline joins. The source and the functions are used by one thread each.
 struct PipelineStages {
   FrameSource& source;
-  /// `hint`: see kFeedbackLag; null for the first frames and where a stage failed.
-  std::function<Result<HandObservationPtr>(const FramePtr& frame, const HandEstimate* hint)> preprocess;
-  std::function<Result<HandEstimatePtr>(const HandObservationPtr& observation)> track;
+  /// `hints`: see kFeedbackLag; empty for the first frames and where a stage failed.
+  std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& hints)> preprocess;
+  std::function<Result<HandEstimates>(const HandObservations& observations)> track;
   std::vector<Sink*> sinks;  ///< every one gets every frame, in this order
 };
 
@@ -98,8 +98,8 @@ class Pipeline {
   void run_inline();
   void run_threaded();
   void process(Item item);
-  HandEstimatePtr take_hint();
-  bool preprocess(Item& item, const HandEstimate* hint);
+  HandEstimates take_hints();
+  bool preprocess(Item& item, const HandEstimates& hints);
   bool track(Item& item);
   void deliver(const Item& item);
   void idle();
@@ -119,7 +119,7 @@ class Pipeline {
   RepeatLog& log_;
 
   std::array<Queue, kQueueCount> queues_;
-  Feedback<HandEstimate> feedback_;
+  Feedback<HandEstimates> feedback_;
   StageMonitor preprocess_monitor_, track_monitor_;
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
   std::atomic<bool> stop_ = false, ending_ = false;

@@ -16,19 +16,24 @@ ProgressSink::ProgressSink(std::ostream& out, Options options, const Clock& cloc
 
 Result<void> ProgressSink::consume(const TrackedFrame& tracked) {
   ++done_;
-  ++counts_.frames[static_cast<int>(tracked.estimate->status)];
+  counts_.resize(tracked.estimates.size());
+  for (std::size_t k = 0; k < counts_.size(); ++k) {
+    counts_[k].handedness = tracked.estimates[k]->handedness;
+    ++counts_[k].frames[static_cast<int>(tracked.estimates[k]->status)];
+  }
   const std::int64_t now = clock_.steady_us();
   if (options_.quiet) return {};
-  if (now - last_us_ >= (options_.terminal ? kTerminalPeriodUs : kLogPeriodUs)) print(*tracked.estimate, now);
+  if (now - last_us_ >= (options_.terminal ? kTerminalPeriodUs : kLogPeriodUs)) print(tracked.estimates, now);
   return {};
 }
 
-void ProgressSink::print(const HandEstimate& estimate, std::int64_t now_us) {
+void ProgressSink::print(const HandEstimates& estimates, std::int64_t now_us) {
   const double rate = (done_ - last_done_) * 1e6 / static_cast<double>(now_us - last_us_);
   const std::string total = options_.frames ? "/" + std::to_string(*options_.frames) : "";
-  const std::string line =
-      formatted("%lld%s frames, %.1f frames/s, frame %lld: %s", static_cast<long long>(done_), total.c_str(), rate,
-                static_cast<long long>(estimate.number), to_string(estimate.status).data());
+  std::string line = formatted("%lld%s frames, %.1f frames/s, frame %lld:", static_cast<long long>(done_),
+                               total.c_str(), rate, static_cast<long long>(estimates[0]->number));
+  for (const HandEstimatePtr& hand : estimates)
+    line += formatted("%s%s", hand == estimates[0] ? " " : ", ", to_string(hand->status).data());
   out_ << (options_.terminal ? "\r\x1b[K" : "") << line << (options_.terminal ? "" : "\n") << std::flush;
   line_open_ = options_.terminal;
   last_us_ = now_us;

@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <iosfwd>
 #include <optional>
+#include <vector>
 
 #include "app/sink.h"
 #include "core/clock.h"
 
 namespace barehand {
 
-/// Frames by track status.
+/// Frames of one hand by track status.
 struct StatusCounts {
+  Handedness handedness = Handedness::right;
   std::array<std::int64_t, 4> frames{};  ///< indexed by TrackStatus
   std::int64_t of(TrackStatus status) const { return frames[static_cast<int>(status)]; }
 };
@@ -29,15 +31,16 @@ class ProgressSink : public Sink {
   std::string name() const override { return "progress"; }
   Result<void> consume(const TrackedFrame& tracked) override;
   Result<void> finish() override;
-  const StatusCounts& counts() const { return counts_; }
+  /// One a hand.
+  const std::vector<StatusCounts>& counts() const { return counts_; }
 
  private:
-  void print(const HandEstimate& estimate, std::int64_t now_us);
+  void print(const HandEstimates& estimates, std::int64_t now_us);
 
   std::ostream& out_;
   const Options options_;
   const Clock& clock_;
-  StatusCounts counts_;
+  std::vector<StatusCounts> counts_;
   std::int64_t done_ = 0, last_done_ = 0;
   std::int64_t last_us_;
   bool line_open_ = false;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/sink.h"
 #include "core/clock.h"
@@ -13,6 +14,22 @@
 #include "stages/publish/publisher.h"
 
 namespace barehand {
+
+/// Sends the states of every hand, one after the other on the same channels: their ids tell them apart.
+class StatePublisher {
+ public:
+  /// `news` (may be null; looked at before every frame) outlives it.
+  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* news)
+      : params_(params), publisher_(std::move(publisher)), news_(news) {}
+  Result<void> send(const HandEstimates& estimates);
+  Result<void> send(const health_t& health) { return publisher_.send(health); }
+
+ private:
+  PublishParams params_;
+  std::vector<HandMessageMaker> makers_;  // one a hand
+  Publisher publisher_;
+  Slot<PublishParams>* news_;
+};
 
 /// Sends the states of every frame, and the health now and then, to the bus.
 class BusSink : public Sink {
@@ -32,15 +49,12 @@ class BusSink : public Sink {
   Result<void> idle() override { return send_health_when_due(); }
 
  private:
-  BusSink(const PublishParams& params, Publisher publisher, Health health, const Clock& clock,
-          Slot<PublishParams>* news);
+  BusSink(StatePublisher states, Health health, const Clock& clock);
   Result<void> send_health_when_due();
 
-  HandMessageMaker maker_;
-  Publisher publisher_;
+  StatePublisher states_;
   Health health_;
   const Clock& clock_;
-  Slot<PublishParams>* const news_;
   std::int64_t next_health_us_;
 };
 
@@ -51,16 +65,14 @@ class StatesLogSink : public Sink {
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
                                               const std::string& path, Slot<PublishParams>* news = nullptr);
   std::string name() const override { return "states log"; }
-  Result<void> consume(const TrackedFrame& tracked) override;
+  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
 
  private:
-  StatesLogSink(const PublishParams& params, std::unique_ptr<LcmLogWriter> log, Publisher publisher,
-                Slot<PublishParams>* news);
+  StatesLogSink(std::unique_ptr<LcmLogWriter> log, StatePublisher states)
+      : log_(std::move(log)), states_(std::move(states)) {}
 
-  HandMessageMaker maker_;
   std::unique_ptr<LcmLogWriter> log_;
-  Publisher publisher_;
-  Slot<PublishParams>* const news_;
+  StatePublisher states_;
 };
 
 }  // namespace barehand

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/config.h"
 #include "app/source_factory.h"
@@ -18,7 +19,10 @@ struct NamedHand {
   std::string name;  ///< where it comes from, for messages
 };
 
-/// `wanted`: a profile's path; "": the one that comes with the source, else the shipped mean adult hand.
-Result<NamedHand> choose_hand(const std::string& wanted, const OpenSource& source);
+/// Every `wanted`: a profile's path; right, left or both: the shipped mean adult hand. None: those that come with the
+/// source, else the shipped right hand. Errors: more than a right and a left one.
+Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source);
+/// Of each, in that order.
+std::vector<std::shared_ptr<const HandProfile>> profiles_of(const std::vector<NamedHand>& hands);
 
 }  // namespace barehand

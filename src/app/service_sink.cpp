@@ -19,7 +19,9 @@ ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()>
       told_us_(clock.steady_us()) {}
 
 Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
-  hand_ = tracked.estimate->status;
+  hands_.clear();
+  for (const HandEstimatePtr& hand : tracked.estimates)
+    hands_ += (hands_.empty() ? "" : ", ") + std::string(to_string(hand->status));
   frame_us_ = clock_.steady_us();
   return idle();
 }
@@ -41,7 +43,7 @@ void ServiceSink::feed() {
 void ServiceSink::tell() {
   const std::int64_t now_us = clock_.steady_us();
   const PipelineHealth health = health_();
-  std::string text = "hand: " + std::string(to_string(hand_));
+  std::string text = "hand: " + hands_;
   if (now_us - frame_us_ >= kNoFramesUs)
     text = formatted("no frames for %lld s", static_cast<long long>((now_us - frame_us_) / 1'000'000));
   const double rate =

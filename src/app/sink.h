@@ -11,8 +11,8 @@ namespace barehand {
 /// One frame with all that became of it.
 struct TrackedFrame {
   FramePtr frame;
-  HandObservationPtr observation;
-  HandEstimatePtr estimate;
+  HandObservations observations;
+  HandEstimates estimates;
 };
 
 /// Where results go: the bus, a table, a log, pictures. Used by one thread, in the order of the frames.

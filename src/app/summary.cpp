@@ -22,17 +22,19 @@ std::string drops(const std::vector<QueueHealth>& queues) {
 
 }  // namespace
 
-std::string summary(const PipelineHealth& health, const StatusCounts& status, double seconds) {
+std::string summary(const PipelineHealth& health, const std::vector<StatusCounts>& hands, double seconds) {
   std::string text = formatted("%lld frames in %.1f s (%.1f frames/s): %lld published, %lld dropped, %lld failed",
                                static_cast<long long>(health.captured), seconds,
                                seconds > 0 ? static_cast<double>(health.published) / seconds : 0.0,
                                static_cast<long long>(health.published), static_cast<long long>(health.dropped),
                                static_cast<long long>(health.failed));
   text += formatted("; %lld unreadable ones skipped\n", static_cast<long long>(health.skipped)) + drops(health.queues);
-  text += formatted(
-      "hand: tracked in %lld frames, held in %lld, lost in %lld, searched for in %lld\n",
-      static_cast<long long>(status.of(TrackStatus::tracking)), static_cast<long long>(status.of(TrackStatus::holding)),
-      static_cast<long long>(status.of(TrackStatus::lost)), static_cast<long long>(status.of(TrackStatus::searching)));
+  for (const StatusCounts& hand : hands)
+    text += formatted(
+        "%s: tracked in %lld frames, held in %lld, lost in %lld, searched for in %lld\n",
+        hands.size() == 1 ? "hand" : (std::string(to_string(hand.handedness)) + " hand").c_str(),
+        static_cast<long long>(hand.of(TrackStatus::tracking)), static_cast<long long>(hand.of(TrackStatus::holding)),
+        static_cast<long long>(hand.of(TrackStatus::lost)), static_cast<long long>(hand.of(TrackStatus::searching)));
   text += formatted("  %-16s %8s %8s %8s %8s %8s %8s\n", "time [ms]", "frames", "mean", "median", "p95", "p99", "max");
   for (const StageHealth& stage : health.stages) text += time_row(stage.name, stage.time);
   return text + time_row("latency", health.latency);

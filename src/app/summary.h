@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// The closing report of a run, for people: frames, track status, drops, times per stage in milliseconds.
-std::string summary(const PipelineHealth& health, const StatusCounts& status, double seconds);
+/// The closing report of a run, for people: frames, track status of each hand, drops, times per stage in milliseconds.
+std::string summary(const PipelineHealth& health, const std::vector<StatusCounts>& hands, double seconds);
 /// One line on how the pipeline is doing.
 std::string health_line(const PipelineHealth& health);
 

@@ -19,7 +19,12 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->add_option("--config", o.config,
                    "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
       ->capture_default_str();
-  track->add_option("--hand", o.hand, "hand.json; default: the recording's own, else the shipped mean adult hand");
+  track
+      ->add_option("--hand", o.hands,
+                   "hand.json, or right, left, both: the shipped mean adult hand; twice for a right and a left hand "
+                   "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   track->add_option("--start", o.start, "first frame of a recording; backwards, play goes from there down to 0");
   track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
   track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace barehand {
 
@@ -10,12 +11,12 @@ namespace barehand {
 struct TrackOptions {
   std::string source;
   std::string config = "default.yaml";
-  std::string hand;  ///< "": the recording's own, or the shipped adult hand
+  std::vector<std::string> hands;  ///< none: the recording's own, or the shipped adult hand
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
   std::string result, states_log, overlay, save_hand;  ///< "": not written
-  int overlay_every = 1;                    ///< every so many frames are drawn
+  int overlay_every = 1;                               ///< every so many frames are drawn
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< instead of the configuration's
   int threads = 1;

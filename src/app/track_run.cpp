@@ -52,7 +52,7 @@ class TrackRun {
 
  private:
   Step open_input();
-  Step use_hand();
+  Step use_hands();
   Step choose_start();
   Step open_outputs();
   Step open_bus();
@@ -78,7 +78,7 @@ class TrackRun {
   InterruptWatcher interrupt_;  // before anything that starts threads
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
-  std::shared_ptr<const HandProfile> profile_;
+  HandsTracker::Profiles profiles_;
   std::optional<HandPose> initial_;
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
@@ -92,7 +92,7 @@ Step TrackRun::prepare() {
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
-  return open_input().and_then([&] { return use_hand(); }).and_then([&] { return choose_start(); }).and_then([&] {
+  return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();
   });
 }
@@ -114,17 +114,17 @@ Step TrackRun::open_input() {
   return {};
 }
 
-Step TrackRun::use_hand() {
-  auto hand = choose_hand(options_.hand, input_);
-  if (!hand) return usage(hand.error());
-  log_.logger().info("hand profile: {}", hand->name);
-  profile_ = std::move(hand->profile);
+Step TrackRun::use_hands() {
+  const auto hands = choose_hands(options_.hands, input_);
+  if (!hands) return usage(hands.error());
+  for (const NamedHand& hand : *hands) log_.logger().info("hand profile: {}", hand.name);
+  profiles_ = profiles_of(*hands);
   return {};
 }
 
 Step TrackRun::choose_start() {
   if (options_.init == "auto") return {};
-  auto pose = load_pose(options_.init, *profile_);
+  auto pose = load_pose(options_.init, *profiles_[0]);
   if (!pose) return usage(pose.error());
   initial_ = *pose;
   return {};
@@ -140,7 +140,11 @@ Step TrackRun::open_outputs() {
   Step ok;
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
-  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result));
+  if (ok && !options_.result.empty()) {
+    std::vector<Handedness> sides;
+    for (const auto& profile : profiles_) sides.push_back(profile->handedness);
+    ok = add(ResultTableSink::create(options_.result, sides));
+  }
   if (ok && !options_.states_log.empty())
     ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
   if (ok && !options_.overlay.empty())
@@ -234,7 +238,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 }
 
 TrackOutcome TrackRun::run() {
-  TrackStages computing = make_track_stages(config_, profile_, initial_, inbox(), *workers_, log_, &news_);
+  TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &news_);
   PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;

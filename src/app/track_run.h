@@ -19,9 +19,9 @@ struct TrackFailure {
 /// How a run went.
 struct TrackOutcome {
   PipelineHealth health;
-  StatusCounts status;
-  double seconds = 0;    ///< wall clock
-  bool stopped = false;  ///< by a signal; everything tracked until then is written
+  std::vector<StatusCounts> status;  ///< one a hand
+  double seconds = 0;                ///< wall clock
+  bool stopped = false;              ///< by a signal; everything tracked until then is written
   int exit_code = kExitOk;
 };
 

@@ -4,22 +4,23 @@
 
 namespace barehand {
 
-TrackStages make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
+TrackStages make_track_stages(const Config& config, const HandsTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
                               RepeatLog& log, NewParams* news) {
+  const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
-      std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess));
+      std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
   auto tracker = std::make_shared<CommandedTracker>(
-      config.tracker, std::move(profile), static_cast<std::uint64_t>(config.run.seed), workers, std::move(inbox), log);
+      config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers, std::move(inbox), log);
   if (initial) tracker->start_at(*initial);
-  return {[preprocessor, news](const FramePtr& frame, const HandEstimate* hint) {
+  return {[preprocessor, hands, news](const FramePtr& frame, const HandEstimates& hints) {
             if (const auto params = news ? news->preprocess.take() : std::nullopt)
-              *preprocessor = std::make_unique<Preprocessor>(*params);
-            return (*preprocessor)->process(frame, hint);
+              *preprocessor = std::make_unique<Preprocessor>(*params, hands);
+            return (*preprocessor)->process(frame, hints);
           },
-          [tracker, news](const HandObservationPtr& observation) -> Result<HandEstimatePtr> {
+          [tracker, news](const HandObservations& observations) -> Result<HandEstimates> {
             if (const auto params = news ? news->tracker.take() : std::nullopt) tracker->change(*params);
-            return tracker->process(*observation);
+            return tracker->process(observations);
           }};
 }
 

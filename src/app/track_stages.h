@@ -16,13 +16,14 @@ namespace barehand {
 
 /// The two computing stages as the pipeline wants them; they own their stage objects.
 struct TrackStages {
-  std::function<Result<HandObservationPtr>(const FramePtr& frame, const HandEstimate* hint)> preprocess;
-  std::function<Result<HandEstimatePtr>(const HandObservationPtr& observation)> track;
+  std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& hints)> preprocess;
+  std::function<Result<HandEstimates>(const HandObservations& observations)> track;
 };
 
-/// `initial`: start from this pose; none: find the hand. `inbox`: commands from outside; may be empty. `news`: looked
-/// at before every frame; may be null. `workers`, `log` and `news` outlive the stages.
-TrackStages make_track_stages(const Config& config, std::shared_ptr<const HandProfile> profile,
+/// `profiles`: of the hands to track. `initial`: start the first from this pose; none: find it. `inbox`: commands from
+/// outside; may be empty. `news`: looked at before every frame; may be null. `workers`, `log` and `news` outlive the
+/// stages.
+TrackStages make_track_stages(const Config& config, const HandsTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
                               RepeatLog& log, NewParams* news = nullptr);
 

@@ -3,7 +3,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <mutex>
 
 namespace barehand {
@@ -13,14 +12,13 @@ namespace barehand {
 template <typename T>
 class Feedback {
  public:
-  /// null: there is no result for this frame, because a stage failed on it.
-  void post(std::int64_t frame, std::shared_ptr<const T> result) {
+  void post(std::int64_t frame, T result) {
     std::unique_lock lock(mutex_);
     results_[frame] = std::move(result);
     posted_.notify_all();
   }
 
-  std::shared_ptr<const T> take(std::int64_t frame) {
+  T take(std::int64_t frame) {
     std::unique_lock lock(mutex_);
     posted_.wait(lock, [&] { return results_.contains(frame); });
     return std::move(results_.extract(frame).mapped());
@@ -29,7 +27,7 @@ class Feedback {
  private:
   std::mutex mutex_;
   std::condition_variable posted_;
-  std::map<std::int64_t, std::shared_ptr<const T>> results_;  ///< as many as frames are in flight
+  std::map<std::int64_t, T> results_;  ///< as many as frames are in flight
 };
 
 }  // namespace barehand

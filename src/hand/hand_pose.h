@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hand/profile.h"
 
@@ -44,5 +45,7 @@ struct HandEstimate {
   bool has_pose() const { return status == TrackStatus::tracking || status == TrackStatus::holding; }
 };
 using HandEstimatePtr = std::shared_ptr<const HandEstimate>;
+/// One a hand that is looked for, always in the same order; of one frame.
+using HandEstimates = std::vector<HandEstimatePtr>;
 
 }  // namespace barehand

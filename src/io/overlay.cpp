@@ -76,39 +76,41 @@ class OverlayWriter::Video : public OverlayWriter::Output {
   bool written_ = false;
 };
 
-Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps,
-                                          std::shared_ptr<const HandSurface> surface) {
+Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps) {
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".mp4" || ending == ".avi") {
     // The size is known with the first frame only; a small video tells now whether there is a codec.
     if (const auto probe = Video(path, fps).open({64, 64}); !probe) return tl::unexpected(probe.error());
     std::error_code ignored;
     fs::remove(path, ignored);
-    return OverlayWriter(std::make_unique<Video>(path, fps), std::move(surface));
+    return OverlayWriter(std::make_unique<Video>(path, fps));
   }
   std::error_code error;
   fs::create_directories(path, error);
   if (error) return fail("cannot be made: " + error.message(), path, "check the path and its permissions");
-  return OverlayWriter(std::make_unique<Folder>(path), std::move(surface));
+  return OverlayWriter(std::make_unique<Folder>(path));
 }
 
-OverlayWriter::OverlayWriter(std::unique_ptr<Output> output, std::shared_ptr<const HandSurface> surface)
-    : output_(std::move(output)), surface_(std::move(surface)), own_surface_(!surface_) {}
+OverlayWriter::OverlayWriter(std::unique_ptr<Output> output) : output_(std::move(output)) {}
 OverlayWriter::OverlayWriter(OverlayWriter&&) noexcept = default;
 OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
 OverlayWriter::~OverlayWriter() = default;
 
-const HandSurface& OverlayWriter::skin_of(const HandEstimate& estimate) {
+void OverlayWriter::Outline::follow(const HandEstimate& estimate) {
   constexpr int kPoints = 240;  // a segment; enough for a smooth outline
-  if (own_surface_ && (!surface_ || (estimate.profile && estimate.profile != profile_))) {
-    profile_ = estimate.profile;
-    surface_ = std::make_shared<HandSurface>(profile_ ? make_cylinder_surface(*profile_, kPoints) : HandSurface{});
-  }
-  return *surface_;
+  if (!estimate.profile || estimate.profile == profile) return;
+  profile = estimate.profile;
+  surface = make_cylinder_surface(*profile, kPoints);
 }
 
-Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimate& estimate) {
-  return output_->write(draw_overlay(frame, estimate, skin_of(estimate)), frame.number);
+Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimates& estimates) {
+  outlines_.resize(estimates.size());
+  std::vector<DrawnHand> hands;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    outlines_[k].follow(*estimates[k]);
+    hands.push_back({*estimates[k], outlines_[k].surface});
+  }
+  return output_->write(draw_overlay(frame, hands), frame.number);
 }
 
 Result<void> OverlayWriter::finish() { return output_->finish(); }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "hand/hand_pose.h"
@@ -14,16 +15,14 @@ namespace barehand {
 /// number, into a folder, which is made.
 class OverlayWriter {
  public:
-  /// `fps`: of the video. `surface`: the skin to outline; without it that of the estimate's profile (cylinders).
-  /// Errors: a folder that cannot be made, a video codec that is not installed.
-  static Result<OverlayWriter> open(const std::string& path, double fps,
-                                    std::shared_ptr<const HandSurface> surface = nullptr);
+  /// `fps`: of the video. Errors: a folder that cannot be made, a video codec that is not installed.
+  static Result<OverlayWriter> open(const std::string& path, double fps);
   OverlayWriter(OverlayWriter&&) noexcept;
   OverlayWriter& operator=(OverlayWriter&&) noexcept;
   ~OverlayWriter();
 
   /// Errors: a full disk; in a video, frames that change their size.
-  Result<void> write(const RgbdFrame& frame, const HandEstimate& estimate);
+  Result<void> write(const RgbdFrame& frame, const HandEstimates& estimates);
   /// Closes a video, which cannot be played before; the destructor does so too, but cannot report errors.
   Result<void> finish();
 
@@ -31,13 +30,17 @@ class OverlayWriter {
   class Output;
   class Folder;
   class Video;
-  OverlayWriter(std::unique_ptr<Output> output, std::shared_ptr<const HandSurface> surface);
-  const HandSurface& skin_of(const HandEstimate& estimate);
+  explicit OverlayWriter(std::unique_ptr<Output> output);
+
+  /// Of the cylinders of a hand's profile.
+  struct Outline {
+    std::shared_ptr<const HandProfile> profile;
+    HandSurface surface;
+    void follow(const HandEstimate& estimate);
+  };
 
   std::unique_ptr<Output> output_;
-  std::shared_ptr<const HandSurface> surface_;
-  bool own_surface_;  ///< made here, for profile_
-  std::shared_ptr<const HandProfile> profile_;
+  std::vector<Outline> outlines_;  // one a hand
 };
 
 }  // namespace barehand

@@ -117,10 +117,14 @@ Image<Rgb> grey_depth_picture(const RgbdFrame& frame) {
   return picture;
 }
 
-DepthRange shown_range(const RgbdFrame& frame, const HandEstimate& estimate) {
-  if (!estimate.has_pose()) return typical_range(frame);
-  const double z = estimate.segments[segment_of(2, 0)].T_camera_segment.t.z();
-  return {z - kDepthAround, z + kDepthAround};
+DepthRange shown_range(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
+  DepthRange range{INFINITY, -INFINITY};
+  for (const DrawnHand& hand : hands) {
+    if (!hand.estimate.has_pose()) continue;
+    const double z = hand.estimate.segments[segment_of(2, 0)].T_camera_segment.t.z();
+    range = {std::min(range.near, z - kDepthAround), std::max(range.far, z + kDepthAround)};
+  }
+  return range.near < range.far ? range : typical_range(frame);
 }
 
 struct Caption {
@@ -128,13 +132,18 @@ struct Caption {
   cv::Scalar colour;
 };
 
-Caption caption_of(const HandEstimate& e) {
+Caption caption_of(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
   const std::array<cv::Scalar, 4> kColour = {cv::Scalar(170, 170, 170), {90, 220, 90}, {255, 180, 60}, {255, 80, 80}};
-  std::string text = formatted("frame %lld   %.3f s   %s", static_cast<long long>(e.number),
-                               static_cast<double>(e.utime) * 1e-6, to_string(e.status).data());
-  if (e.has_pose())
-    text += formatted("   %s hand   mismatch %.1f mm", std::string(to_string(e.handedness)).c_str(), e.score * 1000);
-  return {text, kColour[static_cast<std::size_t>(e.status)]};
+  Caption caption{
+      formatted("frame %lld   %.3f s", static_cast<long long>(frame.number), static_cast<double>(frame.utime) * 1e-6),
+      kColour[0]};
+  for (const auto& [e, surface] : hands) {
+    caption.text += "   " + std::string(to_string(e.status));
+    if (e.has_pose() || hands.size() > 1) caption.text += "   " + std::string(to_string(e.handedness)) + " hand";
+    if (e.has_pose()) caption.text += formatted("   mismatch %.1f mm", e.score * 1000);
+    if (&e == &hands[0].estimate || e.has_pose()) caption.colour = kColour[static_cast<std::size_t>(e.status)];
+  }
+  return caption;
 }
 
 /// A view of the image: drawing into it draws into the image. Channels are R, G, B.
@@ -144,20 +153,21 @@ cv::Mat view(Image<Rgb>& image) { return {image.height(), image.width(), CV_8UC3
 
 int overlay_scale(const Intrinsics& camera) { return camera.width < kSmallWidth ? 2 : 1; }
 
-Image<Rgb> draw_overlay(const RgbdFrame& frame, const HandEstimate& estimate, const HandSurface& surface) {
+Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
   const int scale = overlay_scale(frame.camera);
   const int width = frame.depth.width() * scale, height = frame.depth.height() * scale;
   Image<Rgb> sheet(2 * width, height + kCaptionHeight);
   Image<Rgb> colour = frame.colour.empty() ? grey_depth_picture(frame) : frame.colour;
-  Image<Rgb> depth = depth_colours(frame, shown_range(frame, estimate));
+  Image<Rgb> depth = depth_colours(frame, shown_range(frame, hands));
   int left = 0;
   for (Image<Rgb>* picture : {&colour, &depth}) {
     cv::Mat part = view(sheet)(cv::Rect(left, 0, width, height));
     cv::resize(view(*picture), part, part.size(), 0, 0, cv::INTER_NEAREST);
-    if (estimate.has_pose()) HandDrawing(part, frame.camera, scale, estimate, surface).draw();
+    for (const auto& [estimate, surface] : hands)
+      if (estimate.has_pose()) HandDrawing(part, frame.camera, scale, estimate, surface).draw();
     left += width;
   }
-  const Caption caption = caption_of(estimate);
+  const Caption caption = caption_of(frame, hands);
   cv::putText(view(sheet), caption.text, {8, height + 19}, cv::FONT_HERSHEY_SIMPLEX, 0.5, caption.colour, 1,
               cv::LINE_AA);
   return sheet;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/image.h"
 #include "hand/hand_pose.h"
 #include "hand/surface.h"
@@ -12,9 +14,14 @@ inline constexpr int kCaptionHeight = 28;
 /// Small frames are enlarged by this factor, so that lines stay legible.
 int overlay_scale(const Intrinsics& camera);
 
-/// Colour and depth side by side with the hand drawn over both: bones in one colour per finger, the outline of the
+struct DrawnHand {
+  const HandEstimate& estimate;
+  const HandSurface& surface;  ///< skin to outline
+};
+
+/// Colour and depth side by side with the hands drawn over both: bones in one colour per finger, the outline of the
 /// skin filled the more the higher the confidence, distal ends as blue dots (paper Fig. 8). Segments that are inferred
-/// stay hollow. Below: frame number, time, status. Without a pose only pictures and caption.
-Image<Rgb> draw_overlay(const RgbdFrame& frame, const HandEstimate& estimate, const HandSurface& surface);
+/// stay hollow. Below: frame number, time, status of each. Without a pose only pictures and caption.
+Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands);
 
 }  // namespace barehand

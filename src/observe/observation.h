@@ -16,6 +16,7 @@ enum class PixelLabel : std::uint8_t { unknown = 0, background = 1, hand = 2, ob
 struct HandObservation {
   FramePtr frame;
   bool hand_present = false;  ///< false: no hand-like data in this frame; the maps may be empty
+  bool followed = false;      ///< found where the tracker's estimate said; false: any hand-like thing
   int u0 = 0, v0 = 0;         ///< top-left corner of the region of interest in the frame
   Image<float> depth;         ///< z [m]; 0 = no measurement
   Image<PixelLabel> label;
@@ -34,5 +35,7 @@ struct HandObservation {
   Eigen::Vector3f point(std::int32_t i) const { return point(i % depth.width(), i / depth.width()); }
 };
 using HandObservationPtr = std::shared_ptr<const HandObservation>;
+/// One a hand that is looked for, always in the same order.
+using HandObservations = std::vector<HandObservationPtr>;
 
 }  // namespace barehand

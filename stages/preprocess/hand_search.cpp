@@ -17,26 +17,81 @@ constexpr float kLoosePart = 0.12f;     // share of the hand that a finger cut o
 constexpr float kHandRadius = 0.13f;    // m from a hand's centre to its farthest parts
 constexpr float kSearchRadius = 0.22f;  // m around the hand that is looked at cell by cell
 constexpr float kSideBySide = 0.10f;    // m of depth within which two candidates count as equally near
+constexpr float kForearm = 0.35f;       // m behind a hand's wrist, and around its arm's axis, that is its forearm
+constexpr float kForearmRadius = 0.07f;
 constexpr double kMetresAtRest = 0.06;  // m, motion allowed whatever the time between
 constexpr double kCloseBy = 0.05;       // m, motion allowed for a hand that touches something large
 
 }  // namespace
 
-const CoarseHand& HandSearch::find(const CoarseGrid& grid, const HandEstimate* hint, double hint_age) {
-  hand_.found = false;
-  hand_.prediction.reset();
-  hand_.wrist.reset();
-  hand_.cells.reset(grid.z.width(), grid.z.height());
-  finder_.find(grid, params_, candidates_);
-  split_surfaces(grid, candidates_, surfaces_);
-  hand_.found = (hint && follow(grid, *hint, hint_age)) || start(grid);
-  return hand_;
+std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints,
+                                             double hint_age) {
+  finder_.find(grid, params_, all_candidates_);
+  const auto tracked = [&](std::size_t k) { return hints_[k] && hints[k]->status == TrackStatus::tracking; };
+  hints_.assign(hands_.size(), std::nullopt);
+  for (std::size_t k = 0; k < hints.size(); ++k) hints_[k] = PredictedHand::from(hints[k].get());
+  for (CoarseHand& hand : hands_) {
+    hand.found = hand.followed = false;
+    hand.prediction.reset();
+    hand.wrist.reset();
+    hand.cells.reset(grid.z.width(), grid.z.height());
+  }
+  for (std::size_t k = 0; k < hands_.size(); ++k) {
+    if (!tracked(k)) continue;
+    candidates_ = all_candidates_;
+    for (std::size_t other = 0; other < hands_.size(); ++other)
+      if (other != k && tracked(other)) leave_to(grid, *hints_[other], *hints_[k]);
+    split_surfaces(grid, candidates_, surfaces_);
+    hands_[k].followed = follow(grid, *hints_[k], hint_age, hands_[k]);
+  }
+  candidates_ = all_candidates_;
+  for (const CoarseHand& hand : hands_)
+    if (hand.followed) take_away(grid, hand);
+  for (std::size_t k = 0; k < hands_.size(); ++k) {
+    CoarseHand& hand = hands_[k];
+    if (!hand.followed) {
+      split_surfaces(grid, candidates_, surfaces_);
+      hand.followed = hints_[k] && !tracked(k) && follow(grid, *hints_[k], hint_age, hand);
+      hand.found = hand.followed || start(grid, hand);
+      if (hand.found) take_away(grid, hand);
+    }
+    hand.found = hand.found || hand.followed;
+  }
+  return hands_;
 }
 
-float HandSearch::hand_area(const CoarseGrid& grid) const {
+/// Takes out of the candidates what is nearer to the other hand than to this one.
+void HandSearch::leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
+  for (int v = 0; v < grid.z.height(); ++v)
+    for (int u = 0; u < grid.z.width(); ++u) {
+      if (!candidates_.at(u, v)) continue;
+      const Eigen::Vector3f p = grid.point(u, v);
+      if ((p - other.centre()).squaredNorm() > kSearchRadius * kSearchRadius) continue;
+      if (other.distance(p) < own.distance(p)) candidates_.at(u, v) = 0;
+    }
+}
+
+/// What belongs to a hand that was found, its forearm included, is no other hand.
+void HandSearch::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
+  for (int v = 0; v < grid.z.height(); ++v)
+    for (int u = 0; u < grid.z.width(); ++u) {
+      std::uint8_t& candidate = candidates_.at(u, v);
+      if (!candidate) continue;
+      if (hand.cells.at(u, v)) {
+        candidate = 0;
+      } else if (hand.wrist) {
+        const Eigen::Vector3f p = grid.point(u, v);
+        const float behind = hand.wrist->behind(p);
+        const Eigen::Vector3f aside = p - hand.wrist->point - behind * hand.wrist->axis;
+        if (behind > 0 && behind < kForearm && aside.squaredNorm() < kForearmRadius * kForearmRadius) candidate = 0;
+      }
+    }
+}
+
+float HandSearch::hand_area(const CoarseGrid& grid, const CoarseHand& hand) const {
   float area = 0;
-  for (std::size_t i = 0; i < hand_.cells.size(); ++i)
-    if (hand_.cells[i]) area += grid.cell_area(grid.z[i]);
+  for (std::size_t i = 0; i < hand.cells.size(); ++i)
+    if (hand.cells[i]) area += grid.cell_area(grid.z[i]);
   return area;
 }
 
@@ -57,44 +112,41 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
   return align_translation(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
-bool HandSearch::follow(const CoarseGrid& grid, const HandEstimate& hint, double hint_age) {
-  std::optional<PredictedHand> hand = PredictedHand::from(&hint);
-  if (!hand) return false;
-  const auto step = motion(grid, *hand, kMetresAtRest + params_.max_speed * std::clamp(hint_age, 0.0, 0.5));
+bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_age, CoarseHand& hand) {
+  const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(hint_age, 0.0, 0.5));
   if (!step) return false;
-  hand->translate(*step);
+  body.translate(*step);
   const float margin = static_cast<float>(params_.wrist_margin);
 
   struct Share {
     int on_model = 0, off_model = 0;  // cells near the hand
   };
   std::vector<Share> share(surfaces_.parts.size());
-  hand_.distance.reset(grid.z.width(), grid.z.height(), INFINITY);
+  hand.distance.reset(grid.z.width(), grid.z.height(), INFINITY);
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       const std::int32_t id = surfaces_.id.at(u, v);
       if (id < 0) continue;
       const Eigen::Vector3f p = grid.point(u, v);
-      if ((p - hand->centre()).squaredNorm() > kSearchRadius * kSearchRadius || hand->behind_wrist(p) > margin)
-        continue;
-      const float d = hand_.distance.at(u, v) = hand->distance(p);
+      if ((p - body.centre()).squaredNorm() > kSearchRadius * kSearchRadius || body.behind_wrist(p) > margin) continue;
+      const float d = hand.distance.at(u, v) = body.distance(p);
       share[id].on_model += d < kOnModel;
       share[id].off_model += d > kLeakReach;
     }
-  for (std::size_t i = 0; i < hand_.distance.size(); ++i) {
+  for (std::size_t i = 0; i < hand.distance.size(); ++i) {
     const std::int32_t id = surfaces_.id[i];
-    if (id < 0 || std::isinf(hand_.distance[i])) continue;
+    if (id < 0 || std::isinf(hand.distance[i])) continue;
     const Share& own = share[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
-    hand_.cells[i] = hand_.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
+    hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
-  if (hand_area(grid) < params_.min_hand_area) {
-    hand_.cells.reset(grid.z.width(), grid.z.height());
+  if (hand_area(grid, hand) < params_.min_hand_area) {
+    hand.cells.reset(grid.z.width(), grid.z.height());
     return false;
   }
-  hand_.prediction = hand;
-  hand_.wrist = WristPlane{hand->wrist() + margin * hand->arm_axis(), hand->arm_axis()};
+  hand.prediction = body;
+  hand.wrist = WristPlane{body.wrist() + margin * body.arm_axis(), body.arm_axis()};
   return true;
 }
 
@@ -115,13 +167,13 @@ int HandSearch::choose_part(const CoarseGrid& grid) const {
   return best;
 }
 
-bool HandSearch::start(const CoarseGrid& grid) {
+bool HandSearch::start(const CoarseGrid& grid, CoarseHand& hand) {
   const int chosen = choose_part(grid);
   if (chosen < 0) return false;
-  hand_.wrist = find_wrist(grid, surfaces_, chosen);
+  hand.wrist = find_wrist(grid, surfaces_, chosen);
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();
   int count = 0;
-  const auto forearm = [&](const Eigen::Vector3f& p) { return hand_.wrist && hand_.wrist->behind(p) > 0; };
+  const auto forearm = [&](const Eigen::Vector3f& p) { return hand.wrist && hand.wrist->behind(p) > 0; };
   const float largest = (grid.coloured ? 0.5f : kLoosePart) * surfaces_.parts[chosen].area;
   for (int pass = 0; pass < 2; ++pass)  // the chosen surface gives the centre, then all others near it join
     for (int v = 0; v < grid.z.height(); ++v)
@@ -137,9 +189,9 @@ bool HandSearch::start(const CoarseGrid& grid) {
                    (p - centre / static_cast<float>(count)).norm() > kHandRadius) {
           continue;
         }
-        hand_.cells.at(u, v) = 1;
+        hand.cells.at(u, v) = 1;
       }
-  return hand_area(grid) >= params_.min_hand_area;
+  return hand_area(grid, hand) >= params_.min_hand_area;
 }
 
 }  // namespace barehand

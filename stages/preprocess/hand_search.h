@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "stages/preprocess/components.h"
 #include "stages/preprocess/predicted_hand.h"
@@ -11,31 +13,37 @@ namespace barehand {
 /// The hand in the coarse grid.
 struct CoarseHand {
   bool found = false;
+  bool followed = false;                    ///< found where its hint said
   Image<std::uint8_t> cells;                ///< 1 = hand
   std::optional<PredictedHand> prediction;  ///< the hint, moved to where the hand is now; none if it did not help
   Image<float> distance;                    ///< [m] from candidates to the prediction's skin; infinite far away
   std::optional<WristPlane> wrist;          ///< what lies behind is forearm
 };
 
-/// Looks for the hand, first where the hint says, moved by up to max_speed * age of the hint; else in the whole image.
+/// Looks for one or several hands, each first where its hint says, moved by up to max_speed * age of the hint; those
+/// that are not there in what is left of the image. A cell belongs to one hand at most.
 class HandSearch {
  public:
-  explicit HandSearch(const PreprocessParams& params) : params_(params) {}
-  /// `hint_age`: seconds between the hint's frame and this one. The result lives until the next call.
-  const CoarseHand& find(const CoarseGrid& grid, const HandEstimate* hint, double hint_age);
+  HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
+  /// `hints`: one a hand or none at all; each may be null. `hint_age`: seconds between the hints' frame and this one.
+  /// One result a hand, in the order of the hints; they live until the next call.
+  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints, double hint_age);
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
-  bool follow(const CoarseGrid& grid, const HandEstimate& hint, double hint_age);
-  bool start(const CoarseGrid& grid);
+  void leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
+  bool follow(const CoarseGrid& grid, PredictedHand body, double hint_age, CoarseHand& hand);
+  bool start(const CoarseGrid& grid, CoarseHand& hand);
+  void take_away(const CoarseGrid& grid, const CoarseHand& hand);
   int choose_part(const CoarseGrid& grid) const;
-  float hand_area(const CoarseGrid& grid) const;
+  float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;
 
   PreprocessParams params_;
-  Image<std::uint8_t> candidates_, movable_;
+  Image<std::uint8_t> all_candidates_, candidates_, movable_;
   CandidateFinder finder_;
   Components surfaces_;
-  CoarseHand hand_;
+  std::vector<CoarseHand> hands_;
+  std::vector<std::optional<PredictedHand>> hints_;
 };
 
 }  // namespace barehand

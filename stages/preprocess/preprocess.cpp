@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 
 namespace barehand {
 namespace {
@@ -41,27 +42,36 @@ void thin_cloud(int most, HandObservation& out) {
 
 }  // namespace
 
-Preprocessor::Preprocessor(const PreprocessParams& params)
-    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params), masker_(params) {}
+Preprocessor::Preprocessor(const PreprocessParams& params, int hands)
+    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {
+  cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
+}
 
-Result<HandObservationPtr> Preprocessor::process(const FramePtr& frame, const HandEstimate* hint) {
+Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> hints) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
+  sample_coarsely(*frame, params_, skin_, grid_);
+  const double age = hints.empty() ? 0 : std::abs(static_cast<double>(frame->utime - hints[0]->utime)) * 1e-6;
+  const std::span<const CoarseHand> hands = search_.find(grid_, hints, age);
+  HandObservations result;
+  for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand));
+  learn_skin(hands, hints, result);
+  return result;
+}
+
+HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand& hand) {
   const std::shared_ptr<HandObservation> out = pool_.take();
   out->frame = frame;
-  sample_coarsely(*frame, params_, skin_, grid_);
-  const double age = hint ? std::abs(static_cast<double>(frame->utime - hint->utime)) * 1e-6 : 0;
-  hand_ = &search_.find(grid_, hint, age);
-  const Region region = hand_->found ? region_of_interest(*frame) : Region{};
+  const Region region = hand.found ? region_of_interest(*frame, hand) : Region{};
   out->u0 = region.u0;
   out->v0 = region.v0;
   cleaner_.clean(*frame, params_, region, out->depth, edge_);
-  if (hand_->found)
-    masker_.compute(*frame, skin_, grid_, *hand_, region, out->depth, edge_, mask_);
+  if (hand.found)
+    masker_.compute(*frame, skin_, grid_, hand, region, out->depth, edge_, mask_);
   else
     mask_.reset(0, 0);
   describe_hand(*out);
-  if (out->hand_present && hint && hint->status == TrackStatus::tracking) learn_skin();
-  return HandObservationPtr(out);
+  out->followed = out->hand_present && hand.followed;
+  return out;
 }
 
 void Preprocessor::describe_hand(HandObservation& out) {
@@ -89,7 +99,7 @@ void Preprocessor::describe_hand(HandObservation& out) {
   thin_cloud(params_.cloud_points, out);
 }
 
-Region Preprocessor::region_of_interest(const RgbdFrame& frame) const {
+Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const {
   const Intrinsics& camera = frame.camera;
   double u0 = camera.width, v0 = camera.height, u1 = 0, v1 = 0;
   const auto include = [&](double u, double v) {
@@ -99,12 +109,12 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame) const {
   const int step = grid_.step;
   for (int r = 0; r < grid_.z.height(); ++r)
     for (int c = 0; c < grid_.z.width(); ++c)
-      if (hand_->cells.at(c, r)) {
+      if (hand.cells.at(c, r)) {
         include(c * step, r * step);
         include((c + 1) * step, (r + 1) * step);
       }
-  if (hand_->prediction)  // occluded fingers need the maps around them as well
-    for (const Capsule& capsule : hand_->prediction->capsules())
+  if (hand.prediction)  // occluded fingers need the maps around them as well
+    for (const Capsule& capsule : hand.prediction->capsules())
       for (const Eigen::Vector3f& p : {capsule.a, capsule.b})
         if (p.z() > params_.min_depth) {
           const Eigen::Vector2d pixel = camera.project(p.cast<double>());
@@ -118,9 +128,13 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame) const {
   return region;
 }
 
-void Preprocessor::learn_skin() {
-  if (!grid_.coloured || !hand_->prediction) return;
-  const PredictedHand& hand = *hand_->prediction;
+void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> hints,
+                              const HandObservations& seen) {
+  if (!grid_.coloured) return;
+  teachers_.clear();
+  for (std::size_t k = 0; k < hints.size(); ++k)
+    if (seen[k]->followed && hints[k]->status == TrackStatus::tracking) teachers_.push_back(&hands[k]);
+  if (teachers_.empty()) return;
   skin_colours_.clear();
   other_colours_.clear();
   for (int r = 0; r < grid_.z.height(); ++r)
@@ -128,13 +142,21 @@ void Preprocessor::learn_skin() {
       const Rgb colour = grid_.colour.at(c, r);
       if (grid_.z.at(c, r) <= 0 || colour == Rgb{}) continue;
       const Eigen::Vector3f p = grid_.point(c, r);
-      const bool near = (p - hand.centre()).squaredNorm() < kSurroundings * kSurroundings;
-      const bool skin_like = grid_.odds.at(c, r) > 0;
-      if (hand_->cells.at(c, r)) {
-        if (hand_->distance.at(c, r) < kSurelySkin) skin_colours_.push_back(colour);
-      } else if (skin_like && (!near || hand.behind_wrist(p) > 0)) {
-        continue;  // a face, the other hand, the own forearm: skin all the same
-      } else if ((c + r) % 2 == 0 && (!near || hand.distance(p) > kSurelyOther)) {
+      const auto near = [&](const CoarseHand* hand) {
+        return (p - hand->prediction->centre()).squaredNorm() < kSurroundings * kSurroundings;
+      };
+      const auto is_hand = [&](const CoarseHand& hand) { return hand.found && hand.cells.at(c, r); };
+      if (std::ranges::any_of(hands, is_hand)) {
+        const auto surely = [&](const CoarseHand* h) { return is_hand(*h) && h->distance.at(c, r) < kSurelySkin; };
+        if (std::ranges::any_of(teachers_, surely)) skin_colours_.push_back(colour);
+      } else if (grid_.odds.at(c, r) > 0 &&
+                 (std::ranges::none_of(teachers_, near) || std::ranges::any_of(teachers_, [&](const CoarseHand* hand) {
+                    return hand->prediction->behind_wrist(p) > 0;
+                  }))) {
+        continue;  // a face, another person's hand, the own forearm: skin all the same
+      } else if ((c + r) % 2 == 0 && std::ranges::all_of(teachers_, [&](const CoarseHand* hand) {
+                   return !near(hand) || hand->prediction->distance(p) > kSurelyOther;
+                 })) {
         other_colours_.push_back(colour);
       }
     }

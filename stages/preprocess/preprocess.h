@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/error.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
@@ -12,23 +14,26 @@
 
 namespace barehand {
 
-/// First stage: finds the hand in a frame and makes the maps the trackers look at (paper Sec. 4.1). Synchronous; frames
-/// must come in order because the skin model learns from each (the only state that outlives a frame).
+/// First stage: finds the hands in a frame and makes the maps the trackers look at (paper Sec. 4.1). Synchronous;
+/// frames must come in order because the skin model learns from each (the only state that outlives a frame).
 class Preprocessor {
  public:
-  explicit Preprocessor(const PreprocessParams& params);
+  explicit Preprocessor(const PreprocessParams& params, int hands = 1);
 
-  /// `hint`: the tracker's estimate of an earlier frame, typically two before; null while nothing is tracked. It may be
-  /// stale: it is moved to where its hand is now, and not used if that fails. With status `tracking` the skin model
-  /// learns from it. Without a hint the nearest hand-like thing in the image is the hand.
+  /// `hints`: the tracker's estimates of an earlier frame, typically two before, one a hand; empty while nothing is
+  /// tracked. They may be stale: they are moved to where their hands are now, and not used if that fails. With status
+  /// `tracking` the skin model learns from them. Without hints the nearest hand-like things in the image are the hands,
+  /// whichever they are. One observation a hand, in the order of the hints; no pixel is a hand in two of them.
   /// Errors: frame without valid intrinsics, or depth or colour of another size than they say.
   /// A frame without hand is no error: hand_present is false and the maps are empty.
-  Result<HandObservationPtr> process(const FramePtr& frame, const HandEstimate* hint);
+  Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> hints);
 
  private:
-  Region region_of_interest(const RgbdFrame& frame) const;
+  HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand);
+  Region region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const;
   void describe_hand(HandObservation& out);
-  void learn_skin();
+  void learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> hints,
+                  const HandObservations& seen);
 
   PreprocessParams params_;
   SkinModel skin_;
@@ -39,8 +44,8 @@ class Preprocessor {
   NormalFitter normals_;
   ObservationPool pool_;
   CoarseGrid grid_;
-  const CoarseHand* hand_ = nullptr;  // of the current frame, owned by search_
   Image<std::uint8_t> edge_, mask_, object_;
+  std::vector<const CoarseHand*> teachers_;  // of the current frame
   std::vector<Rgb> skin_colours_, other_colours_;
 };
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "app/hand_tracker.h"
+#include "app/hands_tracker.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/publish/hand_messages.h"
 #include "support/adult_hand.h"
@@ -48,24 +48,24 @@ Counts allocations_per_frame(const TrackerParams& params) {
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);
   Preprocessor preprocessor({});
-  HandTracker tracker(params, profile, 1, workers);
+  HandsTracker tracker(params, {profile}, 1, workers);
   HandMessageMaker maker({});
   HandPose pose = test::facing_pose(*profile, 0.5, 0.4);
-  tracker.start_at(pose);
-  HandEstimatePtr estimate;
+  tracker.hand(0).start_at(pose);
+  HandEstimates estimates;
   Counts counts;
   for (int k = 0; k < kWarmUp + kCounted; ++k) {
     for (SE3& T : pose) T.t.x() += k % 20 < 10 ? 0.001 : -0.001;
     const std::shared_ptr<RgbdFrame> frame = test::paint_frame(skin, pose, camera);
     frame->utime = k * 33'000;
     const std::int64_t start = allocations;
-    const HandObservationPtr observation = preprocessor.process(frame, estimate.get()).value();
+    const HandObservations observations = preprocessor.process(frame, estimates).value();
     const std::int64_t preprocessed = allocations;
-    estimate = tracker.process(*observation);
+    estimates = tracker.process(observations);
     const std::int64_t tracked = allocations;
-    maker.process(*estimate);
+    maker.process(*estimates[0]);
     if (k < kWarmUp) continue;
-    EXPECT_EQ(estimate->status, TrackStatus::tracking);
+    EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);
     counts.preprocess += static_cast<double>(preprocessed - start) / kCounted;
     counts.track += static_cast<double>(tracked - preprocessed) / kCounted;
     counts.publish += static_cast<double>(allocations - tracked) / kCounted;

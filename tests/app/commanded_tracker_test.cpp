@@ -29,7 +29,7 @@ class CommandedTrackerTest : public ::testing::Test {
     frame->utime = utime_ += 33'000;
     auto observation = std::make_shared<HandObservation>(*hand_);
     observation->frame = frame;
-    return tracker_.process(*observation);
+    return tracker_.process({observation}).front();
   }
   void send(Command command) { waiting_.push_back(std::move(command)); }
 
@@ -40,7 +40,7 @@ class CommandedTrackerTest : public ::testing::Test {
   RepeatLog log_{make_silent_logger(), clock_};
   Workers workers_{1};
   std::vector<Result<Command>> waiting_;
-  CommandedTracker tracker_{cheap(), profile_, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
+  CommandedTracker tracker_{cheap(), {profile_}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
   std::int64_t utime_ = 1'000'000;
 };
 

@@ -46,8 +46,8 @@ class RecordingSink : public Sink {
     if (on_frame) {
       if (auto ok = on_frame(tracked); !ok) return ok;
     }
-    numbers.push_back(static_cast<int>(tracked.estimate->number));
-    scores.push_back(tracked.estimate->score);
+    numbers.push_back(static_cast<int>(tracked.estimates[0]->number));
+    scores.push_back(tracked.estimates[0]->score);
     return {};
   }
   Result<void> idle() override {
@@ -72,30 +72,32 @@ struct World {
 
   RunResult run(FrameSource& source) {
     PipelineStages stages{source,
-                          [this](const FramePtr& f, const HandEstimate* hint) { return preprocess(f, hint); },
-                          [this](const HandObservationPtr& o) { return track(o); },
+                          [this](const FramePtr& f, const HandEstimates& before) { return preprocess(f, before); },
+                          [this](const HandObservations& o) { return track(o); },
                           {&sink}};
     pipeline = std::make_unique<Pipeline>(std::move(stages), options, clock, log);
     return pipeline->run();
   }
 
-  Result<HandObservationPtr> preprocess(const FramePtr& f, const HandEstimate* hint) {
+  Result<HandObservations> preprocess(const FramePtr& f, const HandEstimates& before) {
+    const HandEstimatePtr hint = before.empty() ? nullptr : before[0];
     hints.push_back(hint ? static_cast<int>(hint->number) : -1);
     if (before_preprocess) before_preprocess(f);
     auto made = std::make_shared<HandObservation>();
     made->frame = f;
     made->noise = 1.0 / (f->number + 3) + (hint ? hint->score / 3 : 0);
-    return made;
+    return HandObservations{made};
   }
 
-  Result<HandEstimatePtr> track(const HandObservationPtr& observation) {
+  Result<HandEstimates> track(const HandObservations& observations) {
+    const HandObservationPtr& observation = observations[0];
     if (before_track) {
       if (auto ok = before_track(observation->frame); !ok) return tl::unexpected(ok.error());
     }
     auto made = std::make_shared<HandEstimate>();
     made->number = observation->frame->number;
     memory = made->score = memory / 7 + observation->noise;
-    return made;
+    return HandEstimates{made};
   }
 
   PipelineOptions options;

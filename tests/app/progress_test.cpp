@@ -15,7 +15,7 @@ TrackedFrame tracked(std::int64_t number, TrackStatus status) {
   auto estimate = std::make_shared<HandEstimate>();
   estimate->number = number;
   estimate->status = status;
-  return {nullptr, nullptr, estimate};
+  return {nullptr, {}, {estimate}};
 }
 
 TEST(Progress, OneLineIsRewrittenOnATerminalAndClearedAtTheEnd) {
@@ -50,9 +50,9 @@ TEST(Progress, CountsFramesByStatus) {
   ProgressSink progress(out, {}, clock);
   for (const auto status : {TrackStatus::searching, TrackStatus::tracking, TrackStatus::tracking, TrackStatus::lost})
     EXPECT_TRUE(progress.consume(tracked(0, status)));
-  EXPECT_EQ(progress.counts().of(TrackStatus::tracking), 2);
-  EXPECT_EQ(progress.counts().of(TrackStatus::holding), 0);
-  EXPECT_EQ(progress.counts().of(TrackStatus::lost), 1);
+  EXPECT_EQ(progress.counts()[0].of(TrackStatus::tracking), 2);
+  EXPECT_EQ(progress.counts()[0].of(TrackStatus::holding), 0);
+  EXPECT_EQ(progress.counts()[0].of(TrackStatus::lost), 1);
 }
 
 TEST(Summary, TellsFramesStatusAndTimes) {
@@ -66,7 +66,7 @@ TEST(Summary, TellsFramesStatusAndTimes) {
   health.queues = {{"transit", 0, 0, 22, 10, 12, {}}, {"inbox", 1, 0, 10, 10, 0, {}}, {"door", 4, 0, 10, 8, 2, {}}};
   StatusCounts status;
   status.frames = {1, 5, 0, 1};
-  const std::string text = summary(health, status, 2.0);
+  const std::string text = summary(health, {status}, 2.0);
   EXPECT_THAT(text, HasSubstr("10 frames in 2.0 s (3.5 frames/s): 7 published, 2 dropped, 1 failed; 3 unreadable"));
   EXPECT_THAT(text, HasSubstr("\ndropped by transit 12, door 2\n"));
   EXPECT_THAT(text, HasSubstr("tracked in 5 frames, held in 0, lost in 1, searched for in 1"));

@@ -60,12 +60,12 @@ TEST(Reload, PreprocessWorksWithTheNewParametersFromTheNextFrameOn) {
   RepeatLog log(make_silent_logger(), clock);
   Workers workers(1);
   NewParams news;
-  const TrackStages stages = make_track_stages({}, profile, std::nullopt, {}, workers, log, &news);
-  EXPECT_TRUE((*stages.preprocess(frame, nullptr))->hand_present);
+  const TrackStages stages = make_track_stages({}, {profile}, std::nullopt, {}, workers, log, &news);
+  EXPECT_TRUE(stages.preprocess(frame, {})->front()->hand_present);
   PreprocessParams near;
   near.max_depth = 0.3;
   news.preprocess.put(near);
-  EXPECT_FALSE((*stages.preprocess(frame, nullptr))->hand_present);
+  EXPECT_FALSE(stages.preprocess(frame, {})->front()->hand_present);
 }
 
 TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
@@ -83,11 +83,11 @@ TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
   Slot<PublishParams> news;
   {
     auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", &news).value();
-    ASSERT_TRUE(sink->consume({nullptr, nullptr, estimate}));
+    ASSERT_TRUE(sink->consume({nullptr, {}, {estimate}}));
     PublishParams no_hold;
     no_hold.hold_time = 0;
     news.put(no_hold);
-    ASSERT_TRUE(sink->consume({nullptr, nullptr, lost}));
+    ASSERT_TRUE(sink->consume({nullptr, {}, {lost}}));
   }
   auto log = LcmLogReader::open(folder / "states.lcmlog").value();
   std::vector<int> has_pose;

@@ -9,18 +9,18 @@ namespace {
 
 void whole_stage(benchmark::State& state) {
   const World& w = world();
-  const HandEstimate before = hint(w);
+  const HandEstimates before = hints(w);
   Preprocessor preprocessor(w.preprocess);
-  for (auto _ : state) benchmark::DoNotOptimize(preprocessor.process(w.frame, &before));
+  for (auto _ : state) benchmark::DoNotOptimize(preprocessor.process(w.frame, before));
 }
 BENCHMARK(whole_stage)->Name("preprocess")->Unit(benchmark::kMicrosecond);
 
 void masks(benchmark::State& state) {
   const World& w = world();
-  const HandEstimate before = hint(w);
+  const HandEstimates before = hints(w);
   const SkinModel skin(w.preprocess.learning_rate, w.preprocess.learned_share);
   CoarseGrid grid;
-  HandSearch search(w.preprocess);
+  HandSearch search(w.preprocess, 1);
   DepthCleaner cleaner;
   HandMask masker(w.preprocess);
   const HandObservation& o = *w.observation;
@@ -29,7 +29,7 @@ void masks(benchmark::State& state) {
   Image<std::uint8_t> edge, mask;
   for (auto _ : state) {
     sample_coarsely(*w.frame, w.preprocess, skin, grid);
-    const CoarseHand& hand = search.find(grid, &before, 0.03);
+    const CoarseHand& hand = search.find(grid, before, 0.03).front();
     cleaner.clean(*w.frame, w.preprocess, region, depth, edge);
     masker.compute(*w.frame, skin, grid, hand, region, depth, edge, mask);
     benchmark::DoNotOptimize(mask.data());

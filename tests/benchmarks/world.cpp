@@ -22,12 +22,13 @@ World make_world() {
   w.pose = test::facing_pose(*w.profile, 0.5, 0.5);
   w.predicted = beside(w.pose);
   w.frame = test::paint_frame(*w.skin, w.pose, {640, 480, 525, 525, 319.5, 239.5});
-  const HandEstimate before = hint(w);
-  w.observation = Preprocessor(w.preprocess).process(w.frame, &before).value();
+  w.observation = Preprocessor(w.preprocess).process(w.frame, hints(w)).value().front();
   return w;
 }
 
 }  // namespace
+
+HandEstimates hints(const World& world) { return {std::make_shared<HandEstimate>(hint(world))}; }
 
 HandEstimate hint(const World& world) {
   HandEstimate estimate;

@@ -25,7 +25,9 @@ struct World {
 /// Made once per program.
 const World& world();
 
-/// The estimate of the frame before, as a hint for the preprocess stage.
+/// The estimate of the frame before.
 HandEstimate hint(const World& world);
+/// The same as the preprocess stage gets it.
+HandEstimates hints(const World& world);
 
 }  // namespace barehand::bench

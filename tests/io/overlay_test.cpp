@@ -43,8 +43,12 @@ HandEstimate open_hand(double confidence = 1) {
   return estimate;
 }
 
+HandEstimates shared(const HandEstimate& estimate) { return {std::make_shared<HandEstimate>(estimate)}; }
+
 Image<Rgb> draw(const HandEstimate& estimate) {
-  return draw_overlay(grey_frame(), estimate, make_cylinder_surface(test::small_hand(), 200));
+  const HandSurface surface = make_cylinder_surface(test::small_hand(), 200);
+  const DrawnHand hand{estimate, surface};
+  return draw_overlay(grey_frame(), {&hand, 1});
 }
 
 /// Pixel of the left picture at a point in the camera frame.
@@ -101,8 +105,7 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
   RgbdFrame frame = grey_frame();
   frame.colour = {};
   frame.depth.at(10, 10) = 0;
-  HandEstimate estimate;
-  const Image<Rgb> sheet = draw_overlay(frame, estimate, {});
+  const Image<Rgb> sheet = draw_overlay(frame, {});
   EXPECT_EQ(sheet.at(20, 20), (Rgb{0, 0, 0}));
   EXPECT_GT(sheet.at(100, 100).r, 30);
 }
@@ -115,7 +118,7 @@ class OverlayFiles : public testing::Test {
 TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   auto writer = OverlayWriter::open(folder_ / "overlay", 30);
   ASSERT_TRUE(writer) << writer.error().message();
-  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), open_hand()));
+  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), shared(open_hand())));
   ASSERT_TRUE(writer->finish());
   const auto picture = read_colour(folder_ / "overlay/000011.jpg");
   ASSERT_TRUE(picture) << picture.error().message();
@@ -129,7 +132,7 @@ TEST_F(OverlayFiles, VideosHoldEveryFrame) {
     auto writer = OverlayWriter::open(path, 30);
     ASSERT_TRUE(writer) << writer.error().message();
     EXPECT_FALSE(fs::exists(path)) << "nothing is left of the trial of the codec";
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), open_hand()));
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), shared(open_hand())));
     ASSERT_TRUE(writer->finish());
     cv::VideoCapture video(path);
     cv::Mat picture;
@@ -147,12 +150,13 @@ TEST_F(OverlayFiles, OutsideConditionsAreReported) {
   EXPECT_THAT(OverlayWriter::open("/proc/overlay", 30).error().message(), HasSubstr("/proc/overlay: cannot be made"));
 
   auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
-  ASSERT_TRUE(video->write(grey_frame(320), open_hand()));
-  EXPECT_THAT(video->write(grey_frame(800, 8), open_hand()).error().message(), HasSubstr("frame 8 has another size"));
+  ASSERT_TRUE(video->write(grey_frame(320), shared(open_hand())));
+  EXPECT_THAT(video->write(grey_frame(800, 8), shared(open_hand())).error().message(),
+              HasSubstr("frame 8 has another size"));
 
   auto pictures = OverlayWriter::open(folder_ / "overlay", 30);
   fs::create_symlink("/dev/full", folder_ / "overlay/000007.jpg");
-  EXPECT_THAT(pictures->write(grey_frame(), open_hand()).error().message(),
+  EXPECT_THAT(pictures->write(grey_frame(), shared(open_hand())).error().message(),
               AllOf(HasSubstr("000007.jpg"), HasSubstr("free space")));
 }
 

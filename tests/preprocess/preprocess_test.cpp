@@ -12,11 +12,18 @@ using test::painted_hand_estimate;
 using test::PaintedScene;
 constexpr double kX = 0.0, kY = 0.06, kZ = 0.5;  // wrist
 
+/// The only hand.
+HandObservationPtr process(Preprocessor& preprocessor, const FramePtr& frame, const HandEstimate* hint = nullptr) {
+  HandEstimates hints;
+  if (hint) hints.push_back(std::make_shared<HandEstimate>(*hint));
+  const Result<HandObservations> result = preprocessor.process(frame, hints);
+  EXPECT_TRUE(result.has_value() && result->size() == 1);
+  return result->front();
+}
+
 HandObservationPtr observe(const PaintedScene& scene, const HandEstimate* hint = nullptr) {
   Preprocessor preprocessor{PreprocessParams{}};
-  const Result<HandObservationPtr> result = preprocessor.process(scene.share(), hint);
-  EXPECT_TRUE(result.has_value());
-  return *result;
+  return process(preprocessor, scene.share(), hint);
 }
 
 TEST(Preprocess, SkinBeforeAWallIsHand) {
@@ -74,7 +81,7 @@ TEST(Preprocess, WristCutFollowsAHandThatMovedSinceTheHint) {
   PaintedScene scene;
   scene.hand(kX, kY, kZ).forearm(kX, kY, kZ, test::kSkin);
   Preprocessor preprocessor{PreprocessParams{}};
-  const auto o = *preprocessor.process(scene.share(2), &hint);
+  const auto o = process(preprocessor, scene.share(2), &hint);
   EXPECT_EQ(label_at(*o, kX, kY - 0.01, kZ), PixelLabel::hand);
   EXPECT_EQ(label_at(*o, kX, kY + 0.035, kZ), PixelLabel::object);
   EXPECT_EQ(label_at(*o, kX + 0.0315, kY - 0.16, kZ), PixelLabel::hand);
@@ -158,7 +165,7 @@ TEST(Preprocess, WrongSizesAndMissingIntrinsicsAreErrors) {
   depth.frame().depth.reset(160, 120);
   camera.frame().camera.fx = 0;
   for (const PaintedScene& bad : {colour, depth, camera}) {
-    const auto result = preprocessor.process(bad.share(7), nullptr);
+    const auto result = preprocessor.process(bad.share(7), {});
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().where, "frame 7");
   }
@@ -180,7 +187,7 @@ TEST(Preprocess, SkinModelFollowsAShiftedWhiteBalance) {
   HandObservationPtr o;
   for (int frame = 0; frame <= 6 * kSteps; ++frame) {
     HandEstimate hint = painted_hand_estimate(kX, kY, kZ, frame - 2);
-    o = *preprocessor.process(scene(frame / 6).share(frame), &hint);
+    o = process(preprocessor, scene(frame / 6).share(frame), &hint);
   }
   ASSERT_TRUE(o->hand_present);
   EXPECT_EQ(label_at(*o, kX, kY - 0.04, kZ), PixelLabel::hand);
@@ -192,8 +199,8 @@ TEST(Preprocess, SameFramesGiveSameObservations) {
   for (int frame = 0; frame < 3; ++frame) {
     const HandEstimate hint = painted_hand_estimate(kX, kY, kZ, frame - 2);
     const auto scene = PaintedScene().hand(kX + 0.01 * frame, kY, kZ).forearm(kX + 0.01 * frame, kY, kZ, test::kSkin);
-    const auto first = *a.process(scene.share(frame), &hint);
-    const auto second = *b.process(scene.share(frame), &hint);
+    const auto first = process(a, scene.share(frame), &hint);
+    const auto second = process(b, scene.share(frame), &hint);
     ASSERT_EQ(first->label.size(), second->label.size());
     for (std::size_t i = 0; i < first->label.size(); ++i) {
       ASSERT_EQ(first->label[i], second->label[i]);
@@ -217,11 +224,82 @@ TEST(Preprocess, ResultsSurviveThePreprocessor) {
   HandObservationPtr kept;
   {
     Preprocessor preprocessor{PreprocessParams{}};
-    kept = *preprocessor.process(PaintedScene().hand(kX, kY, kZ).share(), nullptr);
-    const auto later = *preprocessor.process(PaintedScene().hand(kX + 0.05, kY, kZ).share(), nullptr);
+    kept = process(preprocessor, PaintedScene().hand(kX, kY, kZ).share());
+    const auto later = process(preprocessor, PaintedScene().hand(kX + 0.05, kY, kZ).share());
     EXPECT_NE(kept.get(), later.get());
   }
   EXPECT_EQ(label_at(*kept, kX, kY - 0.04, kZ), PixelLabel::hand);
+}
+
+/// Two hands that are looked for; hints may be null.
+HandObservations observe_two(const PaintedScene& scene, const HandEstimate* first, const HandEstimate* second) {
+  Preprocessor preprocessor{PreprocessParams{}, 2};
+  HandEstimates hints;
+  for (const HandEstimate* hint : {first, second})
+    hints.push_back(std::make_shared<HandEstimate>(hint ? *hint : HandEstimate{}));
+  const auto result = preprocessor.process(scene.share(2), hints);
+  EXPECT_TRUE(result.has_value() && result->size() == 2);
+  return *result;
+}
+
+constexpr double kLeftX = -0.11, kRightX = 0.11;
+
+TEST(PreprocessTwoHands, EveryHintFindsItsOwnHand) {
+  const HandEstimate left = painted_hand_estimate(kLeftX, kY, kZ), right = painted_hand_estimate(kRightX, kY, kZ);
+  const auto o = observe_two(PaintedScene().hand(kLeftX, kY, kZ).hand(kRightX, kY, kZ), &right, &left);
+  for (int k = 0; k < 2; ++k) {
+    const double own = k == 0 ? kRightX : kLeftX, other = -own;
+    EXPECT_TRUE(o[k]->followed);
+    EXPECT_EQ(label_at(*o[k], own, kY - 0.04, kZ), PixelLabel::hand);
+    EXPECT_NE(label_at(*o[k], other, kY - 0.04, kZ), PixelLabel::hand);
+  }
+}
+
+TEST(PreprocessTwoHands, HandsSideBySideAtOneDepthAreToldApartByTheirHints) {
+  // The thumb of the left one touches the other one's palm: one surface.
+  constexpr double kGap = 0.125;
+  const HandEstimate left = painted_hand_estimate(-kGap / 2, kY, kZ), right = painted_hand_estimate(kGap / 2, kY, kZ);
+  const auto o = observe_two(PaintedScene().hand(-kGap / 2, kY, kZ).hand(kGap / 2, kY, kZ), &left, &right);
+  for (int k = 0; k < 2; ++k) {
+    const double own = k == 0 ? -kGap / 2 : kGap / 2;
+    EXPECT_EQ(label_at(*o[k], own, kY - 0.04, kZ), PixelLabel::hand);
+    EXPECT_EQ(label_at(*o[k], own + 0.0315, kY - 0.15, kZ), PixelLabel::hand) << "finger";
+    EXPECT_NE(label_at(*o[k], -own, kY - 0.04, kZ), PixelLabel::hand);
+  }
+}
+
+TEST(PreprocessTwoHands, TheOneInFrontIsNoPartOfTheOneBehind) {
+  const HandEstimate behind = painted_hand_estimate(0, kY, kZ), front = painted_hand_estimate(0.03, kY, kZ - 0.09);
+  const auto o = observe_two(PaintedScene().hand(0, kY, kZ).hand(0.03, kY, kZ - 0.09), &behind, &front);
+  EXPECT_TRUE(o[0]->followed && o[1]->followed);
+  EXPECT_EQ(label_at(*o[0], 0.03, kY - 0.04, kZ - 0.09), PixelLabel::object) << "hides it";
+  EXPECT_EQ(label_at(*o[0], -0.03, kY - 0.04, kZ), PixelLabel::hand);
+  EXPECT_EQ(label_at(*o[1], 0.03, kY - 0.04, kZ - 0.09), PixelLabel::hand);
+  EXPECT_NE(label_at(*o[1], -0.03, kY - 0.04, kZ), PixelLabel::hand);
+}
+
+TEST(PreprocessTwoHands, WithoutHintsBothAreFoundAndNeitherTwice) {
+  const auto o = observe_two(PaintedScene().hand(kLeftX, kY, kZ).hand(kRightX, kY, kZ), nullptr, nullptr);
+  ASSERT_TRUE(o[0]->hand_present && o[1]->hand_present);
+  EXPECT_FALSE(o[0]->followed || o[1]->followed);
+  const bool first_is_left = label_at(*o[0], kLeftX, kY - 0.04, kZ) == PixelLabel::hand;
+  EXPECT_EQ(label_at(*o[first_is_left ? 1 : 0], kRightX, kY - 0.04, kZ), PixelLabel::hand);
+  EXPECT_NEAR(o[0]->hand_pixels.size(), o[1]->hand_pixels.size(), 100);
+}
+
+TEST(PreprocessTwoHands, TheForearmOfATrackedHandIsNoHand) {
+  const HandEstimate tracked = painted_hand_estimate(0, 0.0, kZ);
+  const auto o = observe_two(PaintedScene().hand(0, 0.0, kZ).forearm(0, 0.0, kZ, test::kSkin), &tracked, nullptr);
+  EXPECT_TRUE(o[0]->followed);
+  EXPECT_FALSE(o[1]->hand_present);
+}
+
+TEST(PreprocessTwoHands, AHandThatIsGoneDoesNotTakeTheOtherOnesPlace) {
+  const HandEstimate gone = painted_hand_estimate(0.02, kY, kZ), tracked = painted_hand_estimate(-0.06, kY, kZ);
+  const auto o = observe_two(PaintedScene().hand(-0.06, kY, kZ), &gone, &tracked);
+  EXPECT_TRUE(o[1]->followed);
+  EXPECT_EQ(label_at(*o[1], -0.06, kY - 0.04, kZ), PixelLabel::hand);
+  EXPECT_NE(label_at(*o[0], -0.06, kY - 0.04, kZ), PixelLabel::hand);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ std::map<std::string, Setter> setters() {
 }
 
 void set(Settings& settings, const std::string& line) {
-  static const std::map<std::string, Setter> known = setters();
+  // Never destroyed: the driver's thread may outlive the end of main.
+  static const auto& known = *new std::map<std::string, Setter>(setters());
   const auto equals = line.find('=');
   const auto setter = known.find(line.substr(0, equals));
   if (equals == std::string::npos || setter == known.end()) throw std::invalid_argument("unknown key");

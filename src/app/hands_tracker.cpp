@@ -1,0 +1,112 @@
+#include "app/hands_tracker.h"
+
+#include <algorithm>
+#include <array>
+
+namespace barehand {
+namespace {
+
+// A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
+constexpr int kSearchEvery = 3;
+// Part by which a side must explain an observation better than the other side to own it.
+constexpr double kSideAdvantage = 0.1;
+
+bool clearly_better(double score, double other) { return score < other * (1 - kSideAdvantage); }
+
+}  // namespace
+
+HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
+                           std::shared_ptr<spdlog::logger> log)
+    : params_(params), seed_(seed), workers_(workers), log_(std::move(log)), hands_(profiles.size()) {
+  for (int k = 0; k < count(); ++k) use(k, profiles[k]);
+}
+
+void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
+  mirrored_.reset();
+  hands_[k] =
+      std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
+}
+
+void HandsTracker::change(const TrackerParams& params) {
+  for (const auto& hand : hands_) hand->change(params);
+  params_ = params;
+  mirrored_.reset();
+}
+
+HandEstimates HandsTracker::process(const HandObservations& observations) {
+  if (count() == 1) return {process_only(*observations[0])};
+  ++frame_;
+  HandEstimates out(hands_.size());
+  std::vector<int> tracked;
+  for (int k = 0; k < count(); ++k)
+    if (!searched(k, *observations[k])) tracked.push_back(k);
+  workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
+    const int k = tracked[i];
+    out[k] = hands_[k]->process(*observations[k]);
+  });
+  if (tracked.empty())
+    search_both(observations, out);
+  else
+    for (int k = 0; k < count(); ++k)
+      if (!out[k]) search_one(k, observations, out);
+  return out;
+}
+
+HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
+  HandTracker& hand = *hands_[0];
+  if (hand.status() != TrackStatus::searching || hand.start_is_given()) return hand.process(observation);
+  std::optional<Fit> found = hand.look(observation);
+  if (found && is_other_side(observation, *found)) found.reset();
+  return hand.process(observation, std::move(found));
+}
+
+bool HandsTracker::is_other_side(const HandObservation& observation, const Fit& found) {
+  if (found.refined.score > params_.loss.lost_score) return false;  // not taken for a hand anyway
+  const HandProfile& profile = hands_[0]->profile();
+  if (!mirrored_)
+    mirrored_ = std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(mirrored(profile)), seed_,
+                                              workers_, log_);
+  const std::optional<Fit> other = mirrored_->look(observation);
+  if (!other || !clearly_better(other->refined.score, found.refined.score)) return false;
+  if (!said_other_side_)
+    log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
+               to_string(mirrored_->profile().handedness), to_string(profile.handedness),
+               to_string(mirrored_->profile().handedness));
+  said_other_side_ = true;
+  return true;
+}
+
+/// Whether the observation may be anybody's.
+bool HandsTracker::searched(int k, const HandObservation& observation) const {
+  return !observation.followed && !hands_[k]->start_is_given() && hands_[k]->status() != TrackStatus::tracking;
+}
+
+void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
+  std::optional<Fit> found;
+  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k]);
+  out[k] = hands_[k]->process(*observations[k], std::move(found));
+}
+
+void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
+  std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 2; ++j) found[k][j] = hands_[k]->look(*observations[j]);
+  const auto score = [&](int k, int j) { return found[k][j] ? found[k][j]->refined.score : INFINITY; };
+  std::array<int, 2> owned = {-1, -1};  // by hand: observation
+  if (observations[0]->hand_present && observations[1]->hand_present) {
+    const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);
+    if (clearly_better(straight, crossed)) owned = {0, 1};
+    if (clearly_better(crossed, straight)) owned = {1, 0};
+  } else {
+    const int j = observations[0]->hand_present ? 0 : 1;
+    if (clearly_better(score(0, j), score(1, j))) owned[0] = j;
+    if (clearly_better(score(1, j), score(0, j))) owned[1] = j;
+  }
+  for (int k = 0; k < 2; ++k) {
+    const int j = owned[k];
+    out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
+                   : hands_[k]->process(*observations[j], std::move(found[k][j]));
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,123 @@
+#include "app/hands_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "hand/skin.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+/// A right and a left hand, and what a camera sees of each.
+class HandsTrackerTest : public ::testing::Test {
+ protected:
+  enum Side { kRight, kLeft };
+  static constexpr double kRightX = 0.1, kLeftX = -0.1;
+
+  static TrackerParams cheap() {
+    TrackerParams params;
+    params.sampling = false;
+    params.search_attempts = 1;
+    params.initialiser.full = params.initialiser.quick;
+    return params;
+  }
+  /// Its wrist at x.
+  static HandObservationPtr seen(const HandProfile& profile, double flexion, double x) {
+    HandPose pose = test::facing_pose(profile, 0.5, flexion);
+    for (SE3& T : pose) T.t.x() += x;
+    return test::observe_skin(make_blended_skin(profile, 0.004), pose);
+  }
+  static HandObservationPtr nothing() { return std::make_shared<HandObservation>(); }
+  static HandObservationPtr at(std::int64_t utime, const HandObservation& observation, bool followed) {
+    auto copy = std::make_shared<HandObservation>(observation);
+    auto frame = std::make_shared<RgbdFrame>();
+    if (observation.frame) *frame = *observation.frame;
+    frame->utime = utime;
+    copy->frame = frame;
+    copy->followed = followed;
+    return copy;
+  }
+  /// `followed`: preprocess found the k-th where its hint said.
+  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& first, const HandObservationPtr& second,
+                     std::array<bool, 2> followed) {
+    utime_ += 33'000;
+    HandObservations observations;
+    for (const HandObservationPtr& o : {first, second})
+      observations.push_back(at(utime_, *o, followed[observations.size()]));
+    return tracker.process(observations);
+  }
+  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& only) {
+    return tracker.process({at(utime_ += 33'000, *only, false)});
+  }
+  HandEstimates next_times(int frames, HandsTracker& tracker, const HandObservationPtr& first,
+                           const HandObservationPtr& second, std::array<bool, 2> followed = {}) {
+    HandEstimates last;
+    for (int i = 0; i < frames; ++i) last = next(tracker, first, second, followed);
+    return last;
+  }
+
+  const std::shared_ptr<const HandProfile> right_ = test::adult_hand();
+  const std::shared_ptr<const HandProfile> left_ = std::make_shared<const HandProfile>(mirrored(*right_));
+  const HandObservationPtr right_hand_ = seen(*right_, 0.2, kRightX), left_hand_ = seen(*left_, 0.5, kLeftX);
+  Workers workers_{1};
+  HandsTracker tracker_{cheap(), {right_, left_}, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(HandsTrackerTest, EveryHandFindsItsSideWhateverTheOrder) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
+    found = next_times(1, tracker_, left_hand_, right_hand_);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+  EXPECT_EQ(found[kLeft]->handedness, Handedness::left);
+  EXPECT_NEAR(found[kRight]->segments[kPalm].T_camera_segment.t.x(), kRightX, 0.04);
+  EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
+  EXPECT_NE(found[kRight]->hand_id, found[kLeft]->hand_id);
+}
+
+TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i) {
+    found = next_times(1, tracker_, left_hand_, nothing());
+    EXPECT_EQ(found[kRight]->status, TrackStatus::searching);
+  }
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
+  HandsTracker only_left(cheap(), {left_}, 1, workers_), only_right(cheap(), {right_}, 1, workers_);
+  HandEstimates refused, taken;
+  for (int i = 0; i < 4; ++i) {
+    refused = next(only_left, right_hand_);
+    taken = next(only_right, right_hand_);
+  }
+  EXPECT_EQ(refused[0]->status, TrackStatus::searching);
+  EXPECT_EQ(taken[0]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
+  next_times(4, tracker_, right_hand_, nothing());
+  const HandEstimates alone = next_times(2, tracker_, right_hand_, nothing(), {true, false});
+  EXPECT_EQ(alone[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(alone[kLeft]->status, TrackStatus::searching);
+  const HandEstimates both = next_times(9, tracker_, right_hand_, left_hand_, {true, false});
+  EXPECT_EQ(both[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(both[kRight]->hand_id, alone[kRight]->hand_id);
+  EXPECT_EQ(both[kLeft]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
+  Workers two(2);
+  HandsTracker other(cheap(), {right_, left_}, 1, two);
+  const HandEstimates one = next_times(4, tracker_, right_hand_, left_hand_);
+  utime_ = 1'000'000;
+  const HandEstimates same = next_times(4, other, right_hand_, left_hand_);
+  for (int k = 0; k < 2; ++k)
+    for (int s = 0; s < kSegmentCount; ++s)
+      EXPECT_EQ(one[k]->segments[s].T_camera_segment.t, same[k]->segments[s].T_camera_segment.t);
+}
+
+}  // namespace
+}  // namespace barehand
