@@ -135,16 +135,17 @@ class GraspSequence : public Sequence {
   const std::vector<SceneObject>& objects() const override { return objects_; }
 
   SceneState at(double time) const override {
+    HandState hand{track_->at(time)};
+    const SE3 T_world_palm = hand.skeleton.T_camera_palm;  // the track is in the world
+    hand.skeleton.T_camera_palm = T_camera_world_ * T_world_palm;
     SceneState state;
-    state.hand = track_->at(time);
-    const SE3 T_world_palm = state.hand.T_camera_palm;  // the track is in the world
-    state.hand.T_camera_palm = T_camera_world_ * T_world_palm;
     const bool in_hand = time > kGrasped && time < kReleasing;
     state.T_camera_object.push_back(T_camera_world_ * (in_hand ? T_world_palm * T_palm_thing_ : T_world_thing_));
     for (const SE3& T : T_world_stand_) state.T_camera_object.push_back(T_camera_world_ * T);
     state.T_camera_object.push_back(T_camera_world_);  // the table
     const Vector3d elbow_at_grasp = T_world_grasp_ * Vector3d(0, 0.03, 0.38);
-    state.elbow = T_camera_world_ * Vector3d(elbow_at_grasp + 0.8 * (T_world_palm.t - T_world_grasp_.t));
+    hand.elbow = T_camera_world_ * Vector3d(elbow_at_grasp + 0.8 * (T_world_palm.t - T_world_grasp_.t));
+    state.hands = {hand};
     return state;
   }
 

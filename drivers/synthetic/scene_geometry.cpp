@@ -4,13 +4,6 @@
 
 namespace barehand::synthetic {
 
-void SceneGeometry::clear() {
-  vertices.clear();
-  normals.clear();
-  triangles.clear();
-  surface.clear();
-}
-
 void SceneGeometry::add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index) {
   const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const Eigen::Vector3f t = T_camera_mesh.t.cast<float>();
@@ -19,6 +12,14 @@ void SceneGeometry::add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std:
   for (const auto& n : mesh.normals) normals.push_back(R * n);
   for (const Triangle& c : mesh.triangles) triangles.push_back({c[0] + first, c[1] + first, c[2] + first});
   surface.insert(surface.end(), mesh.triangles.size(), surface_index);
+}
+
+void SceneGeometry::add(const SceneGeometry& other) {
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  normals.insert(normals.end(), other.normals.begin(), other.normals.end());
+  for (const Triangle& c : other.triangles) triangles.push_back({c[0] + first, c[1] + first, c[2] + first});
+  surface.insert(surface.end(), other.surface.begin(), other.surface.end());
 }
 
 void SceneGeometry::mirror() {

@@ -19,8 +19,8 @@ struct SceneGeometry {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> surface;  ///< of every triangle: index into the materials
 
-  void clear();
   void add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index);
+  void add(const SceneGeometry& other);
   /// Reflects everything in the plane x = 0: a scene of the other hand.
   void mirror();
 };

@@ -32,6 +32,12 @@ const std::vector<SequenceInfo>& sequence_list() {
   return kList;
 }
 
+Result<SequenceInfo> sequence_info(const std::string& name) {
+  for (const SequenceInfo& info : sequence_list())
+    if (info.name == name) return info;
+  return fail("there is no sequence \"" + name + "\"", "sim", "choose one of: " + known_names());
+}
+
 Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed) {
   if (name == "fist") return make_fist(seed);
   if (name == "open") return make_open(seed);
@@ -42,7 +48,7 @@ Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const H
   if (name == "grasp_pliers") return make_grasp(rig, GraspedThing::pliers, seed);
   for (int degree = 0; degree <= 6; ++degree)
     if (name == "occlusion_" + std::to_string(degree)) return make_occlusion(rig, degree, seed);
-  return fail("there is no sequence \"" + name + "\"", "sim", "choose one of: " + known_names());
+  return tl::unexpected(sequence_info(name).error());
 }
 
 }  // namespace barehand::synthetic

@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/synthetic/hand_mesh_file.h"
-#include "drivers/synthetic/hand_mirror.h"
-#include "drivers/synthetic/measured_profile.h"
-#include "drivers/synthetic/sleeve.h"
-
 namespace barehand::synthetic {
 namespace {
 
-constexpr std::uint8_t kSleeve = kSegmentCount;  // surfaces 0..15: the hand's segments
-constexpr std::uint8_t kFirstObject = kSegmentCount + 1;
 constexpr Rgb kSkin = {214, 162, 134}, kCloth = {42, 66, 138};
 constexpr int kMargin = 200;  // [px] around the image in which a segment still counts as projected
 
@@ -21,19 +14,17 @@ Intrinsics camera_of(const SimulatorParams& p) {
   return {p.width, p.height, focal, focal, 0.5 * (p.width - 1), 0.5 * (p.height - 1)};
 }
 
-Result<HandMesh> load_shaped_mesh(const SimulatorParams& params, const std::string& folder) {
-  const Handedness side = params.hand == "left" ? Handedness::left : Handedness::right;
-  const auto path = find_hand_mesh(side, folder);
-  if (!path) return tl::unexpected(path.error());
-  const auto mesh = load_hand_mesh(*path, side);
-  if (!mesh) return mesh;
-  return reshaped(*mesh, params.shape);
+/// The sides of the hands that a sequence shows.
+Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const SimulatorParams& params) {
+  const Handedness wanted = params.hand == "left" ? Handedness::left : Handedness::right;
+  if (!info.both_hands) return std::vector{wanted};
+  if (wanted == Handedness::left)
+    return fail("shows a right and a left hand, there is none to choose", info.name, "leave out hand=left");
+  return std::vector{Handedness::right, Handedness::left};
 }
 
-const SequenceInfo& info_of(const std::string& name) {
-  const auto& list = sequence_list();
-  return *std::find_if(list.begin(), list.end(), [&](const SequenceInfo& info) { return info.name == name; });
-}
+/// Surfaces of a hand: see AnimatedHand; things come after all hands.
+std::uint8_t first_surface(std::size_t hand) { return static_cast<std::uint8_t>(AnimatedHand::kSurfaceCount * hand); }
 
 Image<std::uint16_t> counts(const Image<float>& depth) {
   Image<std::uint16_t> image(depth.width(), depth.height());
@@ -49,42 +40,44 @@ Image<std::uint16_t> counts(const Image<float>& depth) {
 Simulator::Simulator(const SimulatorParams& params, const Intrinsics& camera) : params_(params), rasteriser_(camera) {}
 
 Result<Simulator> Simulator::create(const SimulatorParams& params, const std::string& mesh_folder) {
-  auto mesh = load_shaped_mesh(params, mesh_folder);
-  if (!mesh) return tl::unexpected(mesh.error());
+  const auto info = sequence_info(params.sequence);
+  if (!info) return tl::unexpected(info.error());
+  const auto sides = sides_of(*info, params);
+  if (!sides) return tl::unexpected(sides.error());
   Simulator simulator(params, camera_of(params));
-  simulator.profile_ = measure_profile(*mesh);
-  HandMesh right = mesh->handedness == Handedness::right ? *mesh : mirrored(*mesh);
-  simulator.skinner_ = std::make_unique<Skinner>(right);
-  simulator.rig_ = std::make_unique<HandRig>(HandRig{right, measure_profile(right)});
-  auto sequence = make_sequence(params.sequence, *simulator.rig_, static_cast<std::uint64_t>(params.seed));
+  for (const Handedness side : *sides) {
+    auto hand = AnimatedHand::load(side, params.shape, mesh_folder);
+    if (!hand) return tl::unexpected(hand.error());
+    simulator.hands_.push_back(std::move(*hand));
+  }
+  auto sequence =
+      make_sequence(params.sequence, simulator.hands_.front().rig(), static_cast<std::uint64_t>(params.seed));
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
-  const SequenceInfo& info = info_of(params.sequence);
-  simulator.fps_ = params.fps > 0 ? params.fps : info.fps;
-  simulator.frame_count_ = std::lround(info.frames / info.fps * simulator.fps_ / params.speed);
+  simulator.fps_ = params.fps > 0 ? params.fps : info->fps;
+  simulator.frame_count_ = std::lround(info->frames / info->fps * simulator.fps_ / params.speed);
   if (params.frames > 0) simulator.frame_count_ = std::min<std::int64_t>(simulator.frame_count_, params.frames);
   return simulator;
 }
 
 std::vector<Material> Simulator::materials() const {
-  std::vector<Material> list(kSegmentCount, Material{kSkin});
-  list.push_back({params_.sleeve == "skin" ? kSkin : kCloth});
+  std::vector<Material> list;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    list.insert(list.end(), kSegmentCount, Material{kSkin});
+    list.push_back({params_.sleeve == "skin" ? kSkin : kCloth});
+  }
   for (const SceneObject& object : sequence_->objects()) list.push_back(object.material);
   return list;
 }
 
-void Simulator::build_scene(const SceneState& state, const HandPose& pose) {
-  scene_.clear();
-  skin_.triangles = rig_->mesh.triangles;
-  skinner_->deform(pose, skin_.vertices);
-  vertex_normals(skin_.vertices, skin_.triangles, skin_.normals);
-  scene_.add(skin_, SE3{}, 0);
-  std::copy(skinner_->triangle_segments().begin(), skinner_->triangle_segments().end(), scene_.surface.begin());
-  if (params_.sleeve != "none")
-    scene_.add(make_sleeve(pose[kPalm], state.elbow, params_.shape.scale, params_.sleeve == "skin"), SE3{}, kSleeve);
+SceneGeometry Simulator::things(const SceneState& state) const {
+  SceneGeometry geometry;
   const auto& objects = sequence_->objects();
   for (std::size_t i = 0; i < objects.size(); ++i)
-    scene_.add(objects[i].mesh, state.T_camera_object[i], static_cast<std::uint8_t>(kFirstObject + i));
+    geometry.add(objects[i].mesh, state.T_camera_object[i],
+                 static_cast<std::uint8_t>(first_surface(hands_.size()) + i));
+  if (hands_.front().side() == Handedness::left) geometry.mirror();  // one left hand: all of the scene is in the mirror
+  return geometry;
 }
 
 Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) const {
@@ -95,37 +88,38 @@ Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) con
   return view.depth;
 }
 
-std::optional<TableFrame> Simulator::truth_of(const RenderedView& view, const HandPose& pose,
-                                              std::int64_t number) const {
+std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
+                                              const HandPose& pose) const {
   std::array<int, kSegmentCount> front{};
-  for (std::size_t i = 0; i < view.surface.size(); ++i)
-    if (view.surface[i] < kSegmentCount) ++front[view.surface[i]];
+  for (std::size_t i = 0; i < view.surface.size(); ++i) {
+    const int segment = view.surface[i] - first_surface(hand);
+    if (segment >= 0 && segment < kSegmentCount) ++front[segment];
+  }
   if (std::all_of(front.begin(), front.end(), [](int n) { return n == 0; })) return std::nullopt;
-  const auto& segments = skinner_->triangle_segments();
-  const auto covered =
-      covered_pixels(camera(), kMargin, scene_.vertices, std::span(scene_.triangles).first(segments.size()), segments);
-  TableFrame truth;
-  truth.number = number;
+  const auto& segments = hands_[hand].triangle_segments();
+  const auto covered = covered_pixels(camera(), kMargin, geometry.vertices,
+                                      std::span(geometry.triangles).first(segments.size()), segments);
+  TableFrame table;
   for (int s = 0; s < kSegmentCount; ++s) {
-    truth.rows[s] = {proximal_end(pose, s), distal_end(profile_, pose, s),
+    table.rows[s] = {proximal_end(pose, s), distal_end(hands_[hand].profile(), pose, s),
                      covered[s] > 0 ? static_cast<double>(front[s]) / covered[s] : 0.0};
   }
-  return truth;
+  return table;
 }
 
 SimulatedFrame Simulator::render(std::int64_t number) {
   const double time = static_cast<double>(number) / fps_ * params_.speed;
   const SceneState state = sequence_->at(std::min(time, sequence_->duration()));
-  SimulatedFrame result;
-  result.pose = pose_segments(rig_->profile, state.hand);
-  build_scene(state, result.pose);
-  if (profile_.handedness == Handedness::left) {
-    scene_.mirror();
-    for (SE3& T : result.pose) T = mirrored(T);
+  std::vector<SceneGeometry> hands;
+  SceneGeometry scene;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    hands.push_back(hands_[i].geometry(state.hands[i], params_.sleeve, first_surface(i)));
+    scene.add(hands.back());
   }
+  scene.add(things(state));
   rasteriser_.clear();
-  rasteriser_.draw(scene_.vertices, scene_.triangles, 0);
-  RenderedView view = shade(camera(), rasteriser_.buffer(), scene_, materials(),
+  rasteriser_.draw(scene.vertices, scene.triangles, 0);
+  RenderedView view = shade(camera(), rasteriser_.buffer(), scene, materials(),
                             static_cast<std::uint64_t>(params_.seed), static_cast<std::uint32_t>(number));
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = kFirstUtime + std::llround(1e6 * static_cast<double>(number) / fps_);
@@ -133,8 +127,16 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   frame->camera = camera();
   frame->depth_unit = kDepthUnit;
   frame->depth = counts(spoil(view, number));
-  result.truth = truth_of(view, result.pose, number);
-  if (result.truth) result.truth->timestamp = 1e-6 * static_cast<double>(frame->utime);
+  SimulatedFrame result;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}};
+    truth.table = table_of(i, view, hands[i], truth.pose);
+    if (truth.table) {
+      truth.table->number = number;
+      truth.table->timestamp = 1e-6 * static_cast<double>(frame->utime);
+    }
+    result.hands.push_back(std::move(truth));
+  }
   frame->colour = std::move(view.colour);
   result.frame = std::move(frame);
   return result;

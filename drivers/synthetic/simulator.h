@@ -5,10 +5,8 @@
 #include <string>
 
 #include "core/error.h"
+#include "drivers/synthetic/animated_hand.h"
 #include "drivers/synthetic/depth_noise.h"
-#include "drivers/synthetic/hand_shape.h"
-#include "drivers/synthetic/sequence.h"
-#include "drivers/synthetic/skinning.h"
 #include "io/result_table.h"
 #include "math/frame.h"
 
@@ -35,7 +33,7 @@ void visit(V& v, SimulatorParams& p) {
   v("fps", p.fps, 0.0, 1000.0, "frames per second, 0 = the sequence's own");
   v("frames", p.frames, 0, 10000000, "end after this many, 0 = the whole sequence");
   v("speed", p.speed, 0.05, 20.0, "factor on the speed of the motion");
-  v("hand", p.hand, {"right", "left"}, "which hand; a left one is seen in a mirror");
+  v("hand", p.hand, {"right", "left"}, "which hand, where a sequence has one; a left one is seen in a mirror");
   v("sleeve", p.sleeve, {"blue", "skin", "none"}, "what the forearm wears; none = no forearm");
   v("width", p.width, 64, 4096, "pixels");
   v("height", p.height, 48, 4096, "pixels");
@@ -43,21 +41,27 @@ void visit(V& v, SimulatorParams& p) {
   visit(v, p.shape);
 }
 
+/// What is true of a hand in one frame.
+struct HandTruth {
+  HandPose pose;                    ///< T_camera_segment
+  std::optional<TableFrame> table;  ///< absent while no part of this hand is in the picture
+};
+
 /// One simulated measurement and what is true of it.
 struct SimulatedFrame {
   FramePtr frame;
-  HandPose pose;                    ///< T_camera_segment
-  std::optional<TableFrame> truth;  ///< absent while no part of the hand is in the picture
+  std::vector<HandTruth> hands;  ///< in the order of Simulator::hands()
 };
 
-/// Renders a sequence: an animated hand mesh with things, a table and a sleeve, before a range camera. Frame i is a
-/// pure function of the parameters and i. Not for use by several threads at once.
+/// Renders a sequence: one or two animated hand meshes with sleeves, things and a table, before a range camera. Frame i
+/// is a pure function of the parameters and i. Not for use by several threads at once.
 class Simulator {
  public:
   static constexpr double kDepthUnit = 0.0001;            ///< m per count
   static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< of frame 0
 
-  /// Errors: hand mesh not fetched or unfit, unknown sequence. `mesh_folder`: see hand_mesh_folder().
+  /// Errors: hand mesh not fetched or unfit, unknown sequence, a left hand wanted of a sequence that has both.
+  /// `mesh_folder`: see hand_mesh_folder().
   static Result<Simulator> create(const SimulatorParams& params, const std::string& mesh_folder = {});
 
   SimulatedFrame render(std::int64_t number);
@@ -65,28 +69,25 @@ class Simulator {
   std::int64_t frame_count() const { return frame_count_; }
   double fps() const { return fps_; }
   const Intrinsics& camera() const { return rasteriser_.camera(); }
-  /// As measured on the simulated hand at rest.
-  const HandProfile& profile() const { return profile_; }
+  /// One; or a right and a left one.
+  const std::vector<AnimatedHand>& hands() const { return hands_; }
   const SimulatorParams& params() const { return params_; }
 
  private:
   Simulator(const SimulatorParams& params, const Intrinsics& camera);
-  void build_scene(const SceneState& state, const HandPose& pose);
+  SceneGeometry things(const SceneState& state) const;
   std::vector<Material> materials() const;
   Image<float> spoil(const RenderedView& view, std::int64_t number) const;
-  std::optional<TableFrame> truth_of(const RenderedView& view, const HandPose& pose, std::int64_t number) const;
+  std::optional<TableFrame> table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
+                                     const HandPose& pose) const;
 
   SimulatorParams params_;
   std::int64_t frame_count_ = 0;
   double fps_ = 30;
-  HandProfile profile_;
-  std::unique_ptr<HandRig> rig_;  // right-handed; its address is known to the sequence
-  std::unique_ptr<Skinner> skinner_;
+  std::vector<AnimatedHand> hands_;
   std::unique_ptr<Sequence> sequence_;
   DepthNoise noise_;
   Rasteriser rasteriser_;
-  SceneGeometry scene_;  // the hand's triangles come first
-  TriangleMesh skin_;
 };
 
 }  // namespace barehand::synthetic

@@ -33,13 +33,11 @@ FreeSequence::FreeSequence(Setting setting) : setting_(std::move(setting)), trac
 }
 
 SceneState FreeSequence::at(double time) const {
-  SceneState state;
-  state.hand = with_tremor(track_.at(time), time, setting_.seed);
-  state.T_camera_object = setting_.T_camera_object;
+  const SkeletonPose skeleton = with_tremor(track_.at(time), time, setting_.seed);
   // The elbow follows the wrist, a little less far.
   const Eigen::Vector3d start = setting_.keys.front().position;
-  state.elbow = start + setting_.wrist_to_elbow + 0.9 * (state.hand.T_camera_palm.t - start);
-  return state;
+  const Eigen::Vector3d elbow = start + setting_.wrist_to_elbow + 0.9 * (skeleton.T_camera_palm.t - start);
+  return {{{skeleton, elbow}}, setting_.T_camera_object};
 }
 
 }  // namespace barehand::synthetic

@@ -16,7 +16,9 @@ Result<std::unique_ptr<SyntheticSource>> SyntheticSource::open(const std::string
 }
 
 SyntheticSource::SyntheticSource(SyntheticSpec spec, Simulator simulator, std::string name, const Clock& clock)
-    : spec_(std::move(spec)), simulator_(std::move(simulator)), name_(std::move(name)), clock_(clock) {}
+    : spec_(std::move(spec)), simulator_(std::move(simulator)), name_(std::move(name)), clock_(clock) {
+  for (const AnimatedHand& hand : simulator_.hands()) hands_.push_back({hand.profile(), {}, {}});
+}
 
 std::int64_t SyntheticSource::remaining() const {
   return spec_.loop ? -1 : std::max<std::int64_t>(0, simulator_.frame_count() - next_);
@@ -55,12 +57,14 @@ FramePtr SyntheticSource::deliver() {
   const std::int64_t since_start = std::llround(1e6 * static_cast<double>(number) / simulator_.fps());
   frame->number = number;
   frame->utime = (spec_.live ? start_utime_ : Simulator::kFirstUtime) + since_start;
-  if (simulated.truth) {
-    simulated.truth->number = number;
-    simulated.truth->timestamp = 1e-6 * static_cast<double>(frame->utime);
-    truth_.push_back(*simulated.truth);
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    hands_[i].pose = simulated.hands[i].pose;
+    if (auto& table = simulated.hands[i].table) {
+      table->number = number;
+      table->timestamp = 1e-6 * static_cast<double>(frame->utime);
+      hands_[i].truth.push_back(*table);
+    }
   }
-  pose_ = simulated.pose;
   return frame;
 }
 

@@ -10,6 +10,14 @@
 
 namespace barehand::synthetic {
 
+/// A hand in view of the simulator.
+struct SimulatedHand {
+  HandProfile profile;  ///< as measured on it
+  std::vector<TableFrame>
+      truth;      ///< of the frames delivered so far, in order; those without this hand in view left out
+  HandPose pose;  ///< in the frame delivered last
+};
+
 /// The simulator as a camera. Replayed: every frame once, stamped from 1 s on. Live: a frame becomes due at its time by
 /// the clock and is stamped with that; frames that nobody fetched in time are left out, as a sensor would.
 class SyntheticSource : public FrameSource {
@@ -21,16 +29,12 @@ class SyntheticSource : public FrameSource {
   bool live() const override { return spec_.live; }
   std::string name() const override { return name_; }
 
-  /// The simulated hand's profile, as measured on it.
-  const HandProfile& profile() const { return simulator_.profile(); }
+  /// One, or a right and a left one.
+  const std::vector<SimulatedHand>& hands() const { return hands_; }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
   /// Frames still to come; -1 if it goes on for ever.
   std::int64_t remaining() const;
-  /// What is true of the frames delivered so far, in order; frames without a hand in view are not in it.
-  const std::vector<TableFrame>& truth() const { return truth_; }
-  /// Pose of every segment in the frame delivered last.
-  const HandPose& pose() const { return pose_; }
 
  private:
   SyntheticSource(SyntheticSpec spec, Simulator simulator, std::string name, const Clock& clock);
@@ -46,8 +50,7 @@ class SyntheticSource : public FrameSource {
   std::int64_t next_ = 0;
   std::int64_t start_us_ = -1;    // clock time of frame 0, once live frames were asked for
   std::int64_t start_utime_ = 0;  // the same since the epoch
-  std::vector<TableFrame> truth_;
-  HandPose pose_;
+  std::vector<SimulatedHand> hands_;
 };
 
 }  // namespace barehand::synthetic

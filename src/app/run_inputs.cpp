@@ -35,7 +35,8 @@ Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& want
       found.push_back(name == "right" || name == "left" ? shipped(name) : named(load_profile(name), name));
     }
   }
-  if (found.empty() && source.hand) found.push_back(named(source.hand(), source.hand_name));
+  if (found.empty())
+    for (const SourceHand& hand : source.hands) found.push_back(named(hand.load(), hand.name));
   if (found.empty()) found.push_back(shipped("right"));
   std::vector<NamedHand> hands;
   for (Result<NamedHand>& hand : found) {

@@ -73,12 +73,13 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   sim->add_option("--seed", a->seed, "of motion and noise");
   sim->add_option("--frames", a->frames, "end after this many frames");
   sim->add_option("--fps", a->fps, "frames per second, other than the sequence's own");
-  sim->add_option("--hand", a->hand, "right or left");
+  sim->add_option("--hand", a->hand, "right or left, where a sequence shows one hand");
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
   sim->add_flag("--list", a->list, "name the sequences and keys");
   sim->footer(
-      "FILE.lcmlog gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it. Ctrl-C: what is written so "
-      "far is a complete recording.");
+      "FILE.lcmlog gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where two hands are seen, "
+      "those "
+      "of the left one end in _left. Ctrl-C: what is written so far is a complete recording.");
   sim->callback([a, &exit_code] { exit_code = run(*a); });
 }
 

@@ -13,6 +13,7 @@
 namespace barehand {
 namespace {
 
+using synthetic::SimulatedHand;
 using synthetic::SyntheticSource;
 
 /// Path of a file that goes with the recording.
@@ -28,6 +29,41 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
   return open_frame_writer(out, options);
 }
 
+/// The files about one hand: its profile, its truth, and its pose in the first frame if it is seen there.
+class HandFiles {
+ public:
+  /// `suffix` tells the files of a second hand from those of the first.
+  static Result<HandFiles> create(const std::string& out, const std::string& suffix, const HandProfile& profile) {
+    const auto path = [&](const std::string& name, const char* ending) { return beside(out, name + suffix + ending); };
+    if (auto ok = save_profile(profile, path("hand", ".json")); !ok) return tl::unexpected(ok.error());
+    auto truth = TableWriter::create(path("truth", ".csv"));
+    if (!truth) return tl::unexpected(truth.error());
+    return HandFiles(std::move(*truth), path("start_pose", ".json"));
+  }
+  Result<void> write(const SimulatedHand& hand, std::int64_t number) {
+    if (hand.truth.empty() || hand.truth.back().number != number) return {};  // not in view
+    if (number == 0)
+      if (auto ok = save_pose(hand.pose, start_pose_); !ok) return ok;
+    return truth_.write(hand.truth.back());
+  }
+
+ private:
+  HandFiles(TableWriter truth, std::string start_pose) : truth_(std::move(truth)), start_pose_(std::move(start_pose)) {}
+
+  TableWriter truth_;
+  std::string start_pose_;
+};
+
+Result<std::vector<HandFiles>> create_hand_files(const std::string& out, const std::vector<SimulatedHand>& hands) {
+  std::vector<HandFiles> files;
+  for (const SimulatedHand& hand : hands) {
+    auto created = HandFiles::create(out, files.empty() ? "" : "_left", hand.profile);
+    if (!created) return tl::unexpected(created.error());
+    files.push_back(std::move(*created));
+  }
+  return files;
+}
+
 }  // namespace
 
 Result<std::int64_t> run_sim(const SimOptions& options,
@@ -39,10 +75,8 @@ Result<std::int64_t> run_sim(const SimOptions& options,
     return fail("a recording is neither live nor endless", "sim:" + options.spec, "leave out live and loop");
   auto writer = make_writer(options.out, (*source)->fps());
   if (!writer) return tl::unexpected(writer.error());
-  if (auto ok = save_profile((*source)->profile(), beside(options.out, "hand.json")); !ok)
-    return tl::unexpected(ok.error());
-  auto truth = TableWriter::create(beside(options.out, "truth.csv"));
-  if (!truth) return tl::unexpected(truth.error());
+  auto hand_files = create_hand_files(options.out, (*source)->hands());
+  if (!hand_files) return tl::unexpected(hand_files.error());
   const std::int64_t all = (*source)->remaining();
   std::int64_t done = 0;
   while (done < all) {
@@ -50,11 +84,8 @@ Result<std::int64_t> run_sim(const SimOptions& options,
     const auto* frame = std::get_if<FramePtr>(&event);
     if (!frame) break;
     if (auto ok = (*writer)->write(**frame); !ok) return tl::unexpected(ok.error());
-    const auto& truths = (*source)->truth();
-    if (!truths.empty() && truths.back().number == (*frame)->number)
-      if (auto ok = truth->write(truths.back()); !ok) return tl::unexpected(ok.error());
-    if (done == 0)
-      if (auto ok = save_pose((*source)->pose(), beside(options.out, "start_pose.json")); !ok)
+    for (std::size_t i = 0; i < hand_files->size(); ++i)
+      if (auto ok = (*hand_files)[i].write((*source)->hands()[i], (*frame)->number); !ok)
         return tl::unexpected(ok.error());
     ++done;
     if (!progress(done, all)) break;

@@ -14,11 +14,11 @@ struct SimOptions {
   std::string out;   ///< folder, or an LCM log if it ends with .lcmlog
 };
 
-/// Renders a whole sequence. Into a folder: a recording (docs/formats.md) with truth.csv, hand.json and
-/// start_pose.json; into a log: frames on channel RGBD_FRAME, and truth.csv, hand.json, start_pose.json beside it, with
-/// the log's name before theirs (LOG.truth.csv). `progress(done, all)` is called after each frame; false from it ends
-/// the run, and what is written until then is complete. Returns the number of frames written. Errors: those of the
-/// specification, an output that is there already, a disk that is full.
+/// Renders a whole sequence. Into a folder: a recording (docs/formats.md) with truth.csv, hand.json and, if the hand is
+/// in the first frame, start_pose.json; of a second hand truth_left.csv and so on. Into a log: frames on channel
+/// RGBD_FRAME, and those files beside it, with the log's name before theirs (LOG.truth.csv). `progress(done, all)` is
+/// called after each frame; false from it ends the run, and what is written until then is complete. Returns the number
+/// of frames written. Errors: those of the specification, an output that is there already, a disk that is full.
 Result<std::int64_t> run_sim(const SimOptions& options,
                              const std::function<bool(std::int64_t, std::int64_t)>& progress);
 

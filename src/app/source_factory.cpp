@@ -23,10 +23,9 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.frames = (*source)->remaining();
-  const std::string hand = directory + "/hand.json";
-  if (std::filesystem::exists(hand)) {
-    open.hand = [hand] { return load_profile(hand); };
-    open.hand_name = hand;
+  for (const char* name : {"/hand.json", "/hand_left.json"}) {
+    const std::string path = directory + name;
+    if (std::filesystem::exists(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
   if (const double fps = (*source)->recording().fps; fps > 0) open.fps = fps;
   open.source = std::move(*source);
@@ -86,8 +85,9 @@ Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
   OpenSource open;
   if (const std::int64_t frames = (*source)->remaining(); frames >= 0) open.frames = frames;
   open.fps = (*source)->fps();
-  open.hand = [profile = (*source)->profile()] { return Result<HandProfile>(profile); };
-  open.hand_name = "of the simulated hand";
+  for (const synthetic::SimulatedHand& hand : (*source)->hands())
+    open.hands.push_back({[profile = hand.profile] { return Result<HandProfile>(profile); },
+                          "of the simulated " + std::string(to_string(hand.profile.handedness)) + " hand"});
   open.source = std::move(*source);
   return open;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/clock.h"
 #include "core/error.h"
@@ -27,11 +28,15 @@ struct SourceRequest {
   std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
 };
 
+/// A hand that a source knows.
+struct SourceHand {
+  std::function<Result<HandProfile>()> load;  ///< reads its profile
+  std::string name;                           ///< where that comes from, for messages
+};
+
 struct OpenSource {
   std::unique_ptr<FrameSource> source;
-  /// Reads the profile of the very hand that is seen; empty: the source knows none.
-  std::function<Result<HandProfile>()> hand;
-  std::string hand_name;               ///< where that profile comes from, for messages
+  std::vector<SourceHand> hands;       ///< the very hands that are seen, the first one first; empty: not known
   double fps = 30;                     ///< nominal rate at which frames come
   std::optional<std::int64_t> frames;  ///< how many will come, where that is known
   std::optional<std::string> warning;  ///< what the user should know of a source that opened all the same

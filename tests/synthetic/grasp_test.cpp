@@ -49,7 +49,7 @@ Contact contact(const HandRig& hand, const std::string& name, const SignedDistan
   Contact result;
   for (double time = 0; time < (*sequence)->duration(); time += 0.1) {
     const SceneState state = (*sequence)->at(time);
-    skinner.deform(pose_segments(hand.profile, state.hand), skin);
+    skinner.deform(pose_segments(hand.profile, state.hands.front().skeleton), skin);
     const SE3 T_thing_camera = state.T_camera_object[0].inverse();
     double nearest = 1;
     for (const auto& v : skin) nearest = std::min(nearest, thing(T_thing_camera * v.cast<double>()));

@@ -25,17 +25,16 @@ class EverySequence : public testing::TestWithParam<std::string> {};
 TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
   Simulator sim = simulator(small(GetParam()));
   const Intrinsics& camera = sim.camera();
-  HandPose before;
+  std::vector<HandTruth> before;
   for (std::int64_t i = 0; i < sim.frame_count(); ++i) {
     const SimulatedFrame frame = sim.render(i);
-    if (i > 0) {
+    for (std::size_t hand = 0; hand < before.size(); ++hand)
       for (int s = 0; s < kSegmentCount; ++s)
-        EXPECT_LT((frame.pose[s].t - before[s].t).norm() * sim.fps(), 2.0) << "m/s, frame " << i;
-    }
-    before = frame.pose;
+        EXPECT_LT((frame.hands[hand].pose[s].t - before[hand].pose[s].t).norm() * sim.fps(), 2.0) << "m/s, frame " << i;
+    before = frame.hands;
     if (GetParam() == "wave" || GetParam() == "returns") continue;
-    ASSERT_TRUE(frame.truth.has_value());
-    for (const TableRow& row : frame.truth->rows)
+    ASSERT_TRUE(frame.hands.front().table.has_value());
+    for (const TableRow& row : frame.hands.front().table->rows)
       for (const Eigen::Vector3d& end : {row.proximal, row.distal}) {
         const Eigen::Vector2d pixel = camera.project(end);
         EXPECT_TRUE(pixel.x() > 3 && pixel.x() < camera.width - 3 && pixel.y() > 3 && pixel.y() < camera.height - 3)
@@ -56,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(All, EverySequence, testing::ValuesIn(names()), [](cons
 TEST(Wave, LeavesTheViewAndComesBack) {
   Simulator sim = simulator(small("wave"));
   std::string presence;
-  for (std::int64_t i = 0; i < sim.frame_count(); i += 10) presence += sim.render(i).truth ? 'x' : '.';
+  for (std::int64_t i = 0; i < sim.frame_count(); i += 10) presence += sim.render(i).hands.front().table ? 'x' : '.';
   EXPECT_EQ(presence.front(), 'x');
   EXPECT_EQ(presence.back(), 'x');
   EXPECT_NE(presence.find("..."), std::string::npos);
@@ -68,11 +67,11 @@ TEST(Returns, LeavesTheViewTenTimes) {
   int departures = 0;
   bool was_there = true;
   for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames it leaves for good
-    const bool there = sim.render(i).truth.has_value();
+    const bool there = sim.render(i).hands.front().table.has_value();
     departures += was_there && !there;
     was_there = there;
   }
-  EXPECT_TRUE(sim.render(0).truth);
+  EXPECT_TRUE(sim.render(0).hands.front().table);
   EXPECT_GE(departures, 10);
 }
 
@@ -83,7 +82,7 @@ TEST(Fist, ClosesTwice) {
   int closings = 0;
   bool was_closed = false;
   for (std::int64_t i = 0; i < sim.frame_count(); ++i) {
-    const TableFrame truth = *sim.render(i).truth;
+    const TableFrame truth = *sim.render(i).hands.front().table;
     const bool closed = (truth.rows[segment_of(2, 2)].distal - truth.rows[kPalm].proximal).norm() < 0.1;
     closings += closed && !was_closed;
     was_closed = closed;
@@ -93,7 +92,7 @@ TEST(Fist, ClosesTwice) {
 
 double fingers_visible(int degree) {
   Simulator sim = simulator(small("occlusion_" + std::to_string(degree)));
-  const TableFrame truth = *sim.render(0).truth;
+  const TableFrame truth = *sim.render(0).hands.front().table;
   double sum = 0;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) sum += truth.rows[s].visible;
   return sum / 12;

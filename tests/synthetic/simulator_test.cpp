@@ -34,15 +34,15 @@ TEST(Simulator, TruthIsTheKinematicsOfItsProfile) {
     params.hand = hand;
     Simulator sim = simulator(params);
     const SimulatedFrame frame = sim.render(30);
-    const HandProfile& profile = sim.profile();
+    const HandProfile& profile = sim.hands().front().profile();
     EXPECT_EQ(to_string(profile.handedness), hand);
     std::array<JointAngles, kSegmentCount> angles{};
-    for (int s = 1; s < kSegmentCount; ++s) angles[s] = joint_angles(profile, frame.pose, s);
+    for (int s = 1; s < kSegmentCount; ++s) angles[s] = joint_angles(profile, frame.hands.front().pose, s);
     EXPECT_GT(angles[segment_of(2, 0)].flexion, 0.8) << "a fist is flexed, also a left one";
-    const HandPose again = forward_kinematics(profile, frame.pose[kPalm], angles);
+    const HandPose again = forward_kinematics(profile, frame.hands.front().pose[kPalm], angles);
     for (int s = 0; s < kSegmentCount; ++s) {
-      EXPECT_LT((frame.truth->rows[s].proximal - again[s].t).norm(), 1e-6);
-      EXPECT_LT((frame.truth->rows[s].distal - distal_end(profile, again, s)).norm(), 1e-6);
+      EXPECT_LT((frame.hands.front().table->rows[s].proximal - again[s].t).norm(), 1e-6);
+      EXPECT_LT((frame.hands.front().table->rows[s].distal - distal_end(profile, again, s)).norm(), 1e-6);
     }
   }
 }
@@ -77,14 +77,14 @@ TEST(Simulator, DepthLiesOnTheHandWhereItIsVisible) {
   const SimulatedFrame f = sim.render(0);
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const int s = segment_of(finger, 1);
-    const TableRow& row = f.truth->rows[s];
+    const TableRow& row = f.hands.front().table->rows[s];
     ASSERT_GT(row.visible, 0.95);
     const Eigen::Vector3d middle = 0.5 * (row.proximal + row.distal);
     const Eigen::Vector2d pixel = sim.camera().project(middle);
     const double z = f.frame->depth_unit * f.frame->depth.at(static_cast<int>(std::lround(pixel.x())),
                                                              static_cast<int>(std::lround(pixel.y())));
-    const double thickness =
-        0.5 * (sim.profile().segments[s].half_thickness[0] + sim.profile().segments[s].half_thickness[1]);
+    const double thickness = 0.5 * (sim.hands().front().profile().segments[s].half_thickness[0] +
+                                    sim.hands().front().profile().segments[s].half_thickness[1]);
     EXPECT_NEAR(middle.z() - z, thickness, 0.003) << kSegmentNames[s];
   }
 }
@@ -92,8 +92,9 @@ TEST(Simulator, DepthLiesOnTheHandWhereItIsVisible) {
 TEST(Simulator, VisibleFractionOfAnOpenHandIsOneAndOfAFistLess) {
   Simulator sim = simulator(small("fist"));
   const auto open = sim.render(0), closed = sim.render(42);
-  for (int s = 1; s < kSegmentCount; ++s) EXPECT_GT(open.truth->rows[s].visible, 0.95) << kSegmentNames[s];
-  EXPECT_LT(closed.truth->rows[segment_of(2, 0)].visible, 0.7);
+  for (int s = 1; s < kSegmentCount; ++s)
+    EXPECT_GT(open.hands.front().table->rows[s].visible, 0.95) << kSegmentNames[s];
+  EXPECT_LT(closed.hands.front().table->rows[segment_of(2, 0)].visible, 0.7);
 }
 
 TEST(Simulator, FollowsRateAndSpeed) {
@@ -103,7 +104,7 @@ TEST(Simulator, FollowsRateAndSpeed) {
   EXPECT_EQ(fast.frame_count(), 320);
   params.fps = 25;
   Simulator slow = simulator(params);
-  EXPECT_LT((fast.render(60).pose[5].t - slow.render(30).pose[5].t).norm(), 1e-12);
+  EXPECT_LT((fast.render(60).hands.front().pose[5].t - slow.render(30).hands.front().pose[5].t).norm(), 1e-12);
   EXPECT_EQ(fast.render(50).frame->utime, 2'000'000);
 }
 

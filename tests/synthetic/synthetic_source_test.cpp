@@ -29,10 +29,10 @@ TEST(SyntheticSource, DeliversEveryFrameOnceWithItsTruth) {
     EXPECT_EQ(frame->number, i);
     EXPECT_EQ(frame->utime, 1'000'000 + 40'000 * i);
     EXPECT_EQ(frame->colour.width(), 80);
-    EXPECT_EQ(source->truth().back().number, i);
+    EXPECT_EQ(source->hands().front().truth.back().number, i);
   }
   EXPECT_TRUE(std::holds_alternative<EndOfStream>(source->next(milliseconds(0))));
-  EXPECT_EQ(source->truth().size(), 4u);
+  EXPECT_EQ(source->hands().front().truth.size(), 4u);
 }
 
 TEST(SyntheticSource, LiveFramesComeWhenTheyAreDue) {
