@@ -22,6 +22,8 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
   list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
   list.push_back({"open", "an open hand turns slowly", 180, 30});
+  list.push_back(
+      {"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30, true});
   return list;
 }
 
@@ -43,6 +45,7 @@ Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const H
   if (name == "open") return make_open(seed);
   if (name == "wave") return make_wave(seed);
   if (name == "returns") return make_returns(seed);
+  if (name == "two_hands") return make_two_hands(seed);
   if (name == "grasp_mug") return make_grasp(rig, GraspedThing::mug, seed);
   if (name == "grasp_ball") return make_grasp(rig, GraspedThing::ball, seed);
   if (name == "grasp_pliers") return make_grasp(rig, GraspedThing::pliers, seed);

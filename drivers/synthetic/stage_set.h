@@ -42,6 +42,8 @@ std::unique_ptr<Sequence> make_fist(std::uint64_t seed);
 std::unique_ptr<Sequence> make_open(std::uint64_t seed);
 std::unique_ptr<Sequence> make_wave(std::uint64_t seed);
 std::unique_ptr<Sequence> make_returns(std::uint64_t seed);
+/// A right and a left hand, without touching.
+std::unique_ptr<Sequence> make_two_hands(std::uint64_t seed);
 /// `degree` 0..6: the occluder hides degree / 6 of the fingers.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed);
 enum class GraspedThing { mug, ball, pliers };

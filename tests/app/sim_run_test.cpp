@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/source_factory.h"
 #include "drivers/lcm/lcm_log_source.h"
 #include "io/hand_json.h"
 #include "io/pose_json.h"
@@ -44,6 +45,34 @@ TEST_F(SimRun, WritesARecordingWithTruthProfileAndStart) {
   const auto pose = load_pose(path("fist/start_pose.json"), *profile);
   ASSERT_TRUE(pose.has_value()) << pose.error().message();
   EXPECT_LT(((*pose)[kPalm].t - truth->frames[0].rows[kPalm].proximal).norm(), 1e-5);
+}
+
+TEST_F(SimRun, WritesTruthAndProfileOfBothHands) {
+  const std::string spec = "two_hands,fps=10,frames=19,width=160,height=120";  // the left hand comes after 1.4 s
+  ASSERT_TRUE(run(spec, path("two")).has_value());
+  const auto right = read_table(path("two/truth.csv")), left = read_table(path("two/truth_left.csv"));
+  ASSERT_TRUE(right.has_value());
+  ASSERT_TRUE(left.has_value()) << left.error().message();
+  EXPECT_EQ(right->frames.size(), 19u);
+  ASSERT_FALSE(left->frames.empty());
+  EXPECT_GT(left->frames.front().number, 10);
+  EXPECT_EQ(left->frames.back().number, 18);
+  EXPECT_GT(left->frames.back().rows[kPalm].proximal.x(), 0.1);
+  EXPECT_LT(right->frames.back().rows[kPalm].proximal.x(), -0.1);
+  EXPECT_TRUE(fs::exists(path("two/start_pose.json")));
+  EXPECT_FALSE(fs::exists(path("two/start_pose_left.json"))) << "not in the first frame";
+
+  const SystemClock clock;
+  for (const std::string& source : {"folder:" + path("two"), "sim:" + spec}) {
+    SourceRequest request;
+    request.spec = source;
+    const auto open = open_source(request, clock);
+    ASSERT_TRUE(open.has_value()) << open.error().message();
+    ASSERT_EQ(open->hands.size(), 2u) << source;
+    EXPECT_EQ(open->hands[0].load()->handedness, Handedness::right);
+    EXPECT_EQ(open->hands[1].load()->handedness, Handedness::left);
+    EXPECT_THAT(open->hands[1].name, testing::HasSubstr("left"));
+  }
 }
 
 TEST_F(SimRun, WritesTheSameDepthIntoALog) {
