@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+constexpr double kFarthest = 100;  // m, as in a pose file
+
 Result<HandPose> pose_of(const command_t& message) {
   HandPose pose;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -14,8 +16,11 @@ Result<HandPose> pose_of(const command_t& message) {
     const auto& q = message.orientation[s];  // (w, x, y, z)
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
     pose[s].t = Eigen::Vector3d(p[0], p[1], p[2]);
-    const bool valid = pose[s].t.allFinite() && std::isfinite(turn.norm()) && turn.norm() > 1e-6;
-    if (!valid) return fail("the pose of " + std::string(kSegmentNames[s]) + " is no rigid motion", "command");
+    const bool near = pose[s].t.cwiseAbs().maxCoeff() <= kFarthest && pose[s].t.allFinite();
+    if (!near || !std::isfinite(turn.norm()) || turn.norm() <= 1e-6)
+      return fail("the pose of " + std::string(kSegmentNames[s]) + " is no rigid motion within " +
+                      std::to_string(static_cast<int>(kFarthest)) + " m",
+                  "command");
     pose[s].R = turn.normalized().toRotationMatrix();
   }
   return pose;

@@ -94,7 +94,7 @@ Bytes encode_depth(const Depth& depth, DepthEncoding encoding) {
 }
 
 Result<void> check_image_size(std::int64_t width, std::int64_t height) {
-  if (width > 0 && height > 0 && width <= kMaxPixels && height <= kMaxPixels && width * height <= kMaxPixels) return {};
+  if (possible_size(width, height)) return {};
   return fail("impossible image size " + std::to_string(width) + "x" + std::to_string(height));
 }
 

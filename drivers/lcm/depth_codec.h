@@ -6,22 +6,20 @@
 
 #include "core/error.h"
 #include "core/image.h"
+#include "math/camera_limits.h"
 
 namespace barehand {
 
 /// How rgbd_frame_t carries depth; the values are those of the message type. All are lossless.
 enum class DepthEncoding : std::int8_t { raw16 = 0, zlib = 1, rvl_zstd = 2 };
 
-/// Largest image that is believed [pixels]: a larger size in a message is a lie or damage.
-inline constexpr std::int64_t kMaxPixels = 4096 * 4096;
-
 std::vector<std::uint8_t> encode_depth(const Image<std::uint16_t>& depth, DepthEncoding encoding);
 
-/// Error unless `bytes` are exactly the code of an image of this size; 0 < width * height <= kMaxPixels.
+/// Error unless `bytes` are exactly the code of an image of this size; possible_size(width, height).
 Result<Image<std::uint16_t>> decode_depth(std::span<const std::uint8_t> bytes, DepthEncoding encoding, int width,
                                           int height);
 
-/// Error unless both are positive and their product is at most kMaxPixels.
+/// Error unless possible_size(width, height).
 Result<void> check_image_size(std::int64_t width, std::int64_t height);
 
 }  // namespace barehand

@@ -1,10 +1,10 @@
 #include "drivers/lcm/frame_codec.h"
 
-#include <cmath>
 #include <cstring>
 #include <string>
 
 #include "io/image_codec.h"
+#include "math/camera_limits.h"
 
 namespace barehand {
 namespace {
@@ -56,9 +56,9 @@ Result<Image<Rgb>> decode_colour(const rgbd_frame_t& message) {
 
 Result<void> check_numbers(const rgbd_frame_t& message) {
   if (auto size = check_image_size(message.width, message.height); !size) return size;
-  const double sum = message.fx + message.fy + message.cx + message.cy;
-  if (!std::isfinite(sum) || message.fx <= 0 || message.fy <= 0) return fail("frame without valid intrinsics");
-  if (!(message.depth_unit > 0 && message.depth_unit <= 1)) return fail("frame without a valid depth unit");
+  const Intrinsics camera{message.width, message.height, message.fx, message.fy, message.cx, message.cy};
+  if (!plausible(camera)) return fail("frame without valid intrinsics");
+  if (!(message.depth_unit >= 1e-7 && message.depth_unit <= 1)) return fail("frame without a valid depth unit");
   return {};
 }
 

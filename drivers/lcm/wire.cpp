@@ -1,5 +1,7 @@
 #include "drivers/lcm/wire.h"
 
+#include <cstring>
+
 namespace barehand {
 
 void WireWalker::skip(std::int64_t bytes) {
@@ -25,7 +27,8 @@ void WireWalker::string() {
   ok_ = ok_ && length >= 1;
   const WireBytes text = left_;
   skip(length);
-  ok_ = ok_ && text[static_cast<std::size_t>(length) - 1] == 0;
+  ok_ = ok_ &&
+        std::memchr(text.data(), 0, static_cast<std::size_t>(length)) == &text[static_cast<std::size_t>(length) - 1];
 }
 
 void WireWalker::byte_array() { skip(int32()); }

@@ -21,7 +21,7 @@ class WireWalker {
   std::int64_t int64();
   std::int32_t int32();
   std::int16_t int16();
-  void string();      ///< length (with the final NUL), characters, NUL
+  void string();      ///< length (with the final NUL), characters other than NUL, NUL
   void byte_array();  ///< for `int32_t n; byte data[n];`
   /// For `int32_t n; element data[n];`: n if that many elements of at least `least` bytes each may follow, else 0.
   std::int32_t count(std::int64_t least);

@@ -102,7 +102,7 @@ Result<void> check_rest(const HandMesh& hand, const std::string& path) {
 
 Result<HandMesh> load_hand_mesh(const std::string& path, Handedness handedness) {
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
   if (!scene) return fail(std::string("cannot read the hand mesh: ") + importer.GetErrorString(), path, kRemedy);
   const aiMesh* mesh = skinned_mesh(*scene);
   if (!mesh) return fail("no skinned mesh in this file", path, kRemedy);

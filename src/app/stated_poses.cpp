@@ -1,5 +1,7 @@
 #include "app/stated_poses.h"
 
+#include <algorithm>
+
 #include "barehand/hand_state_t.hpp"
 #include "drivers/lcm/layouts.h"
 #include "hand/hand_pose.h"
@@ -10,6 +12,9 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+constexpr double kFarthest = 1e6;          // m
+constexpr double kLargestVariance = 1e12;  // m^2
 
 StatedSegment stated(const segment_state_t& state) {
   StatedSegment out;
@@ -22,6 +27,17 @@ StatedSegment stated(const segment_state_t& state) {
   out.confidence = state.confidence;
   out.seen = state.seen;
   return out;
+}
+
+/// Whether the numbers can be judged, NaN cannot: a log may come from anywhere.
+bool sensible(const StatedSegment& segment) {
+  const auto near = [](const Vector3d& point) { return (point.array().abs() <= kFarthest).all(); };
+  const auto variance = [](const Matrix3d& covariance) {
+    const auto diagonal = covariance.diagonal().array();
+    return (diagonal >= 0).all() && (diagonal <= kLargestVariance).all();
+  };
+  return near(segment.proximal) && near(segment.distal) && variance(segment.proximal_covariance) &&
+         variance(segment.distal_covariance) && segment.confidence >= 0 && segment.confidence <= 1;
 }
 
 }  // namespace
@@ -38,6 +54,9 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
     if (!state || !state->has_pose) continue;
     auto& segments = poses[state->frame_number];
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
+    if (!std::all_of(segments.begin(), segments.end(), sensible))
+      return fail("frame " + std::to_string(state->frame_number) + " has a pose without sensible numbers", log_path,
+                  "give a log written by barehand track --states-log");
   }
   if (poses.empty())
     return fail("holds no hand state with a pose", log_path, "give a log written by barehand track --states-log");

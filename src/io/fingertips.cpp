@@ -25,7 +25,8 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
   const bool good = number(field[0], label.frame) && number(field[2], label.pixel.x()) &&
                     number(field[3], label.pixel.y()) && number(field[4], shown);
   visible = shown != 0;
-  return good;
+  constexpr double kFarthest = 1e6;  // px; also false for NaN
+  return good && (label.pixel.array().abs() <= kFarthest).all();
 }
 
 }  // namespace

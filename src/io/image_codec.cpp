@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "math/camera_limits.h"
+
 namespace barehand {
 namespace {
 
@@ -14,6 +16,12 @@ int big_endian_16(std::span<const std::uint8_t> bytes, std::size_t at) { return 
 
 bool is_png(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= 24 && std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin());
+}
+
+Result<ImageSize> png_size(std::span<const std::uint8_t> bytes) {
+  // The high halves of both 32-bit sizes must be zero: nothing larger than 65535 pixels is an image of ours.
+  if (big_endian_16(bytes, 16) != 0 || big_endian_16(bytes, 20) != 0) return fail("image of an absurd size");
+  return ImageSize{big_endian_16(bytes, 18), big_endian_16(bytes, 22)};
 }
 
 /// The frame header of a JPEG: markers C0..CF without C4 (tables), C8 (reserved) and CC (arithmetic coding).
@@ -61,13 +69,11 @@ Result<std::vector<std::uint8_t>> encode(const Image<Rgb>& image, const char* en
 }  // namespace
 
 Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes) {
-  if (is_png(bytes)) {
-    // The high halves of both 32-bit sizes must be zero: nothing larger than 65535 pixels is an image of ours.
-    if (big_endian_16(bytes, 16) != 0 || big_endian_16(bytes, 20) != 0) return fail("PNG of an absurd size");
-    return ImageSize{big_endian_16(bytes, 18), big_endian_16(bytes, 22)};
-  }
-  if (bytes.size() >= 4 && bytes[0] == 0xFF && bytes[1] == 0xD8) return jpeg_size(bytes);
-  return fail("neither a PNG nor a JPEG image");
+  const bool jpeg = bytes.size() >= 4 && bytes[0] == 0xFF && bytes[1] == 0xD8;
+  if (!jpeg && !is_png(bytes)) return fail("neither a PNG nor a JPEG image");
+  const Result<ImageSize> size = jpeg ? jpeg_size(bytes) : png_size(bytes);
+  if (size && !possible_size(size->width, size->height)) return fail("image of an absurd size");
+  return size;
 }
 
 Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected) {

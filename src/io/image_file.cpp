@@ -39,8 +39,10 @@ Result<T> located(Result<T> result, const std::string& path) {
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path) {
   const auto bytes = read_bytes(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  // Before OpenCV, which allocates whatever a header claims and knows a dozen other formats.
+  if (const auto size = located(compressed_image_size(*bytes), path); !size) return tl::unexpected(size.error());
   try {
-    const cv::Mat image = bytes->empty() ? cv::Mat() : cv::imdecode(*bytes, cv::IMREAD_UNCHANGED);
+    const cv::Mat image = cv::imdecode(*bytes, cv::IMREAD_UNCHANGED);
     if (image.empty()) return fail("is damaged or no image", path);
     if (image.type() != CV_16UC1) return fail("is no 16-bit image of one channel", path, "depth is stored that way");
     Image<std::uint16_t> depth(image.cols, image.rows);

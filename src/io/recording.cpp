@@ -7,6 +7,7 @@
 #include "io/image_file.h"
 #include "io/json_fields.h"
 #include "io/stamped_list.h"
+#include "math/camera_limits.h"
 
 namespace barehand {
 namespace {
@@ -34,13 +35,18 @@ Result<void> read_camera(const std::string& path, Recording& recording) {
   return whole_number(object, "width")
       .map(put(camera.width))
       .and_then([&] { return whole_number(object, "height").map(put(camera.height)); })
-      .and_then([&] { return object.number("fx", 1, 1e5).map(put(camera.fx)); })
-      .and_then([&] { return object.number("fy", 1, 1e5).map(put(camera.fy)); })
-      .and_then([&] { return object.number("cx", -1e5, 1e5).map(put(camera.cx)); })
-      .and_then([&] { return object.number("cy", -1e5, 1e5).map(put(camera.cy)); })
+      .and_then([&] { return object.number("fx", 1, kLargestFocal).map(put(camera.fx)); })
+      .and_then([&] { return object.number("fy", 1, kLargestFocal).map(put(camera.fy)); })
+      .and_then([&] { return object.number("cx", -kLargestFocal, kLargestFocal).map(put(camera.cx)); })
+      .and_then([&] { return object.number("cy", -kLargestFocal, kLargestFocal).map(put(camera.cy)); })
       .and_then([&] { return object.number("depth_units_per_metre", 1, 1e7).map(put(units)); })
       .and_then([&] { return object.number_or("fps", 0, 0, 10000).map(put(recording.fps)); })
-      .map([&] { recording.depth_unit = 1 / units; });
+      .and_then([&]() -> Result<void> {
+        recording.depth_unit = 1 / units;
+        if (plausible(camera)) return {};
+        return fail("\"width\" and \"height\" make too large an image", path,
+                    "it must have at most 4096 x 4096 pixels");
+      });
 }
 
 /// The typical time between two frames [us].

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "drivers/lcm/layouts.h"
@@ -115,6 +116,18 @@ TEST_F(EvalCommand, JudgesTheUncertaintyOfStatesInALog) {
   EXPECT_NEAR(judged["within_10_mm"][0]["actual"], 1, 1e-9);
   for (const char* plot : {"reliability.png", "confidence.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/" + plot)) << plot;
+}
+
+TEST_F(EvalCommand, RefusesStatesWhoseUncertaintyIsNoNumber) {
+  auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
+  ASSERT_TRUE(log);
+  hand_state_t state{};
+  state.has_pose = true;
+  state.segments[3].covariance[1][1] = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), 0));
+  log->reset();
+  EXPECT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog"), 2);
+  EXPECT_THAT(err_, HasSubstr("frame 0 has a pose without sensible numbers"));
 }
 
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {

@@ -55,6 +55,10 @@ TEST(Fingertips, LabelsAreReadAndHiddenOnesLeftOut) {
   EXPECT_DOUBLE_EQ((*labels)[0].pixel.x(), 195.7);
   test::write_text(path, "frame,finger,u,v,visible\n3,toe,195.7,95.4,1\n");
   EXPECT_THAT(read_fingertip_labels(path).error().message(), HasSubstr("line 2"));
+  for (const char* number : {"left", "nan", "-inf", "1e300"}) {
+    test::write_text(path, "frame,finger,u,v,visible\n3,thumb," + std::string(number) + ",95.4,1\n");
+    EXPECT_THAT(read_fingertip_labels(path).error().message(), HasSubstr("line 2")) << number;
+  }
   test::write_text(path, "frame,finger,u,v,visible\n3,thumb,left,95.4,1\n");
   EXPECT_THAT(read_fingertip_labels(path).error().message(), HasSubstr("line 2"));
   test::write_text(path, "x,y\n");

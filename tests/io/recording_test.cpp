@@ -172,6 +172,23 @@ TEST_F(RecordingFolder, BadImagesAreNamed) {
   EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("cannot be read")));
 }
 
+TEST_F(RecordingFolder, ImagesThatAreTooLargeOrOfAnotherKindDoNotReachTheDecoder) {
+  const std::string path = folder_ / "depth.png";
+  ASSERT_TRUE(write_depth_png(path, Image<std::uint16_t>(8, 6)));
+  std::string bytes = test::read_text(path);
+  const std::size_t width_at = 16, height_at = 20;  // 32 bits, big endian
+  bytes[width_at + 2] = bytes[height_at + 2] = '\x7F';
+  test::write_text(path, bytes);
+  for (const auto& error : {read_depth_png(path).error(), read_colour(path).error()})
+    EXPECT_THAT(error.message(), AllOf(HasSubstr(path), HasSubstr("absurd size")));
+  test::write_text(path, "P5 2 2 65535\n12345678");  // a PGM that OpenCV would read
+  EXPECT_THAT(read_depth_png(path).error().message(), HasSubstr("neither a PNG nor a JPEG"));
+  record();
+  replace("camera.json", "\"width\": 8", "\"width\": 16384");
+  replace("camera.json", "\"height\": 6", "\"height\": 16384");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("camera.json"), HasSubstr("too large")));
+}
+
 TEST_F(RecordingFolder, TruncatedJpegIsDamagedNotGrey) {
   const std::string path = folder_ / "colour.jpg";
   Image<Rgb> colour(64, 64);

@@ -54,6 +54,8 @@ TEST(Command, SenselessOnesAreErrors) {
   m = message(command_t::INITIALISE);
   m.position[9][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(decode_command(encode_message(m)));
+  m.position[9][1] = 1e6;
+  EXPECT_FALSE(decode_command(encode_message(m)));
   m = message(command_t::SET_PROFILE);
   m.profile = "";
   EXPECT_FALSE(decode_command(encode_message(m)));

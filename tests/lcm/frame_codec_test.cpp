@@ -102,7 +102,10 @@ TEST(FrameCodec, MissingIntrinsicsOrDepthUnitIsAnError) {
   EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.fx = 0; }));
   EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.fy = -500; }));
   EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.cx = std::numeric_limits<double>::quiet_NaN(); }));
+  EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.fx = 1e-300; }));
+  EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.cy = -1e300; }));
   EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.depth_unit = 0; }));
+  EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.depth_unit = 1e-300; }));
   EXPECT_TRUE(refused([](rgbd_frame_t& m) { m.depth_unit = std::numeric_limits<double>::infinity(); }));
   EXPECT_FALSE(refused([](rgbd_frame_t&) {}));
 }
@@ -126,6 +129,15 @@ TEST(FrameCodec, LyingArrayLengthsInTheBytesAreErrors) {
     bytes[depth_size_at] = high;
     EXPECT_FALSE(decode_message<rgbd_frame_t>(bytes));
   }
+}
+
+TEST(FrameCodec, ANameThatEndsBeforeItsLengthIsAnError) {
+  auto bytes = encode_message(message_of());
+  const std::size_t name_at = 8 + 8 + 8 + 4;
+  ASSERT_EQ(bytes[name_at], message_of().sensor[0]) << "the test looks at the wrong place";
+  EXPECT_TRUE(decode_message<rgbd_frame_t>(bytes));
+  bytes[name_at] = 0;
+  EXPECT_FALSE(decode_message<rgbd_frame_t>(bytes));
 }
 
 TEST(ImageCodec, SizeIsReadWithoutDecoding) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "drivers/lcm/frame_codec.h"
+#include "drivers/lcm/frame_message.h"
+#include "fuzz/message.h"
+#include "math/camera_limits.h"
+
+namespace barehand::fuzz {
+
+/// The frame in the input as a message of this type. Its images have the size that it states; its depth can be sent on.
+template <class Message>
+void frame_from(const std::uint8_t* data, std::size_t size) {
+  const ForeignCamera camera{500, 500, 3, 2};
+  const auto frame = decode_frame_message(message_of<Message>(data, size), camera, 0);
+  if (!frame) return;
+  const RgbdFrame& f = **frame;
+  CHECK(plausible(f.camera) && f.depth_unit > 0);
+  CHECK(f.depth.width() == f.camera.width && f.depth.height() == f.camera.height);
+  CHECK(f.colour.empty() || (f.colour.width() == f.camera.width && f.colour.height() == f.camera.height));
+  CHECK(f.depth.size() == static_cast<std::size_t>(f.camera.width) * f.camera.height);
+  if (f.depth.size() > 4096) return;  // many pixels say no more, and take long
+  const auto sent = encode_frame(f, {DepthEncoding::rvl_zstd, ColourEncoding::raw_rgb});
+  CHECK(sent.has_value());
+  const auto received = decode_frame(*sent);
+  CHECK(received.has_value());
+  for (std::size_t i = 0; i < f.depth.size(); ++i) CHECK((*received)->depth[i] == f.depth[i]);
+}
+
+}  // namespace barehand::fuzz

@@ -1,0 +1,19 @@
+#include <cmath>
+#include <string>
+
+#include "fuzz/check.h"
+#include "fuzz/memory_file.h"
+#include "io/hand_json.h"
+
+/// hand.json: what is accepted is a hand, and can be written and read again.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace barehand;
+  const auto profile = parse_profile({reinterpret_cast<const char*>(data), size}, "input");
+  if (!profile) return 0;
+  for (const SegmentProfile& segment : profile->segments)
+    CHECK(segment.distal.allFinite() && segment.T_hand_segment.t.allFinite() && segment.T_hand_segment.R.allFinite());
+  const fuzz::MemoryFile file("", 0);
+  CHECK(save_profile(*profile, file.path()).has_value());
+  CHECK(load_profile(file.path()).has_value());
+  return 0;
+}

@@ -1,0 +1,6 @@
+#include "fuzz/message.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  barehand::fuzz::decode<barehand::health_t>(data, size);
+  return 0;
+}

@@ -1,0 +1,14 @@
+#include "fuzz/memory_file.h"
+#include "io/evaluation.h"
+
+/// A truth or result table, judged against itself.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace barehand;
+  const fuzz::MemoryFile file(data, size);
+  const auto table = read_table(file.path());
+  if (!table) return 0;
+  for (const std::int64_t step : {1, -2})
+    if (const auto evaluation = evaluate(*table, *table, {std::nullopt, step}))
+      CHECK(evaluation->frame_error.count == 0 || evaluation->frame_error.max == 0);
+  return 0;
+}
