@@ -26,13 +26,13 @@ class Program:
 
     def __init__(self, build, arguments):
         self.process = subprocess.Popen([os.path.join(build, "src/app/barehand"), *arguments], stdin=subprocess.DEVNULL,
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.said = []
         self.listener = threading.Thread(target=self.listen)
         self.listener.start()
 
     def listen(self):
-        for line in self.process.stderr:
+        for line in self.process.stdout:
             self.said.append((time.time(), line.strip()))
 
     def wait_for(self, text, since=0.0):
@@ -170,11 +170,12 @@ def flood(build, folder):
         time.sleep(0.002)
     end = time.time()
     time.sleep(3)
+    lines = len(program.said)
     program.stop()
     times = tracked_times(table)
     followed = sum("command: forget" in line for _, line in program.said)
     row(f"{sent} reset commands in 10 s", f"{sum(begin <= t < end for t in times)} frames tracked "
-        f"({followed} commands followed, {len(program.said)} lines said)",
+        f"({followed} commands followed, {lines} lines said)",
         f"peak memory {program.peak_mb:.0f} MB")
 
 
@@ -197,6 +198,32 @@ def disk_full(build, folder):
     lost = re.search(r"(\d+) lost", last).group(1)
     row("disk full for 5 s while recording", f"nothing recorded, {lost} frames counted as lost; said after {said:.2f} s",
         f"recorded again after {again:.2f} s, exit code {program.process.returncode}")
+    subprocess.run(["umount", disk], check=True)
+
+
+def disk_full_while_tracking(build, folder):
+    disk = folder + "/disk"
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=20m", "tmpfs", disk], check=True)
+    table, ballast = disk + "/result.csv", disk + "/ballast"
+    program = Program(build, ["track", "--source", HAND, "--no-publish", "--result", table, "--states-log",
+                              disk + "/states.lcmlog", "--health"])
+    program.wait_for("captured ")
+    time.sleep(5)
+    subprocess.run(["dd", "if=/dev/zero", "of=" + ballast, "bs=1k"], stderr=subprocess.DEVNULL)
+    begin = time.time()
+    said = program.wait_for("No space left", begin) - begin
+    time.sleep(FAULT_SECONDS)
+    os.remove(ballast)
+    end = time.time()
+    again = max(program.wait_for(name + " works again", end) for name in ["states log", "result table"]) - end
+    time.sleep(3)
+    program.stop()
+    times = tracked_times(table)
+    lines = sum("No space left" in line for _, line in program.said)
+    row("disk full for 5 s while tracking with --result and --states-log", f"tracked, {sum(begin <= t < end for t in times)} "
+        f"frames written; said after {said:.2f} s, {lines} lines",
+        f"written again after {again:.2f} s ({sum(t >= end for t in times)} frames in 3 s), exit code "
+        f"{program.process.returncode}")
     subprocess.run(["umount", disk], check=True)
 
 
@@ -225,11 +252,16 @@ def memory(build):
     row("memory of 640x480 tracking with the default configuration, 60 s", "tracked", f"peak {program.peak_mb:.0f} MB")
 
 
-def main():
+def in_own_network():
+    """Runs the script anew in a network and a mount namespace of its own, unless it is there."""
     if os.environ.get("BAREHAND_OWN_NETWORK") is None:
         os.environ["BAREHAND_OWN_NETWORK"] = "1"
         os.execvp("unshare", ["unshare", "-rnm", "sh", "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo && "
                               "exec \"$@\"", "sh", sys.executable, *sys.argv])
+
+
+def main():
+    in_own_network()
     build = os.path.abspath(sys.argv[1])
     cycles = int(sys.argv[2]) if len(sys.argv) > 2 else 100
     print("| fault | meanwhile | recovery |\n|---|---|---|")
@@ -239,6 +271,7 @@ def main():
         configuration(build, folder)
         flood(build, folder)
         disk_full(build, folder)
+        disk_full_while_tracking(build, folder)
         killed(build, folder)
         memory(build)
         start_and_stop(build, folder, cycles)

@@ -1,5 +1,6 @@
 #include "app/pipeline.h"
 
+#include <bit>
 #include <thread>
 
 namespace barehand {
@@ -177,11 +178,17 @@ bool Pipeline::track(Item& item) {
 void Pipeline::deliver(const Item& item) {
   bool delivered = true;
   for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // one that fails does not keep the frame from the others
-    const auto consumed = sink_monitors_[i]->run([&] { return stages_.sinks[i]->consume(item.data); });
-    if (consumed) continue;
+    StageMonitor& monitor = *sink_monitors_[i];
+    const int missed = monitor.failures_in_a_row();
+    const auto consumed = monitor.run([&] { return stages_.sinks[i]->consume(item.data); });
+    if (consumed) {
+      if (missed > 0) log_.logger().info("{} works again; it misses {} frames", monitor.name(), missed);
+      continue;
+    }
     delivered = false;
-    report(*sink_monitors_[i], item, consumed.error());
-    if (!stages_.source.live()) end_if_hopeless(*sink_monitors_[i], consumed.error());
+    // What lasts for hours is said now and then: after 1, 2, 4, 8 .. frames.
+    if (std::has_single_bit(static_cast<unsigned>(missed) + 1)) report(monitor, item, consumed.error());
+    if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
   }
   ++(delivered ? published_ : failed_);
   std::unique_lock lock(mutex_);

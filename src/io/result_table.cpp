@@ -1,8 +1,13 @@
 #include "io/result_table.h"
 
+#include <unistd.h>
+
 #include <cassert>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -15,6 +20,9 @@ namespace {
 
 constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,visible";
 constexpr std::size_t kColumns = 10;
+// No table has more; differences and sums of what is within stay numbers.
+constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
+constexpr double kLargestTime = 1e12, kFarthest = 1e6;  // s, m
 
 struct ParsedLine {
   std::int64_t number = 0;
@@ -28,6 +36,9 @@ bool parse(std::string_view text, T& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
 }
+
+/// False for NaN.
+bool within(double value, double largest) { return std::abs(value) <= largest; }
 
 std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> fields;
@@ -43,12 +54,13 @@ std::optional<ParsedLine> parse_line(std::string_view text) {
   const auto fields = split(text);
   ParsedLine line;
   if (fields.size() != kColumns || !parse(fields[0], line.number) || !parse(fields[1], line.timestamp)) return {};
+  if (line.number < -kLargestNumber || line.number > kLargestNumber || !within(line.timestamp, kLargestTime)) return {};
   const auto segment = segment_from_name(fields[2]);
   if (!segment) return {};
   line.segment = *segment;
   std::array<double, 7> numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (!parse(fields[3 + i], numbers[i]) || !std::isfinite(numbers[i])) return {};
+    if (!parse(fields[3 + i], numbers[i]) || !within(numbers[i], kFarthest)) return {};
   line.row = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6]};
   return line;
 }
@@ -131,18 +143,33 @@ Result<ResultTable> read_table(const std::string& path) {
 Result<TableWriter> TableWriter::create(const std::string& path) {
   TableWriter writer;
   writer.path_ = path;
-  writer.file_.open(path);
-  writer.file_ << kHeader << '\n' << std::flush;
-  if (!writer.file_) return fail("cannot be written", path, "check the folder, its permissions and the free space");
+  writer.file_.reset(std::fopen(path.c_str(), "w"));
+  if (writer.file_) std::setvbuf(writer.file_.get(), nullptr, _IONBF, 0);
+  if (!writer.file_ || !writer.append(std::string(kHeader) + "\n"))
+    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
+                "check the folder, its permissions and the free space");
   return writer;
 }
 
+bool TableWriter::append(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) return false;
+  good_ += static_cast<std::int64_t>(text.size());
+  return true;
+}
+
 Result<void> TableWriter::write(const TableFrame& frame) {
+  if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   std::string text;
   for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
-  file_ << text << std::flush;
-  if (!file_) return fail("cannot be written", path_, "check the free space; the frames before this one are kept");
-  return {};
+  if (append(text)) return {};
+  const int reason = errno;
+  std::FILE* file = file_.get();
+  std::clearerr(file);
+  torn_ = ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+              torn_ ? "the table ends in a torn frame; readers leave it out"
+                    : "the frames before this one are kept; make room");
 }
 
 Result<void> TableWriter::write(const HandEstimate& estimate) {

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <fstream>
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,11 @@ struct ResultTable {
 };
 
 /// Reads a truth or result table (docs/formats.md). An error names the line; a frame without all segments, other than
-/// a cut last one, and a frame that occurs twice are errors.
+/// a cut last one, a frame that occurs twice and a number beyond all measure are errors.
 Result<ResultTable> read_table(const std::string& path);
 
-/// Writes such a table. Every frame leaves in one piece when it is written, so what is finished survives a crash.
+/// Writes such a table. Every frame leaves in one piece when it is written, so what is finished survives a crash; when
+/// a write fails (disk full) the file is cut back to the last whole frame, and later frames may succeed.
 class TableWriter {
  public:
   static Result<TableWriter> create(const std::string& path);
@@ -44,8 +46,15 @@ class TableWriter {
   Result<void> write(const HandEstimate& estimate);
 
  private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  bool append(const std::string& text);
+
   std::string path_;
-  std::ofstream file_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::int64_t good_ = 0;  ///< size of the file up to the last whole frame
+  bool torn_ = false;      ///< and could not be cut back
 };
 
 }  // namespace barehand

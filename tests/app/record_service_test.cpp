@@ -9,6 +9,7 @@
 #include "barehand_program.h"
 #include "drivers/lcm/lcm_log_source.h"
 #include "notify_socket.h"
+#include "small_disk.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -113,35 +114,25 @@ TEST_F(Record, RefusesASetThatCannotBe) {
   EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-age", "1 fortnight"})).exit_code, 2);
 }
 
-/// Records to a disk of 2 MiB that nobody else sees, with a file of 1.9 MiB on it.
-class SmallDisk : public Record {
+/// Records to a small disk.
+class RecordOnSmallDisk : public Record {
  protected:
   void SetUp() override {
-    if (ChildProcess({"unshare", "-rm", "true"}).finish() != 0) GTEST_SKIP() << "no mount namespaces here";
+    if (!SmallDisk::possible()) GTEST_SKIP() << "no mount namespaces here";
   }
   std::vector<std::string> on_small_disk(const std::vector<std::string>& more) const {
-    std::string script = "mount -t tmpfs -o size=2m tmpfs " + folder_.path() + " && head -c 1900000 /dev/zero > " +
-                         ballast_ + " && exec";
-    for (const std::string& argument : command(folder_ / "take.lcmlog", more)) script += " '" + argument + "'";
-    return {"unshare", "-rm", "sh", "-c", script};
+    return disk_.command(command(folder_ / "take.lcmlog", more));
   }
-  /// Runs where the recording child does.
-  std::string beside(const ChildProcess& child, const std::string& script) const {
-    ChildProcess helper(
-        {"nsenter", "--preserve-credentials", "-U", "-m", "-t", std::to_string(child.pid()), "sh", "-c", script});
-    EXPECT_EQ(helper.finish(), 0) << helper.output();
-    return helper.output();
-  }
-  const std::string ballast_ = folder_ / "ballast";
+  const SmallDisk disk_{folder_.path()};
 };
 
-TEST_F(SmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
+TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
   const test::TempFolder outside;  // not hidden by the small disk
   ChildProcess child(on_small_disk({}));
   ASSERT_TRUE(child.wait_for("No space left on device")) << child.output();
-  beside(child, "rm " + ballast_);
+  disk_.make_room(child);
   ASSERT_TRUE(child.wait_for("writing again")) << child.output();
-  beside(child, "cp " + (folder_ / "take.lcmlog") + " " + (outside / "copy.lcmlog"));
+  disk_.beside(child, "cp " + (folder_ / "take.lcmlog") + " " + (outside / "copy.lcmlog"));
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr(" lost: no room"));
@@ -150,12 +141,12 @@ TEST_F(SmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
   EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
 }
 
-TEST_F(SmallDisk, TheOldestOfASetMakeRoomForTheNewest) {
+TEST_F(RecordOnSmallDisk, TheOldestOfASetMakeRoomForTheNewest) {
   ChildProcess child(on_small_disk({"--max-size", "40kB", "--quota", "1GB"}));
-  const auto newest = [&] { return beside(child, "ls " + folder_.path() + " | grep take | tail -n 1"); };
+  const auto newest = [&] { return disk_.beside(child, "ls " + folder_.path() + " | grep take | tail -n 1"); };
   for (std::string name = newest(); name < "take-000012"; name = newest())
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  const std::string oldest = beside(child, "ls " + folder_.path() + " | grep take | head -n 1");
+  const std::string oldest = disk_.beside(child, "ls " + folder_.path() + " | grep take | head -n 1");
   EXPECT_GT(oldest, "take-000002");
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();

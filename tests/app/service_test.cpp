@@ -1,6 +1,8 @@
 // The program as a service: what systemd is told, reloading, starting and stopping.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <regex>
@@ -8,7 +10,11 @@
 
 #include "app/service_sink.h"
 #include "barehand_program.h"
+#include "io/lcm_log_reader.h"
+#include "io/result_table.h"
+#include "memory_limit.h"
 #include "notify_socket.h"
+#include "small_disk.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -189,16 +195,81 @@ TEST_F(Service, LeavesNothingBehindWhenStartedAndStoppedAgainAndAgain) {
   EXPECT_EQ(std::distance(fs::directory_iterator(here), {}), 1) << "the states log alone";
 }
 
-TEST_F(Service, StaysWithinItsMemory) {
-  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "sim:grasp_ball,live=true,loop=true,noise=kinect",
-                      "--no-publish", "--result", folder_ / "result.csv"});
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Captured, published, dropped and failed frames of the summary at the end of a run.
+std::array<long long, 4> counts(const std::string& output) {
+  std::array<long long, 4> n{};
+  const std::regex summary("([0-9]+) frames in .*: ([0-9]+) published, ([0-9]+) dropped, ([0-9]+) failed");
+  std::smatch found;
+  if (std::regex_search(output, found, summary))
+    for (std::size_t i = 0; i < n.size(); ++i) n[i] = std::stoll(found[i + 1]);
+  return n;
+}
+
+constexpr long kMemory = 512 << 20;
+
+TEST_F(Service, TracksWithinALimitOfItsMemory) {
+  const auto limit = MemoryLimit::make(kMemory);
+  if (!limit) GTEST_SKIP() << "no control groups here";
+  ChildProcess child(
+      limit->command({BAREHAND_PROGRAM, "track", "--source", "sim:grasp_ball,live=true,loop=true,noise=kinect",
+                      "--no-publish", "--result", folder_ / "result.csv", "--states-log", folder_ / "states.lcmlog"}));
   EXPECT_FALSE(socket_.wait_for("WATCHDOG").empty());
   for (int second = 0; second < 5; ++second) EXPECT_FALSE(socket_.wait_for("STATUS").empty());
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(child.peak_memory(), 512 << 20);
+  const auto [captured, published, dropped, failed] = counts(child.output());
+  EXPECT_GT(published, 0) << child.output();
+  EXPECT_EQ(captured, published + dropped + failed) << child.output();
+  EXPECT_EQ(failed, 0) << child.output();
+  EXPECT_LT(child.peak_memory(), kMemory);
+  EXPECT_GT(limit->peak(), 10 << 20) << "it did not run within the limit";
+}
+
+TEST_F(Service, TheLimitOfMemoryIsOne) {
+  const auto limit = MemoryLimit::make(16 << 20);
+  if (!limit) GTEST_SKIP() << "no control groups here";
+  EXPECT_EQ(ChildProcess(limit->command(command())).finish(), 128 + SIGKILL);
+}
 #endif
+
+/// How often a text holds another.
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST_F(Service, WritesResultsAgainWhenTheFullDiskHasRoom) {
+  if (!SmallDisk::possible()) GTEST_SKIP() << "no mount namespaces here";
+  const test::TempFolder hidden, outside;  // the disk stands in place of the first
+  const SmallDisk disk(hidden.path());
+  const std::string table = hidden / "result.csv", log = hidden / "states.lcmlog";
+  ChildProcess child(disk.command(command({"--result", table, "--states-log", log})));
+  ASSERT_TRUE(child.wait_for("failed in states log")) << child.output();
+  disk.beside(child, "head -c 200000 /dev/zero > " + (hidden / "more") + " || true");  // not a byte is left
+  ASSERT_TRUE(child.wait_for("failed in result table")) << child.output();
+  disk.beside(child, "rm " + (hidden / "more"));
+  disk.make_room(child);
+  ASSERT_TRUE(child.wait_for("states log works again")) << child.output();
+  ASSERT_TRUE(child.wait_for("result table works again")) << child.output();
+  const std::string told = child.output();
+  for (int second = 0; second < 2; ++second) EXPECT_FALSE(socket_.wait_for("STATUS").empty());
+  disk.beside(child, "cp " + table + " " + log + " " + outside.path());
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_LE(count(told, "failed in result table"), 8) << told;
+
+  const auto results = read_table(outside / "result.csv");
+  ASSERT_TRUE(results) << results.error().message();
+  const auto numbers = results->frames;
+  ASSERT_GT(numbers.size(), 2u);
+  const auto gap = std::adjacent_find(numbers.begin(), numbers.end(),
+                                      [](const TableFrame& a, const TableFrame& b) { return b.number > a.number + 1; });
+  EXPECT_NE(gap, numbers.end()) << "frames of the time without room are missing";
+  const auto states = LcmLogReader::open(outside / "states.lcmlog");
+  ASSERT_TRUE(states) << states.error().message();
+  EXPECT_EQ(states->damaged_bytes(), 0);
 }
 
 TEST(Unit, IsWhatSystemdUnderstands) {

@@ -1,6 +1,10 @@
 #include "io/result_table.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
 
 #include "small_hand.h"
 #include "support/temp_folder.h"
@@ -104,6 +108,45 @@ TEST_F(Table, FullDiskIsReported) {
   EXPECT_FALSE(TableWriter::create(folder_ / "no/such/folder.csv"));
 }
 
+/// Files of this process may grow to so many bytes, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(std::uintmax_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
+  auto writer = TableWriter::create(path_);
+  ASSERT_TRUE(writer->write(numbered_frame(0)));
+  const auto whole = std::filesystem::file_size(path_);
+  {
+    const FileSizeLimit full(whole + 500);  // some rows of a frame
+    for (int number : {1, 2}) {
+      const auto written = writer->write(numbered_frame(number));
+      ASSERT_FALSE(written);
+      EXPECT_THAT(written.error().message(), HasSubstr("make room"));
+      EXPECT_EQ(std::filesystem::file_size(path_), whole) << "no part of a frame is left";
+    }
+  }
+  ASSERT_TRUE(writer->write(numbered_frame(3)));
+  const auto table = read_table(path_);
+  ASSERT_TRUE(table) << table.error().message();
+  EXPECT_FALSE(table->truncated);
+  ASSERT_EQ(table->frames.size(), 2u);
+  EXPECT_EQ(table->frames[1].number, 3);
+}
+
 TEST_F(Table, BadLinesAreNamed) {
   write({0, 1});
   const std::string good = test::read_text(path_);
@@ -111,6 +154,9 @@ TEST_F(Table, BadLinesAreNamed) {
   EXPECT_THAT(error_of(good + "2,1.0,palm,0,0,0\n"), AllOf(HasSubstr("line 34"), HasSubstr("2,1.0,palm")));
   EXPECT_THAT(error_of(good + "2,1.0,foot,0,0,0,0,0,0,1\n"), HasSubstr("line 34"));
   EXPECT_THAT(error_of(good + "2,1.0,palm,nan,0,0,0,0,0,1\n"), HasSubstr("line 34"));
+  EXPECT_THAT(error_of(good + "2,1.0,palm,1e300,0,0,0,0,0,1\n"), HasSubstr("line 34"));
+  EXPECT_THAT(error_of(good + "2,nan,palm,0,0,0,0,0,0,1\n"), HasSubstr("line 34"));
+  EXPECT_THAT(error_of(good + "9223372036854775807,1.0,palm,0,0,0,0,0,0,1\n"), HasSubstr("line 34"));
   EXPECT_THAT(error_of(good + "1,1.0,palm,0,0,0,0,0,0,1\n"), HasSubstr("frame 1 occurs twice"));
   EXPECT_THAT(error_of(good + "2,1,palm,0,0,0,0,0,0,1\n2,1,palm,0,0,0,0,0,0,1\n"), HasSubstr("palm occurs twice"));
   EXPECT_THAT(error_of(good + "2,1,palm,0,0,0,0,0,0,1\n3,1,palm,0,0,0,0,0,0,1\n"),
