@@ -202,7 +202,8 @@ def disk_full(build, folder):
 
 
 def disk_full_while_tracking(build, folder):
-    disk = folder + "/disk"
+    disk = folder + "/disk_of_results"
+    os.mkdir(disk)
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=20m", "tmpfs", disk], check=True)
     table, ballast = disk + "/result.csv", disk + "/ballast"
     program = Program(build, ["track", "--source", HAND, "--no-publish", "--result", table, "--states-log",
@@ -220,7 +221,7 @@ def disk_full_while_tracking(build, folder):
     program.stop()
     times = tracked_times(table)
     lines = sum("No space left" in line for _, line in program.said)
-    row("disk full for 5 s while tracking with --result and --states-log", f"tracked, {sum(begin <= t < end for t in times)} "
+    row("disk full for 5 s while tracking with --result and --states-log", f"{sum(begin <= t < end for t in times)} "
         f"frames written; said after {said:.2f} s, {lines} lines",
         f"written again after {again:.2f} s ({sum(t >= end for t in times)} frames in 3 s), exit code "
         f"{program.process.returncode}")
