@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "io/file_bytes.h"
 #include "io/image_codec.h"
 
 namespace barehand {
@@ -14,9 +14,7 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 Result<Bytes> read_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail("cannot be read", path);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
+  return read_file(path).map([](const std::string& text) { return Bytes(text.begin(), text.end()); });
 }
 
 Result<void> write_bytes(const std::string& path, const Bytes& bytes) {

@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <sstream>
+
+#include "io/file_bytes.h"
 
 namespace barehand::json_fields {
 namespace {
@@ -29,9 +30,7 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
 }  // namespace
 
 Result<Json> read_json(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
-  return parse_json({std::istreambuf_iterator<char>(file), {}}, path);
+  return read_file(path).and_then([&](const std::string& text) { return parse_json(text, path); });
 }
 
 Result<Json> parse_json(const std::string& text, const std::string& where) {

@@ -90,6 +90,7 @@ TEST_F(HandJson, SkinWithoutEllipsesIsRound) {
 
 TEST_F(HandJson, MissingFileAndBadSyntaxAreNamed) {
   EXPECT_THAT(load_profile(folder_ / "none.json").error().message(), HasSubstr("none.json: cannot be read"));
+  EXPECT_THAT(load_profile(folder_ / ".").error().message(), HasSubstr(".: is a folder"));
   test::write_text(path_, "{\n\"handedness\": right}");
   EXPECT_THAT(load_profile(path_).error().message(), HasSubstr("line 2"));
 }

@@ -170,6 +170,8 @@ TEST_F(RecordingFolder, BadImagesAreNamed) {
   EXPECT_THAT(error(1), HasSubstr("no 16-bit image"));
   fs::remove(path_ + "/rgb/000002.png");
   EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("cannot be read")));
+  fs::create_directory(path_ + "/rgb/000002.png");
+  EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("is a folder")));
 }
 
 TEST_F(RecordingFolder, ImagesThatAreTooLargeOrOfAnotherKindDoNotReachTheDecoder) {

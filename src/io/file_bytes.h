@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+
+namespace barehand {
+
+/// A whole file. Errors: not there, not readable, a folder, a disk that fails.
+Result<std::string> read_file(const std::string& path);
+
+}  // namespace barehand
