@@ -23,8 +23,11 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       loss_(params_.loss),
       uncertainty_(params_.uncertainty, params_.refinement.energy),
       ids_(ids) {
-  if (params_.shape_fit.enabled && model_->profile->origin == ProfileOrigin::mean)
+  if (!params_.shape_fit.enabled) return;
+  if (model_->profile->origin == ProfileOrigin::mean)
     person_.emplace(params_.shape_fit, model_->profile);
+  else
+    size_check_.emplace(params_.refinement, *model_->profile, *model_->skin);
 }
 
 void HandTracker::reset() {
@@ -46,6 +49,7 @@ void HandTracker::change(const TrackerParams& params) {
   params_ = params;
   model_ = std::move(model);
   if (person_) person_->expect_new_skin();
+  if (size_check_) size_check_.emplace(params.refinement, *model_->profile, *model_->skin);
   MotionModel motion(params.prediction, params.icp);
   if (motion_.has_pose()) motion.restart(motion_.pose(), motion_.utime());
   motion_ = motion;
@@ -75,9 +79,13 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
   return judge(observation, found, seen);
 }
 
-std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation) {
+std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort) {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
-  return search(observation);
+  return search(observation, effort);
+}
+
+Effort HandTracker::effort() const {
+  return search_frames_ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
 }
 
 TrackEvidence HandTracker::evidence(const HandObservation& observation) {
@@ -99,6 +107,7 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
   const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
+    if (size_check_) check_size(observation, fit->refined);
     if (fit->refined.score < loss_.good_threshold(evidence)) {
       last_good_ = fit->refined.pose;
       if (person_) fit_person(observation, fit->refined.pose);
@@ -119,7 +128,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     if (!doubtful(fit->refined.score)) return fit;
     found = search_once(observation, Effort::quick, 0);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
-    found = search(observation);
+    found = search(observation, effort());
     ++search_frames_;
   }
   if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
@@ -142,6 +151,11 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
   motion_.update(fit.refined.pose, seen, *fit.prediction);
+}
+
+void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
+  const auto size = size_check_->look(observation, refined.pose, refined.score);
+  if (size) log_->warn("{}", other_size(*size, *model_->profile));
 }
 
 void HandTracker::fit_person(const HandObservation& observation, const HandPose& pose) {
@@ -218,8 +232,7 @@ void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
   if (!best || other.refined.score < best->refined.score) best = other;
 }
 
-std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation) {
-  const Effort effort = search_frames_ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
+std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation, Effort effort) {
   // A hand that was tracked before is near its last pose; only a first start is worth several attempts.
   const int attempts = effort == Effort::full && !last_good_ ? params_.search_attempts : 1;
   std::optional<Fit> best;

@@ -5,6 +5,7 @@
 
 #include "app/hand_model.h"
 #include "app/person_fit.h"
+#include "app/size_check.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "stages/prediction/usual_score.h"
@@ -39,7 +40,9 @@ class HandTracker {
   /// The same where somebody else decides whether it is this hand: `found` by look(), or nothing.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Fit> found);
   /// The best pose that a search finds in the next observation, if that shows this hand.
-  std::optional<Fit> look(const HandObservation& observation);
+  std::optional<Fit> look(const HandObservation& observation, Effort effort);
+  /// Of the next search: most are quick ones.
+  Effort effort() const;
   /// As of the last observation.
   TrackStatus status() const { return loss_.status(); }
   /// As fitted to the person so far.
@@ -60,7 +63,7 @@ class HandTracker {
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   bool doubtful(double score);
   std::optional<Fit> follow(const HandObservation& observation);
-  std::optional<Fit> search(const HandObservation& observation);
+  std::optional<Fit> search(const HandObservation& observation, Effort effort);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
   TrackEvidence evidence(const HandObservation& observation);
   HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
@@ -69,6 +72,7 @@ class HandTracker {
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);
+  void check_size(const HandObservation& observation, const RefinedPose& refined);
   void fit_person(const HandObservation& observation, const HandPose& pose);
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_segments(HandEstimate& out, const Fit& fit);
@@ -81,7 +85,8 @@ class HandTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<HandModel> model_;
-  std::optional<PersonFit> person_;  // while a mean hand is fitted
+  std::optional<PersonFit> person_;      // while a mean hand is fitted
+  std::optional<SizeCheck> size_check_;  // of a profile that is used as it is
   MotionModel motion_;
   LossDetector loss_;
   PoseUncertainty uncertainty_;

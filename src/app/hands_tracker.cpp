@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "app/clearly_better.h"
 
 namespace barehand {
 namespace {
 
 // A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
 constexpr int kSearchEvery = 3;
-// Part by which a side must explain an observation better than the other side to own it.
-constexpr double kSideAdvantage = 0.1;
-
-bool clearly_better(double score, double other) { return score < other * (1 - kSideAdvantage); }
 
 }  // namespace
 
@@ -22,15 +21,15 @@ HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles
 }
 
 void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
-  mirrored_.reset();
   hands_[k] =
       std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
+  if (count() == 1) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
 }
 
 void HandsTracker::change(const TrackerParams& params) {
   for (const auto& hand : hands_) hand->change(params);
   params_ = params;
-  mirrored_.reset();
+  if (check_) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
 }
 
 HandEstimates HandsTracker::process(const HandObservations& observations) {
@@ -55,25 +54,14 @@ HandEstimates HandsTracker::process(const HandObservations& observations) {
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) return hand.process(observation);
-  std::optional<Fit> found = hand.look(observation);
-  if (found && is_other_side(observation, *found)) found.reset();
+  const Effort effort = hand.effort();
+  std::optional<Fit> found = hand.look(observation, effort);
+  const double score = found ? found->refined.score : INFINITY;
+  if (score > params_.loss.lost_score)
+    check_->nothing_found(observation, score);
+  else if (check_->is_other_side(observation, effort, score))
+    found.reset();
   return hand.process(observation, std::move(found));
-}
-
-bool HandsTracker::is_other_side(const HandObservation& observation, const Fit& found) {
-  if (found.refined.score > params_.loss.lost_score) return false;  // not taken for a hand anyway
-  const HandProfile& profile = hands_[0]->profile();
-  if (!mirrored_)
-    mirrored_ = std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(mirrored(profile)), seed_,
-                                              workers_, log_);
-  const std::optional<Fit> other = mirrored_->look(observation);
-  if (!other || !clearly_better(other->refined.score, found.refined.score)) return false;
-  if (!said_other_side_)
-    log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
-               to_string(mirrored_->profile().handedness), to_string(profile.handedness),
-               to_string(mirrored_->profile().handedness));
-  said_other_side_ = true;
-  return true;
 }
 
 /// Whether the observation may be anybody's.
@@ -83,14 +71,16 @@ bool HandsTracker::searched(int k, const HandObservation& observation) const {
 
 void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Fit> found;
-  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k]);
+  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k], hands_[k]->effort());
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
+  const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
   for (int k = 0; k < 2; ++k)
-    for (int j = 0; j < 2; ++j) found[k][j] = hands_[k]->look(*observations[j]);
+    for (int j = 0; j < 2; ++j)
+      found[k][j] = hands_[k]->look(*observations[j], full ? Effort::full : Effort::quick);  // equal chances
   const auto score = [&](int k, int j) { return found[k][j] ? found[k][j]->refined.score : INFINITY; };
   std::array<int, 2> owned = {-1, -1};  // by hand: observation
   if (observations[0]->hand_present && observations[1]->hand_present) {

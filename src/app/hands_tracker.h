@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "app/hand_tracker.h"
+#include "app/profile_check.h"
 
 namespace barehand {
 
@@ -33,7 +33,6 @@ class HandsTracker {
  private:
   using Fit = HandTracker::Fit;
   HandEstimatePtr process_only(const HandObservation& observation);
-  bool is_other_side(const HandObservation& observation, const Fit& found);
   bool searched(int k, const HandObservation& observation) const;
   void search_one(int k, const HandObservations& observations, HandEstimates& out);
   void search_both(const HandObservations& observations, HandEstimates& out);
@@ -43,8 +42,7 @@ class HandsTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::vector<std::unique_ptr<HandTracker>> hands_;
-  std::unique_ptr<HandTracker> mirrored_;  // of a hand that is tracked alone; only looks
-  bool said_other_side_ = false;
+  std::unique_ptr<ProfileCheck> check_;  // of a hand that is tracked alone
   std::int64_t frame_ = 0;
 };
 

@@ -28,4 +28,16 @@ HandProfile mirrored(const HandProfile& profile) {
   return other;
 }
 
+HandProfile scaled(const HandProfile& profile, double size) {
+  HandProfile result = profile;
+  for (SegmentProfile& s : result.segments) {
+    s.T_hand_segment.t *= size;
+    s.length *= size;
+    s.distal *= size;
+    for (auto* at_ends : {&s.radius, &s.half_width, &s.half_thickness, &s.flesh_offset_x, &s.flesh_offset_y})
+      for (double& value : *at_ends) value *= size;
+  }
+  return result;
+}
+
 }  // namespace barehand

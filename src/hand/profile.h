@@ -48,4 +48,7 @@ struct HandProfile {
 /// meaning (flexion towards the palm, abduction away from the middle finger).
 HandProfile mirrored(const HandProfile& profile);
 
+/// The hand of somebody who is `size` times as large.
+HandProfile scaled(const HandProfile& profile, double size);
+
 }  // namespace barehand

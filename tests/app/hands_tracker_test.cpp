@@ -1,6 +1,9 @@
 #include "app/hands_tracker.h"
 
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+
+#include <sstream>
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
@@ -117,6 +120,33 @@ TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
   for (int k = 0; k < 2; ++k)
     for (int s = 0; s < kSegmentCount; ++s)
       EXPECT_EQ(one[k]->segments[s].T_camera_segment.t, same[k]->segments[s].T_camera_segment.t);
+}
+
+class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithParamInterface<double> {
+ protected:
+  /// What is said while the right hand is tracked with a profile of this size that is used as it is.
+  std::string said(double size) {
+    auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
+    profile->origin = ProfileOrigin::measured;
+    std::ostringstream out;
+    HandsTracker tracker(
+        cheap(), {profile}, 1, workers_,
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
+    HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
+    for (SE3& T : pose) T.t.x() += kRightX;
+    tracker.hand(0).start_at(pose);
+    for (int i = 0; i < 70; ++i) EXPECT_EQ(next(tracker, right_hand_)[0]->status, TrackStatus::tracking);
+    return out.str();
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ProfileOfAnotherSize, ::testing::Values(0.88, 1.0, 1.14));
+
+TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
+  const double size = GetParam();
+  const std::string text = said(size);
+  EXPECT_EQ(text.find("% larger") != std::string::npos, size < 1) << text;
+  EXPECT_EQ(text.find("% smaller") != std::string::npos, size > 1) << text;
 }
 
 }  // namespace

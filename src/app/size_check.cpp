@@ -1,0 +1,63 @@
+#include "app/size_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/clearly_better.h"
+#include "core/format.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::array<double, 4> kSizes = {0.78, 0.88, 1.14, 1.28};
+
+Skin scaled(Skin skin, double size) {
+  for (SkinVertex& v : skin.vertices) {
+    v.in_a *= static_cast<float>(size);
+    v.in_b *= static_cast<float>(size);
+  }
+  return skin;
+}
+
+/// Around the middle of the palm, which the data holds best.
+HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
+  const Eigen::Vector3d centre = pose[kPalm] * (0.5 * hand.segments[kPalm].distal);
+  for (SE3& T : pose) T.t = centre + size * (T.t - centre);
+  return pose;
+}
+
+}  // namespace
+
+SizeCheck::SizeCheck(const RefinementParams& params, const HandProfile& profile, const Skin& skin) : profile_(profile) {
+  for (const double size : kSizes)
+    candidates_.push_back(
+        {size, std::make_unique<Refinement>(params, std::make_shared<const HandProfile>(scaled(profile, size)),
+                                            std::make_shared<const Skin>(scaled(skin, size)))});
+}
+
+std::string other_size(double size, const HandProfile& profile) {
+  return formatted(
+      "the hand in view looks about %.0f %% %s than the profile's: give the profile of this hand, or --hand %s for the "
+      "mean "
+      "hand, which is fitted while tracking",
+      100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
+}
+
+std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
+  if (looks_ >= kLooks || frames_++ % kEvery != 0) return std::nullopt;
+  ++looks_;
+  for (Candidate& candidate : candidates_) {
+    const HandPose start = scaled(profile_, pose, candidate.size);
+    const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
+    candidate.better += clearly_better(other, score);
+    candidate.sum += other;
+  }
+  if (looks_ < kLooks) return std::nullopt;
+  const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
+  const std::optional<double> size = best->better >= kMost ? std::optional(best->size) : std::nullopt;
+  candidates_.clear();
+  return size;
+}
+
+}  // namespace barehand

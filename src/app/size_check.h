@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/refinement/refinement.h"
+
+namespace barehand {
+
+/// Whether a profile that is used as it is has the size of the hand that is tracked with it: on a few frames, would a
+/// smaller or a larger copy of the hand explain the data better?
+class SizeCheck {
+ public:
+  /// `skin`: made for the profile.
+  SizeCheck(const RefinementParams& params, const HandProfile& profile, const Skin& skin);
+
+  /// One look at a tracked frame at its refined pose, which explains it with `score`. After enough looks, once: size of
+  /// the hand in view by that of the profile, if another one explains most of them clearly better.
+  std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
+
+ private:
+  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kIterations = 10;
+
+  struct Candidate {
+    double size;
+    std::unique_ptr<Refinement> refinement;
+    int better = 0;  // looks that it explains clearly better
+    double sum = 0;  // of its scores
+  };
+  HandProfile profile_;
+  std::vector<Candidate> candidates_;
+  int frames_ = 0, looks_ = 0;
+};
+
+/// For people: a hand of `size` times the profile's is seen, and what to do.
+std::string other_size(double size, const HandProfile& profile);
+
+}  // namespace barehand
