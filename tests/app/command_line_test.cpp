@@ -93,8 +93,8 @@ TEST(Track, RefusesAbsurdThreadCountsAndSteps) {
 }
 
 TEST(Track, RefusesMoreSamplesThanMemoryHolds) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer does not start under ulimit -v";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers do not start under ulimit -v";
 #endif
   const std::string text = std::regex_replace(shipped_config(), std::regex(" samples: [0-9]+"), " samples: 9000");
   const std::string path = write_file("many_samples.yaml", text);
