@@ -2,10 +2,12 @@
 
 namespace barehand {
 
-/// Whether one hand explains an observation so much better than another one does (global scores) that it is that one.
-inline bool clearly_better(double score, double other) {
-  constexpr double kAdvantage = 0.1;
-  return score < other * (1 - kAdvantage);
+/// What another side or size of a hand must be better by to be preferred.
+inline constexpr double kHandAdvantage = 0.1;
+
+/// Whether a pose or a hand explains an observation better than another one does, by `advantage` (global scores).
+inline bool clearly_better(double score, double other, double advantage = kHandAdvantage) {
+  return score < other * (1 - advantage);
 }
 
 }  // namespace barehand

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/clearly_better.h"
+
 namespace barehand {
 namespace {
 
@@ -27,7 +29,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
   if (model_->profile->origin == ProfileOrigin::mean)
     person_.emplace(params_.shape_fit, model_->profile);
   else
-    size_check_.emplace(params_.refinement, *model_->profile, *model_->skin);
+    size_check_.emplace(params_.refinement, model_->profile, model_->skin);
 }
 
 void HandTracker::reset() {
@@ -49,7 +51,7 @@ void HandTracker::change(const TrackerParams& params) {
   params_ = params;
   model_ = std::move(model);
   if (person_) person_->expect_new_skin();
-  if (size_check_) size_check_.emplace(params.refinement, *model_->profile, *model_->skin);
+  if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
   MotionModel motion(params.prediction, params.icp);
   if (motion_.has_pose()) motion.restart(motion_.pose(), motion_.utime());
   motion_ = motion;
@@ -131,7 +133,8 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     found = search(observation, effort());
     ++search_frames_;
   }
-  if (found && (!fit || found->refined.score < fit->refined.score * (1 - params_.search_advantage))) return found;
+  if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
+    return found;
   return fit;
 }
 
@@ -224,7 +227,7 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
   // A good local fit must not be spoilt by a sampled one that only looks as good.
   const RefinedPose sampled =
       model_->refinement.refine(observation, fused.pose, fit.prediction->primary(), params_.refinement.iterations);
-  if (sampled.score < fit.refined.score * (1 - params_.sampling_advantage)) fit.refined = sampled;
+  if (clearly_better(sampled.score, fit.refined.score, params_.sampling_advantage)) fit.refined = sampled;
   return fit;
 }
 

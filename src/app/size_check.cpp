@@ -29,26 +29,25 @@ HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
 
 }  // namespace
 
-SizeCheck::SizeCheck(const RefinementParams& params, const HandProfile& profile, const Skin& skin) : profile_(profile) {
+void SizeCheck::make_candidates() {
   for (const double size : kSizes)
     candidates_.push_back(
-        {size, std::make_unique<Refinement>(params, std::make_shared<const HandProfile>(scaled(profile, size)),
-                                            std::make_shared<const Skin>(scaled(skin, size)))});
+        {size, std::make_unique<Refinement>(params_, std::make_shared<const HandProfile>(scaled(*profile_, size)),
+                                            std::make_shared<const Skin>(scaled(*skin_, size)))});
 }
 
 std::string other_size(double size, const HandProfile& profile) {
   return formatted(
       "the hand in view looks about %.0f %% %s than the profile's: give the profile of this hand, or --hand %s for the "
-      "mean "
-      "hand, which is fitted while tracking",
+      "mean hand, which is fitted while tracking",
       100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
 }
 
 std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
   if (looks_ >= kLooks || frames_++ % kEvery != 0) return std::nullopt;
-  ++looks_;
+  if (looks_++ == 0) make_candidates();
   for (Candidate& candidate : candidates_) {
-    const HandPose start = scaled(profile_, pose, candidate.size);
+    const HandPose start = scaled(*profile_, pose, candidate.size);
     const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
     candidate.better += clearly_better(other, score);
     candidate.sum += other;

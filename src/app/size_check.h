@@ -13,8 +13,10 @@ namespace barehand {
 /// smaller or a larger copy of the hand explain the data better?
 class SizeCheck {
  public:
-  /// `skin`: made for the profile.
-  SizeCheck(const RefinementParams& params, const HandProfile& profile, const Skin& skin);
+  /// `skin`: made for the profile. The copies are made at the first look: most trackers only search.
+  SizeCheck(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
+            std::shared_ptr<const Skin> skin)
+      : params_(params), profile_(std::move(profile)), skin_(std::move(skin)) {}
 
   /// One look at a tracked frame at its refined pose, which explains it with `score`. After enough looks, once: size of
   /// the hand in view by that of the profile, if another one explains most of them clearly better.
@@ -29,7 +31,11 @@ class SizeCheck {
     int better = 0;  // looks that it explains clearly better
     double sum = 0;  // of its scores
   };
-  HandProfile profile_;
+  void make_candidates();
+
+  RefinementParams params_;
+  std::shared_ptr<const HandProfile> profile_;
+  std::shared_ptr<const Skin> skin_;
   std::vector<Candidate> candidates_;
   int frames_ = 0, looks_ = 0;
 };
