@@ -42,20 +42,19 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     for (std::size_t other = 0; other < hands_.size(); ++other)
       if (other != k && tracked(other)) leave_to(grid, *hints_[other], *hints_[k]);
     split_surfaces(grid, candidates_, surfaces_);
-    hands_[k].followed = follow(grid, *hints_[k], hint_age, hands_[k]);
+    hands_[k].found = hands_[k].followed = follow(grid, *hints_[k], hint_age, hands_[k]);
   }
+  if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
   candidates_ = all_candidates_;
   for (const CoarseHand& hand : hands_)
     if (hand.followed) take_away(grid, hand);
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     CoarseHand& hand = hands_[k];
-    if (!hand.followed) {
-      split_surfaces(grid, candidates_, surfaces_);
-      hand.followed = hints_[k] && !tracked(k) && follow(grid, *hints_[k], hint_age, hand);
-      hand.found = hand.followed || start(grid, hand);
-      if (hand.found) take_away(grid, hand);
-    }
-    hand.found = hand.found || hand.followed;
+    if (hand.found) continue;
+    split_surfaces(grid, candidates_, surfaces_);
+    hand.followed = hints_[k] && !tracked(k) && follow(grid, *hints_[k], hint_age, hand);
+    hand.found = hand.followed || start(grid, hand);
+    if (hand.found) take_away(grid, hand);
   }
   return hands_;
 }
