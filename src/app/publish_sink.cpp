@@ -3,6 +3,7 @@
 #include "stages/publish/health_message.h"
 
 namespace barehand {
+
 Result<void> StatePublisher::send(const HandEstimates& estimates) {
   if (const auto params = news_ ? news_->take() : std::nullopt) {
     params_ = *params;

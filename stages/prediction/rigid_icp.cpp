@@ -133,7 +133,7 @@ IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair) {
   r.value << pair.normal.dot(difference), difference;
   // d(exp(w) a)/dw = -[a]x, hence d(n . a)/dw = (a x n)^T.
   r.jacobian.row(0) << pair.normal.transpose(), arm.cross(pair.normal).transpose();
-  r.jacobian.bottomRows<3>() << Eigen::Matrix3d::Identity(), -skew(arm);
+  r.jacobian.bottomRows<3>() = point_jacobian(arm);
   return r;
 }
 

@@ -95,7 +95,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     Jacobian J_child, J_parent;
     J_child << -Matrix3d::Identity(), Matrix3d::Zero();
-    J_parent << Matrix3d::Identity(), -skew(joint.lever);
+    J_parent = point_jacobian(joint.lever);
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
     tree.add<3>(s, J_child, J_parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);

@@ -36,7 +36,7 @@ void hold_joint(const JointLinearisation& joint, int s, const Vector3d& deviatio
   const Vector3d zero = Vector3d::Zero();
   Jacobian J_child, J_parent;
   J_child << -Matrix3d::Identity(), Matrix3d::Zero();
-  J_parent << Matrix3d::Identity(), -skew(joint.lever);
+  J_parent = point_jacobian(joint.lever);
   tree.add<3>(s, J_child, J_parent, zero, Matrix3d::Identity() / sq(sigma_gap));
   J_child << Matrix3d::Zero(), joint.d_angles * joint.R_camera_joint.transpose();
   J_parent = -J_child;
