@@ -23,13 +23,21 @@ void CommandedTracker::collect(const std::string& sensor) {
     if (!command) {
       log_.warn("command", "ignored a command: " + command.error().message());
     } else if ((command->sensor.empty() || command->sensor == sensor) && !concerned(*command).empty()) {
-      const auto replaced = std::erase_if(
-          waiting_, [&](const Command& c) { return c.kind == command->kind && c.hand_id == command->hand_id; });
-      if (replaced > 0)
+      if (!make_room_for(*command))
         log_.warn("commands", "commands come faster than they are followed; the newest of a kind counts");
       waiting_.push_back(std::move(*command));
     }
   }
+}
+
+/// Whether nothing that still waits had to go.
+bool CommandedTracker::make_room_for(const Command& command) {
+  const auto is_same = [&](const Command& c) { return c.kind == command.kind && c.hand_id == command.hand_id; };
+  const bool one_a_side = command.kind == Command::Kind::set_profile && !command.hand_id;
+  const auto most = one_a_side ? tracker_.count() : 1;
+  if (std::count_if(waiting_.begin(), waiting_.end(), is_same) < most) return true;
+  waiting_.erase(std::find_if(waiting_.begin(), waiting_.end(), is_same));
+  return false;
 }
 
 void CommandedTracker::follow_waiting() {
@@ -63,8 +71,7 @@ void CommandedTracker::follow(const Command& command) {
 
 void CommandedTracker::use(const std::vector<int>& hands, HandProfile profile) {
   for (const int k : hands) {
-    const bool of_this_side = last_.empty() || last_[k]->handedness == profile.handedness;
-    if (tracker_.count() > 1 && !of_this_side) continue;
+    if (tracker_.count() > 1 && tracker_.hand(k).profile().handedness != profile.handedness) continue;
     log_.logger().info("command: use the given hand profile");
     return tracker_.use(k, std::make_shared<const HandProfile>(std::move(profile)));
   }

@@ -33,6 +33,7 @@ class CommandedTracker {
 
  private:
   void collect(const std::string& sensor);
+  bool make_room_for(const Command& command);
   void follow_waiting();
   std::vector<int> concerned(const Command& command) const;
   void follow(const Command& command);
@@ -42,7 +43,7 @@ class CommandedTracker {
   RepeatLog& log_;
   HandsTracker tracker_;
   HandEstimates last_;
-  std::vector<Command> waiting_;  // one of each kind and hand at most, oldest first
+  std::vector<Command> waiting_;  // one of each kind and hand at most, a profile for any hand once a hand; oldest first
   int allowed_ = kBurst;          // frames on which commands may be followed
   int frames_ = 0;
 };

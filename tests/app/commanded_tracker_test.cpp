@@ -1,15 +1,21 @@
 #include "app/commanded_tracker.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
 
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
 
 namespace barehand {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string file_text(const std::string& path) {
   std::ifstream file(path);
@@ -24,13 +30,14 @@ class CommandedTrackerTest : public ::testing::Test {
     params.sampling = false;
     return params;
   }
-  HandEstimatePtr next() {
+  HandObservationPtr seen(const HandObservation& what) {
     auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
     frame->utime = utime_ += 33'000;
-    auto observation = std::make_shared<HandObservation>(*hand_);
+    auto observation = std::make_shared<HandObservation>(what);
     observation->frame = frame;
-    return tracker_.process({observation}).front();
+    return observation;
   }
+  HandEstimatePtr next() { return tracker_.process({seen(*hand_)}).front(); }
   void send(Command command) { waiting_.push_back(std::move(command)); }
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
@@ -136,6 +143,33 @@ TEST_F(CommandedTrackerTest, ResetForgetsTheHand) {
   const std::int32_t before = next()->hand_id;
   send(Command{});
   EXPECT_NE(next()->hand_id, before);
+}
+
+TEST_F(CommandedTrackerTest, AProfileGoesToTheHandOfItsSide) {
+  TrackerParams params = cheap();
+  params.search_attempts = 1;
+  const auto left = std::make_shared<const HandProfile>(mirrored(*profile_));
+  for (const bool late : {false, true}) {  // before the first frame, and after it
+    std::ostringstream out;
+    RepeatLog log(std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)),
+                  clock_);
+    CommandedTracker tracker(
+        params, {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
+    HandEstimates hands;
+    const auto step = [&] { hands = tracker.process({seen(*hand_), seen(HandObservation())}); };
+    if (late) step();
+    for (const char* side : {"left", "right"}) {
+      Command command;
+      command.kind = Command::Kind::set_profile;
+      command.profile = file_text(BAREHAND_CONFIGS "/hands/adult_" + std::string(side) + ".json");
+      send(command);
+    }
+    step();
+    EXPECT_EQ(hands[0]->handedness, Handedness::right);
+    EXPECT_EQ(hands[1]->handedness, Handedness::left);
+    EXPECT_THAT(out.str(), AllOf(Not(HasSubstr("ignored")), Not(HasSubstr("faster")))) << out.str();
+    EXPECT_NE(out.str().find("use the given"), out.str().rfind("use the given")) << "both: " << out.str();
+  }
 }
 
 }  // namespace
