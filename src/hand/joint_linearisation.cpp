@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/se3.h"
+
 namespace barehand {
 
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment) {
@@ -23,6 +25,27 @@ JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& p
   joint.d_angles.row(1) << -st / ct * ca, 1, st / ct * sa;
   joint.d_angles.row(2) << sa, 0, ca;
   return joint;
+}
+
+JointJacobians JointLinearisation::of_gap() const {
+  JointJacobians J;
+  J.child << -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+  J.parent = point_jacobian(lever);
+  return J;
+}
+
+JointJacobians JointLinearisation::of_turn() const {
+  JointJacobians J;
+  J.child << Eigen::Matrix3d::Zero(), R_camera_joint.transpose();
+  J.parent = -J.child;
+  return J;
+}
+
+JointJacobians JointLinearisation::of_angles() const {
+  JointJacobians J = of_turn();
+  J.child = d_angles * J.child;
+  J.parent = -J.child;
+  return J;
 }
 
 }  // namespace barehand

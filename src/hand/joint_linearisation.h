@@ -4,9 +4,13 @@
 
 namespace barehand {
 
-/// State of one joint and its first-order change under the boxplus twists (v, w) of the segment and of its parent:
-///   d_gap    = v_parent + w_parent x lever - v_segment
-///   d_angles * R_camera_joint^T (w_segment - w_parent) = changes of flexion, abduction and twist
+/// First-order change of a quantity of a joint: child * twist of the segment + parent * twist of its parent, boxplus
+/// twists (v, w).
+struct JointJacobians {
+  Eigen::Matrix<double, 3, 6> child, parent;
+};
+
+/// State of one joint and its first-order change.
 struct JointLinearisation {
   Eigen::Vector3d gap;              ///< joint in the parent minus proximal end, camera frame [m] (Eq. 5)
   Eigen::Vector3d lever;            ///< joint in the parent minus the parent's origin, camera frame [m]
@@ -14,6 +18,10 @@ struct JointLinearisation {
   Eigen::Matrix3d R_joint_segment;  ///< the joint's rotation away from rest
   JointAngles angles;               ///< of R_joint_segment (Eq. 6)
   Eigen::Matrix3d d_angles;         ///< of a turn in the joint's frame; rows: flexion, abduction, twist
+
+  JointJacobians of_gap() const;     ///< v_parent + w_parent x lever - v_segment
+  JointJacobians of_turn() const;    ///< of R_joint_segment, a turn in the joint's frame
+  JointJacobians of_angles() const;  ///< of flexion, abduction, twist
 };
 /// At the joint between `segment`, which is not the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);

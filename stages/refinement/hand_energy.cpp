@@ -15,7 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
-using Jacobian = Eigen::Matrix<double, 3, 6>;
 
 double sq(double x) { return x * x; }
 float sq(float x) { return x * x; }
@@ -93,11 +92,9 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
   double total = 0;
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint(profile, pose, s);
-    Jacobian J_child, J_parent;
-    J_child << -Matrix3d::Identity(), Matrix3d::Zero();
-    J_parent = point_jacobian(joint.lever);
+    const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
-    tree.add<3>(s, J_child, J_parent, joint.gap, W_gap);
+    tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
     const JointLimits& limit = limits[s];
@@ -105,9 +102,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
                           beyond(joint.angles.abduction, limit.abduction_lo, limit.abduction_hi), joint.angles.twist);
     const Matrix3d W_angle =
         Vector3d(excess[0] != 0, excess[1] != 0, 1).asDiagonal().toDenseMatrix() / sq(params.sigma_angle_deg * kDegree);
-    J_child << Matrix3d::Zero(), joint.d_angles * joint.R_camera_joint.transpose();
-    J_parent = -J_child;
-    tree.add<3>(s, J_child, J_parent, excess, W_angle);
+    tree.add<3>(s, J_angles.child, J_angles.parent, excess, W_angle);
     total += excess.dot(W_angle * excess);
   }
   return total;
@@ -131,10 +126,8 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     const JointLinearisation aim = linearise_joint(profile, predicted, s);
     const Vector3d turn = log_so3(joint.R_joint_segment * aim.R_joint_segment.transpose());
-    Jacobian J_child, J_parent;
-    J_child << Matrix3d::Zero(), joint.R_camera_joint.transpose();
-    J_parent = -J_child;
-    tree.add<3>(s, J_child, J_parent, turn, w * Matrix3d::Identity());
+    const JointJacobians J = joint.of_turn();
+    tree.add<3>(s, J.child, J.parent, turn, w * Matrix3d::Identity());
     total += w * turn.squaredNorm();
   }
   return total;

@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Jacobian = Eigen::Matrix<double, 3, 6>;
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 constexpr double kRangeDeviation = 0.2887;  // of a uniform distribution over a range of 1
@@ -34,13 +33,9 @@ Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const Jo
 void hold_joint(const JointLinearisation& joint, int s, const Vector3d& deviation, double sigma_gap,
                 GaussianTree& tree) {
   const Vector3d zero = Vector3d::Zero();
-  Jacobian J_child, J_parent;
-  J_child << -Matrix3d::Identity(), Matrix3d::Zero();
-  J_parent = point_jacobian(joint.lever);
-  tree.add<3>(s, J_child, J_parent, zero, Matrix3d::Identity() / sq(sigma_gap));
-  J_child << Matrix3d::Zero(), joint.d_angles * joint.R_camera_joint.transpose();
-  J_parent = -J_child;
-  tree.add<3>(s, J_child, J_parent, zero, deviation.cwiseAbs2().cwiseInverse().asDiagonal());
+  const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
+  tree.add<3>(s, J_gap.child, J_gap.parent, zero, Matrix3d::Identity() / sq(sigma_gap));
+  tree.add<3>(s, J_angles.child, J_angles.parent, zero, deviation.cwiseAbs2().cwiseInverse().asDiagonal());
 }
 
 }  // namespace

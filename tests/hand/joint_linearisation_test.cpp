@@ -1,5 +1,7 @@
 #include "hand/joint_linearisation.h"
 
+#include <functional>
+
 #include "support/adult_hand.h"
 
 namespace barehand {
@@ -15,39 +17,61 @@ HandPose bent_pose(const HandProfile& profile) {
   return pose;
 }
 
-// Largest difference between the analytic derivative of the angles and central differences.
-double angle_derivative_error(const HandProfile& profile, const HandPose& pose, int segment, const Eigen::Matrix3d& d) {
-  constexpr double h = 1e-6;
-  const JointLinearisation joint = linearise_joint(profile, pose, segment);
-  double worst = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto angles_at = [&](double step) {
-      HandPose moved = pose;
-      Vector6d twist = Vector6d::Zero();
-      twist.tail<3>() = joint.R_camera_joint.col(axis) * step;
-      moved[segment] = boxplus(moved[segment], twist);
-      const JointAngles a = linearise_joint(profile, moved, segment).angles;
-      return Vector3d(a.flexion, a.abduction, a.twist);
+// What a joint says, as a vector, in a pose near the one it was linearised in.
+using Quantity = std::function<Vector3d(const JointLinearisation&)>;
+
+Vector3d gap(const JointLinearisation& joint) { return joint.gap; }
+Vector3d angles(const JointLinearisation& joint) {
+  return {joint.angles.flexion, joint.angles.abduction, joint.angles.twist};
+}
+Quantity turn_from(const JointLinearisation& joint) {
+  return [R = joint.R_joint_segment](const JointLinearisation& moved) {
+    return log_so3(moved.R_joint_segment * R.transpose());
+  };
+}
+
+class JointJacobiansTest : public ::testing::Test {
+ protected:
+  /// Largest difference between J and central differences.
+  double error(int segment, const Quantity& quantity, const JointJacobians& J) const {
+    constexpr double h = 1e-6;
+    const auto moved = [&](int body, int axis, double step) {
+      HandPose pose = pose_;
+      pose[body] = boxplus(pose[body], Vector6d::Unit(axis) * step);
+      return quantity(linearise_joint(*profile_, pose, segment));
     };
-    const Vector3d numeric = (angles_at(h) - angles_at(-h)) / (2 * h);
-    worst = std::max(worst, (numeric - d.col(axis)).cwiseAbs().maxCoeff());
+    double worst = 0;
+    for (int axis = 0; axis < 6; ++axis) {
+      const auto numeric = [&](int body) { return ((moved(body, axis, h) - moved(body, axis, -h)) / (2 * h)).eval(); };
+      worst = std::max({worst, (numeric(segment) - J.child.col(axis)).cwiseAbs().maxCoeff(),
+                        (numeric(parent_of(segment)) - J.parent.col(axis)).cwiseAbs().maxCoeff()});
+    }
+    return worst;
   }
-  return worst;
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = bent_pose(*profile_);
+};
+
+TEST_F(JointJacobiansTest, MatchCentralDifferences) {
+  for (int s = 1; s < kSegmentCount; ++s) {
+    const JointLinearisation joint = linearise_joint(*profile_, pose_, s);
+    EXPECT_LT(error(s, gap, joint.of_gap()), 1e-6) << s;
+    EXPECT_LT(error(s, turn_from(joint), joint.of_turn()), 1e-6) << s;
+    EXPECT_LT(error(s, angles, joint.of_angles()), 1e-6) << s;
+  }
 }
 
-TEST(JointLinearisation, AngleDerivativeMatchesCentralDifferences) {
-  const auto profile = test::adult_hand();
-  const HandPose pose = bent_pose(*profile);
-  for (int s = 1; s < kSegmentCount; ++s)
-    EXPECT_LT(angle_derivative_error(*profile, pose, s, linearise_joint(*profile, pose, s).d_angles), 1e-6) << s;
-}
-
-TEST(JointLinearisation, TheCheckRejectsASwappedRow) {
-  const auto profile = test::adult_hand();
-  const HandPose pose = bent_pose(*profile);
-  Eigen::Matrix3d wrong = linearise_joint(*profile, pose, 4).d_angles;
-  wrong.row(0).swap(wrong.row(2));
-  EXPECT_GT(angle_derivative_error(*profile, pose, 4, wrong), 0.1);
+TEST_F(JointJacobiansTest, TheCheckRejectsWrongOnes) {
+  JointLinearisation joint = linearise_joint(*profile_, pose_, 4);
+  JointJacobians swapped = joint.of_gap();
+  swapped.child.swap(swapped.parent);
+  EXPECT_GT(error(4, gap, swapped), 0.1);
+  EXPECT_GT(error(4, angles, joint.of_turn()), 0.1);
+  joint.lever *= 0.5;
+  EXPECT_GT(error(4, gap, joint.of_gap()), 0.01);
+  joint.d_angles.row(0).swap(joint.d_angles.row(2));
+  EXPECT_GT(error(4, angles, joint.of_angles()), 0.1);
 }
 
 TEST(JointLinearisation, GapIsZeroInAnArticulatedPose) {
