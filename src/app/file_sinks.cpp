@@ -1,22 +1,15 @@
 #include "app/file_sinks.h"
 
-#include <filesystem>
-
 #include "io/hand_json.h"
+#include "io/path_of_hand.h"
 
 namespace barehand {
 
-std::string path_of_hand(const std::string& path, int k, Handedness side) {
-  if (k == 0) return path;
-  const std::filesystem::path whole(path);
-  return whole.parent_path() /
-         (whole.stem().string() + "_" + std::string(to_string(side)) + whole.extension().string());
-}
-
-Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path, const std::vector<Handedness>& sides) {
+Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path,
+                                                      const std::vector<std::shared_ptr<const HandProfile>>& profiles) {
   std::vector<TableWriter> writers;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), sides[k]));
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness));
     if (!writer) return tl::unexpected(writer.error());
     writers.push_back(std::move(*writer));
   }

@@ -10,15 +10,12 @@
 
 namespace barehand {
 
-/// Where a file of the k-th hand goes: the first one's to `path`, that of another one, of the other side, beside it:
-/// out.csv, out_left.csv.
-std::string path_of_hand(const std::string& path, int k, Handedness side);
-
 /// --result: the table of formats.md, one a hand.
 class ResultTableSink : public Sink {
  public:
-  /// `sides`: of the hands.
-  static Result<std::unique_ptr<Sink>> create(const std::string& path, const std::vector<Handedness>& sides);
+  /// `profiles`: of the hands.
+  static Result<std::unique_ptr<Sink>> create(const std::string& path,
+                                              const std::vector<std::shared_ptr<const HandProfile>>& profiles);
   std::string name() const override { return "result table"; }
   Result<void> consume(const TrackedFrame& tracked) override;
 

@@ -19,9 +19,7 @@ ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()>
       told_us_(clock.steady_us()) {}
 
 Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
-  hands_.clear();
-  for (const HandEstimatePtr& hand : tracked.estimates)
-    hands_ += (hands_.empty() ? "" : ", ") + std::string(to_string(hand->status));
+  hands_ = tracked.estimates;
   frame_us_ = clock_.steady_us();
   return idle();
 }
@@ -43,7 +41,7 @@ void ServiceSink::feed() {
 void ServiceSink::tell() {
   const std::int64_t now_us = clock_.steady_us();
   const PipelineHealth health = health_();
-  std::string text = "hand: " + hands_;
+  std::string text = "hand: " + (hands_.empty() ? "searching" : status_list(hands_));
   if (now_us - frame_us_ >= kNoFramesUs)
     text = formatted("no frames for %lld s", static_cast<long long>((now_us - frame_us_) / 1'000'000));
   const double rate =

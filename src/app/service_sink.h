@@ -30,7 +30,7 @@ class ServiceSink : public Sink {
   const std::function<PipelineHealth()> health_;
   const Clock& clock_;
   PipelinePulse fed_at_;
-  std::string hands_ = "searching";                       // status of each
+  HandEstimates hands_;                                   // of the last frame
   std::int64_t frame_us_, told_us_, told_published_ = 0;  // of the last frame, of the last status line
 };
 

@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "io/hand_json.h"
+#include "io/path_of_hand.h"
 #include "io/pose_json.h"
 #include "io/result_table.h"
 
@@ -32,13 +33,13 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
 /// The files about one hand: its profile, its truth, and its pose in the first frame if it is seen there.
 class HandFiles {
  public:
-  /// `suffix` tells the files of a second hand from those of the first.
-  static Result<HandFiles> create(const std::string& out, const std::string& suffix, const HandProfile& profile) {
-    const auto path = [&](const std::string& name, const char* ending) { return beside(out, name + suffix + ending); };
-    if (auto ok = save_profile(profile, path("hand", ".json")); !ok) return tl::unexpected(ok.error());
-    auto truth = TableWriter::create(path("truth", ".csv"));
+  /// Of the k-th hand.
+  static Result<HandFiles> create(const std::string& out, int k, const HandProfile& profile) {
+    const auto path = [&](const char* name) { return path_of_hand(beside(out, name), k, profile.handedness); };
+    if (auto ok = save_profile(profile, path("hand.json")); !ok) return tl::unexpected(ok.error());
+    auto truth = TableWriter::create(path("truth.csv"));
     if (!truth) return tl::unexpected(truth.error());
-    return HandFiles(std::move(*truth), path("start_pose", ".json"));
+    return HandFiles(std::move(*truth), path("start_pose.json"));
   }
   Result<void> write(const SimulatedHand& hand, std::int64_t number) {
     if (hand.truth.empty() || hand.truth.back().number != number) return {};  // not in view
@@ -57,7 +58,7 @@ class HandFiles {
 Result<std::vector<HandFiles>> create_hand_files(const std::string& out, const std::vector<SimulatedHand>& hands) {
   std::vector<HandFiles> files;
   for (const SimulatedHand& hand : hands) {
-    auto created = HandFiles::create(out, files.empty() ? "" : "_left", hand.profile);
+    auto created = HandFiles::create(out, static_cast<int>(files.size()), hand.profile);
     if (!created) return tl::unexpected(created.error());
     files.push_back(std::move(*created));
   }

@@ -10,6 +10,7 @@
 #include "drivers/synthetic/synthetic_source.h"
 #include "drivers/usb/libusb_bus.h"
 #include "io/hand_json.h"
+#include "io/path_of_hand.h"
 
 namespace barehand {
 namespace {
@@ -23,8 +24,8 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.frames = (*source)->remaining();
-  for (const char* name : {"/hand.json", "/hand_left.json"}) {
-    const std::string path = directory + name;
+  for (const int k : {0, 1}) {
+    const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (std::filesystem::exists(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
   if (const double fps = (*source)->recording().fps; fps > 0) open.fps = fps;

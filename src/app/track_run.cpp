@@ -140,11 +140,7 @@ Step TrackRun::open_outputs() {
   Step ok;
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
-  if (ok && !options_.result.empty()) {
-    std::vector<Handedness> sides;
-    for (const auto& profile : profiles_) sides.push_back(profile->handedness);
-    ok = add(ResultTableSink::create(options_.result, sides));
-  }
+  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_));
   if (ok && !options_.states_log.empty())
     ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
   if (ok && !options_.overlay.empty())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "hand/hand_pose.h"
@@ -11,6 +12,13 @@ namespace barehand {
 constexpr std::string_view to_string(TrackStatus status) {
   constexpr std::array<std::string_view, 4> kNames = {"searching", "tracking", "holding", "lost"};
   return kNames[static_cast<std::size_t>(status)];
+}
+
+/// "tracking, lost": of every hand.
+inline std::string status_list(const HandEstimates& hands) {
+  std::string list;
+  for (const HandEstimatePtr& hand : hands) list.append(list.empty() ? "" : ", ").append(to_string(hand->status));
+  return list;
 }
 
 }  // namespace barehand
