@@ -251,7 +251,7 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
   const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
   const std::uint64_t seed = seed_ + frame_ + attempt * kAttemptSeed;
   const auto starts =
-      model_->initialiser->propose(observation, effort, seed, hiding, last_good_ ? &*last_good_ : nullptr);
+      model_->initialiser->propose(observation, effort, seed, workers_, hiding, last_good_ ? &*last_good_ : nullptr);
   std::vector<Fit> fits(std::min<std::size_t>(params_.search_refined, starts.size()));
   workers_.for_each_index(static_cast<int>(fits.size()), [&](int i) {
     fits[i].refined = model_->refinement.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "hand/skin.h"
@@ -17,6 +18,7 @@ constexpr double kMaxPitch = 0.9;    // [rad]
 constexpr double kSkinCell = 0.004;  // [m]
 constexpr int kSkinPoints = 600;     // per segment: dense enough for the palm at the fine cell
 constexpr int kLastGoodTurns = 8;
+constexpr int kPlacedTogether = 24;
 
 /// Mean of the points that face a camera looking along `view`, weighted by the area they show.
 Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
@@ -44,6 +46,7 @@ Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector
 struct Initialiser::Trial {
   std::string name;
   ScoredPose scored;
+  bool stays = false;  ///< is tried where it is
 };
 
 double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b) {
@@ -62,7 +65,7 @@ Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const Initi
       fine_skin_(make_coarse_skin(*profile_, surface_, params.fine_cell)) {}
 
 std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                                 Hiding hiding, const HandPose* last_good) const {
+                                                 Workers& workers, Hiding hiding, const HandPose* last_good) const {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
   const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
   const ScoreGrid coarse = make_score_grid(observation, params_.coarse_cell);
@@ -70,28 +73,28 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   if (coarse.empty() || fine.empty()) return {};
   CoarseScoreParams score = params_.score;
   if (hiding == Hiding::free) score.hidden = 0;
-  PoseCost coarse_cost(*profile_, coarse, coarse_skin_, score, params_.search.shape_prior);
-  PoseCost fine_cost(*profile_, fine, fine_skin_, score, params_.search.shape_prior);
+  const PoseCost coarse_cost(*profile_, coarse, coarse_skin_, score, params_.search.shape_prior);
+  const PoseCost fine_cost(*profile_, fine, fine_skin_, score, params_.search.shape_prior);
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
 
   const double turn = effort == Effort::quick ? std::fmod(0.6180339887 * frame, 1.0) : 0.0;
-  Trials trials = template_trials(coarse, work, turn, coarse_cost);
-  if (last_good) add_last_good(trials, *last_good, coarse, coarse_cost);
+  Trials trials = template_shapes(work, turn);
+  if (last_good) std::ranges::move(last_good_shapes(*last_good), std::back_inserter(trials));
+  for_each_trial(trials, coarse_cost, kPlacedTogether, workers,
+                 [&](Trial& trial, std::uint32_t, PoseCost& cost) { place(trial, coarse, cost); });
   trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct);
-  std::uint32_t number = 0;
-  for (Trial& trial : trials) {
-    const KeyedRandom random(seed, frame, 1, number++);
-    trial.scored = search_pose(trial.scored, coarse_cost, limits_, work.first_evaluations, random, params_.search);
-  }
+  for_each_trial(trials, coarse_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
+    const KeyedRandom random(seed, frame, 1, number);
+    trial.scored = search_pose(trial.scored, cost, limits_, work.first_evaluations, random, params_.search);
+  });
   trials = most_promising(std::move(trials), work.second_survivors, params_.distinct);
   const ObservedCloud cloud(observation);
-  number = 0;
-  for (Trial& trial : trials) {
-    trial.scored.cost = fine_cost(trial.scored.articulated);
-    align(trial, observation, cloud, fine_cost);
-    const KeyedRandom random(seed, frame, 2, number++);
-    trial.scored = search_pose(trial.scored, fine_cost, limits_, work.second_evaluations, random, params_.search);
-  }
+  for_each_trial(trials, fine_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
+    trial.scored.cost = cost(trial.scored.articulated);
+    align(trial, observation, cloud, cost);
+    const KeyedRandom random(seed, frame, 2, number);
+    trial.scored = search_pose(trial.scored, cost, limits_, work.second_evaluations, random, params_.search);
+  });
   std::vector<StartCandidate> result;
   for (Trial& trial : most_promising(std::move(trials), params_.results, params_.distinct)) {
     result.push_back({trial.name, posed(*profile_, trial.scored.articulated), trial.scored.cost});
@@ -99,8 +102,20 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   return result;
 }
 
-Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const SearchEffort& effort, double turn,
-                                                 PoseCost& cost) const {
+/// Calls visit(trial, its number, a cost of its thread's own) for every trial; `together` of them share one task.
+template <class Visit>
+void Initialiser::for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers,
+                                 const Visit& visit) {
+  const int count = static_cast<int>(trials.size());
+  workers.for_each_index((count + together - 1) / together, [&](int task) {
+    PoseCost own = cost;
+    for (int i = task * together; i < std::min((task + 1) * together, count); ++i)
+      visit(trials[i], static_cast<std::uint32_t>(i), own);
+  });
+}
+
+/// The templates in all orientations, not yet placed.
+Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, double turn) const {
   // With few shapes every second or third template is taken, so that open and closed hands both stay.
   const std::size_t stride = std::max<std::size_t>(1, shapes_.size() / effort.shapes);
   Trials trials;
@@ -113,7 +128,7 @@ Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const Se
           pose.angles = shapes_[i].angles;
           pose.T_camera_palm.R =
               palm_orientation(2 * kPi * r / effort.rolls, pitch, 2 * kPi * (k + turn) / effort.in_plane);
-          add_placed(trials, shapes_[i].name, pose, grid, cost);
+          trials.push_back({std::string(shapes_[i].name), {pose, 0}});
         }
       }
     }
@@ -123,8 +138,12 @@ Initialiser::Trials Initialiser::template_trials(const ScoreGrid& grid, const Se
 
 /// Lays a hand over the data in two ways: visible skin on the centroid; palm on the widest place of the hand, which
 /// holds when fingers are hidden. The better one is kept.
-void Initialiser::add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape, const ScoreGrid& grid,
-                             PoseCost& cost) const {
+void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const {
+  const ArticulatedPose& shape = trial.scored.articulated;
+  if (trial.stays) {
+    trial.scored.cost = cost(shape);
+    return;
+  }
   ArticulatedPose by_centroid = shape, by_palm = shape;
   const Vector3d view = grid.centroid.normalized();
   const HandPose pose = posed(*profile_, shape);
@@ -132,20 +151,21 @@ void Initialiser::add_placed(Trials& trials, std::string_view name, const Articu
   const SegmentProfile& palm = profile_->segments[kPalm];
   const Vector3d skin_at_palm = pose[kPalm] * (0.6 * palm.distal) - 0.5 * palm.half_thickness[1] * view;
   by_palm.T_camera_palm.t += grid.palm_centre - skin_at_palm;
-  ScoredPose first{by_centroid, cost(by_centroid)}, second{by_palm, cost(by_palm)};
-  trials.push_back({std::string(name), first.cost <= second.cost ? first : second});
+  const ScoredPose first{by_centroid, cost(by_centroid)}, second{by_palm, cost(by_palm)};
+  trial.scored = first.cost <= second.cost ? first : second;
 }
 
-void Initialiser::add_last_good(Trials& trials, const HandPose& last_good, const ScoreGrid& grid,
-                                PoseCost& cost) const {
+/// The pose as it is, and in several in-plane rotations.
+Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) const {
   ArticulatedPose pose = articulated_from(*profile_, last_good, limits_);
-  trials.push_back({"last", {pose, cost(pose)}});
+  Trials trials{{"last", {pose, 0}, true}};
   const SE3 original = pose.T_camera_palm;
   for (int k = 0; k < kLastGoodTurns; ++k) {
     const Eigen::AngleAxisd turn(2 * kPi * k / kLastGoodTurns, Vector3d::UnitZ());
     pose.T_camera_palm = SE3{turn.toRotationMatrix() * original.R, original.t};
-    add_placed(trials, "last", pose, grid, cost);
+    trials.push_back({"last", {pose, 0}});
   }
+  return trials;
 }
 
 /// The best `count` trials of which no two are closer than `distinct`.

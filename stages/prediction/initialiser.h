@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel.h"
 #include "stages/prediction/pose_search.h"
 #include "stages/prediction/rigid_icp.h"
 
@@ -76,7 +77,7 @@ enum class Hiding { costs, free };
 
 /// Start poses from one observation alone (not in the paper, whose start is manual; Sec. 5.2). Hand shape templates
 /// at many orientations are laid over the hand's pixels, scored by silhouette and depth, and the best are improved.
-/// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result.
+/// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result, not the workers.
 class Initialiser {
  public:
   Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params);
@@ -86,15 +87,17 @@ class Initialiser {
   /// orientations from frame to frame, so that successive lost frames cover what one leaves out.
   /// `hiding`: free where the hand is seen so little that the smallest hidden shape would win.
   std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                      Hiding hiding = Hiding::costs, const HandPose* last_good = nullptr) const;
+                                      Workers& workers, Hiding hiding = Hiding::costs,
+                                      const HandPose* last_good = nullptr) const;
 
  private:
   struct Trial;
   using Trials = std::vector<Trial>;
-  Trials template_trials(const ScoreGrid& grid, const SearchEffort& effort, double turn, PoseCost& cost) const;
-  void add_placed(Trials& trials, std::string_view name, const ArticulatedPose& shape, const ScoreGrid& grid,
-                  PoseCost& cost) const;
-  void add_last_good(Trials& trials, const HandPose& last_good, const ScoreGrid& grid, PoseCost& cost) const;
+  template <class Visit>
+  static void for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers, const Visit& visit);
+  Trials template_shapes(const SearchEffort& effort, double turn) const;
+  Trials last_good_shapes(const HandPose& last_good) const;
+  void place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const;
   Trials most_promising(Trials trials, int count, double distinct) const;
   void align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud, PoseCost& cost) const;
 

@@ -34,13 +34,15 @@ class InitialiserTest : public testing::Test {
     return posed(*profile_, pose);
   }
   double error_of_best(const HandPose& truth) const {
-    const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::full, kSeed);
+    const auto starts =
+        initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::full, kSeed, workers_);
     return starts.empty() ? 1.0 : test::mean_error(*profile_, starts.front().pose, truth);
   }
 
   std::shared_ptr<const HandProfile> profile_;
   std::array<JointLimits, kSegmentCount> limits_;
   std::unique_ptr<Initialiser> initialiser_;
+  mutable Workers workers_{1};
 };
 
 TEST_F(InitialiserTest, FindsAnOpenHandAtAnyInPlaneRotation) {
@@ -59,7 +61,8 @@ TEST_F(InitialiserTest, FindsALeftHand) {
 }
 
 TEST_F(InitialiserTest, RanksByCostAndReturnsDistinctPoses) {
-  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(shape(1, 0, 0)), Effort::full, kSeed);
+  const auto starts =
+      initialiser_->propose(*test::PointWorld(*profile_).observe(shape(1, 0, 0)), Effort::full, kSeed, workers_);
   ASSERT_GE(starts.size(), 2u);
   for (std::size_t i = 1; i < starts.size(); ++i) {
     EXPECT_LE(starts[i - 1].cost, starts[i].cost);
@@ -67,11 +70,12 @@ TEST_F(InitialiserTest, RanksByCostAndReturnsDistinctPoses) {
   }
 }
 
-TEST_F(InitialiserTest, TheSameSeedGivesTheSamePoses) {
+TEST_F(InitialiserTest, TheSameSeedGivesTheSamePosesOnAnyNumberOfCores) {
   const auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0.7));
-  const auto a = initialiser_->propose(*observation, Effort::quick, kSeed);
-  const auto b = initialiser_->propose(*observation, Effort::quick, kSeed);
-  const auto other = initialiser_->propose(*observation, Effort::quick, kSeed + 1);
+  Workers three(3);
+  const auto a = initialiser_->propose(*observation, Effort::quick, kSeed, workers_);
+  const auto b = initialiser_->propose(*observation, Effort::quick, kSeed, three);
+  const auto other = initialiser_->propose(*observation, Effort::quick, kSeed + 1, workers_);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
@@ -83,8 +87,8 @@ TEST_F(InitialiserTest, TheSameSeedGivesTheSamePoses) {
 TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
   const HandPose truth = shape(5, 0.8, 0.4);
   const HandPose last = moved({exp_so3({0, 0, 0.7}), {0.02, -0.03, 0.02}}, truth);
-  const auto starts =
-      initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, Hiding::costs, &last);
+  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, workers_,
+                                            Hiding::costs, &last);
   ASSERT_FALSE(starts.empty());
   EXPECT_EQ(starts.front().name, "last");
   EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.02);
@@ -93,11 +97,12 @@ TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
 TEST_F(InitialiserTest, ProposesNothingWithoutAHand) {
   auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0));
   observation->hand_pixels.resize(50);
-  EXPECT_TRUE(initialiser_->propose(*observation, Effort::full, kSeed).empty());
+  EXPECT_TRUE(initialiser_->propose(*observation, Effort::full, kSeed, workers_).empty());
 }
 
 TEST_F(InitialiserTest, ResultsObeyTheWidenedLimits) {
-  const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(shape(4, 0, 0)), Effort::quick, kSeed);
+  const auto starts =
+      initialiser_->propose(*test::PointWorld(*profile_).observe(shape(4, 0, 0)), Effort::quick, kSeed, workers_);
   const auto limits = widened_limits(*profile_, InitialiserParams{}.widening + 1e-6);
   for (const StartCandidate& start : starts) {
     for (int s = 1; s < kSegmentCount; ++s) {
