@@ -176,15 +176,16 @@ void HandTracker::fit_person(const HandObservation& observation, const HandPose&
 double HandTracker::interval_factor(double dt) const { return std::clamp(dt * params_.nominal_rate, 0.5, 4.0); }
 
 FusedPose HandTracker::sample(const HandObservation& observation, const Prediction& prediction) {
-  const PreparedObservation prepared = model_->segment_tracker.prepare(observation, prediction.primary());
+  const PreparedObservation& prepared = model_->segment_tracker.prepare(observation, prediction.primary());
   const double factor = interval_factor(prediction.dt);
-  Proposals proposals = model_->fusion.first_proposals(prediction.primary(), factor);
+  const Proposals* proposals = &model_->fusion.first_proposals(prediction.primary(), factor);
   const int levels = params_.fusion.levels;
   for (int level = 0;; ++level) {
-    const SegmentSamples samples = model_->segment_tracker.sample(prepared, proposals, {seed_, frame_, level, levels});
-    const HandBelief belief = model_->fusion.fuse(samples, level);
+    const SegmentSamples& samples =
+        model_->segment_tracker.sample(prepared, *proposals, {seed_, frame_, level, levels});
+    const HandBelief& belief = model_->fusion.fuse(samples, level);
     if (level + 1 == levels) return model_->fusion.read_out(samples, belief, factor);
-    proposals = model_->fusion.next_proposals(samples, belief, level, factor);
+    proposals = &model_->fusion.next_proposals(samples, belief, level, factor);
   }
 }
 

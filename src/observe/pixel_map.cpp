@@ -46,10 +46,10 @@ class Cells {
 
 }  // namespace
 
-PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Workers& workers) {
+PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Workers& workers, PixelMap reused) {
   const Intrinsics& camera = o.frame->camera;
   const int w = o.label.width(), h = o.label.height();
-  PixelMap map;
+  PixelMap map = std::move(reused);
   map.width = w + 2;
   map.height = h + 2;
   map.fx = static_cast<float>(camera.fx);

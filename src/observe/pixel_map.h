@@ -26,7 +26,9 @@ struct PixelMap {
 };
 
 /// `missing_is_background`: a pixel without depth is not hand, as in the paper; otherwise it says nothing. What lies
-/// outside the camera's image says nothing; what lies outside the region of interest only is not hand.
-PixelMap make_pixel_map(const HandObservation& observation, bool missing_is_background, Workers& workers);
+/// outside the camera's image says nothing; what lies outside the region of interest only is not hand. `reused`: an
+/// earlier map, whose memory the new one takes.
+PixelMap make_pixel_map(const HandObservation& observation, bool missing_is_background, Workers& workers,
+                        PixelMap reused = {});
 
 }  // namespace barehand

@@ -6,7 +6,6 @@
 
 #include "math/angles.h"
 #include "math/schedule.h"
-#include "stages/fusion/mode.h"
 
 namespace barehand {
 namespace {
@@ -20,7 +19,7 @@ constexpr std::array<int, kSegmentCount> kParents = [] {
 }  // namespace
 
 Fusion::Fusion(const FusionParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers)
-    : params_(params), joints_(make_joint_models(*profile, params)), workers_(workers) {}
+    : params_(params), joints_(make_joint_models(*profile, params)), workers_(workers), propagation_(kParents) {}
 
 Vector6d Fusion::half_width(int segment, int level, double interval_factor) const {
   const FusionParams& p = params_;
@@ -32,41 +31,37 @@ Vector6d Fusion::half_width(int segment, int level, double interval_factor) cons
   return width * interval_factor * geometric(1, p.range_end, level, p.levels);
 }
 
-Proposals Fusion::first_proposals(const HandPose& predicted, double interval_factor) const {
-  Proposals proposals;
-  for (int s = 0; s < kSegmentCount; ++s) proposals[s] = {{predicted[s], half_width(s, 0, interval_factor)}};
-  return proposals;
+const Proposals& Fusion::first_proposals(const HandPose& predicted, double interval_factor) {
+  for (int s = 0; s < kSegmentCount; ++s) proposals_[s].assign(1, {predicted[s], half_width(s, 0, interval_factor)});
+  return proposals_;
 }
 
-HandBelief Fusion::fuse(const SegmentSamples& samples, int level) const {
+const HandBelief& Fusion::fuse(const SegmentSamples& samples, int level) {
   const double sigma_prox = geometric(params_.sigma_prox_start, params_.sigma_prox_end, level, params_.levels);
-  std::array<EdgeEnergy, kSegmentCount> energy;
   workers_.for_each_index(kSegmentCount - 1, [&](int i) {
     const int s = i + 1;
-    energy[s] = joint_energy(joints_[s], sigma_prox, samples.poses[parent_of(s)], samples.poses[s]);
+    frames_[s].reset(joints_[s], samples.poses[parent_of(s)]);
+    joint_energy(joints_[s], sigma_prox, frames_[s], samples.poses[s], energy_[s]);
   });
   const Marginals marginals = params_.marginals == "max" ? Marginals::max : Marginals::sum;
-  auto beliefs = tree_beliefs(kParents, samples.log_likelihood, energy, marginals, workers_);
-  HandBelief belief;
-  std::move(beliefs.begin(), beliefs.end(), belief.log_belief.begin());
-  return belief;
+  propagation_.run(samples.log_likelihood, energy_, marginals, workers_, belief_.log_belief);
+  return belief_;
 }
 
 std::int64_t Fusion::memory(std::int64_t samples) {
   return (kSegmentCount - 1) * samples * samples * static_cast<std::int64_t>(sizeof(float));
 }
 
-Proposals Fusion::next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
-                                 double interval_factor) const {
-  Proposals proposals;
+const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
+                                        double interval_factor) {
   for (int s = 0; s < kSegmentCount; ++s) {
     const Vector6d width = half_width(s, level + 1, interval_factor);
-    proposals[s].reserve(params_.kernels);
+    proposals_[s].clear();
     for (const std::size_t i :
-         best_distinct(samples.poses[s], belief.log_belief[s], params_.kernels, width, params_.kernel_separation))
-      proposals[s].push_back({samples.poses[s][i], width});
+         choice_.best(samples.poses[s], belief.log_belief[s], params_.kernels, width, params_.kernel_separation))
+      proposals_[s].push_back({samples.poses[s][i], width});
   }
-  return proposals;
+  return proposals_;
 }
 
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {

@@ -8,6 +8,7 @@
 #include "hand/samples.h"
 #include "stages/fusion/fusion_params.h"
 #include "stages/fusion/joint_energy.h"
+#include "stages/fusion/mode.h"
 
 namespace barehand {
 
@@ -18,7 +19,8 @@ struct FusedPose {
 };
 
 /// Combines the local trackers through the hand's structure (paper Sec. 4.3) and narrows the search level by level
-/// (Sec. 4.4). Stateless between calls; every segment of `samples` needs at least one sample.
+/// (Sec. 4.4). Results depend on the arguments alone, and those that are references are valid until the same kind of
+/// result is asked for again: their memory is kept. Every segment of `samples` needs at least one sample.
 class Fusion {
  public:
   Fusion(const FusionParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers);
@@ -27,14 +29,14 @@ class Fusion {
 
   /// One box per segment around the prediction: the proposals of level 0. `interval_factor` scales every range of the
   /// frame: time since the last frame over the nominal interval (a dropped frame doubles it).
-  Proposals first_proposals(const HandPose& predicted, double interval_factor = 1) const;
+  const Proposals& first_proposals(const HandPose& predicted, double interval_factor = 1);
   /// Marginal posterior of every segment over its samples, exact on the tree (Eq. 4-8). `level` from 0.
-  HandBelief fuse(const SegmentSamples& samples, int level) const;
+  const HandBelief& fuse(const SegmentSamples& samples, int level);
   /// Bytes that fuse holds for `samples` per segment: the energies of all pairs along the 15 joints.
   static std::int64_t memory(std::int64_t samples);
   /// The S' best distinct samples of `level` as boxes of level + 1, best first; fewer where they are not distinct.
-  Proposals next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
-                           double interval_factor = 1) const;
+  const Proposals& next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
+                                  double interval_factor = 1);
   /// Pose and covariance from the last level. The covariance is that of all samples under the belief, plus the
   /// variance of the last level's box between two samples: sampling cannot know better than its own spacing.
   FusedPose read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor = 1) const;
@@ -45,6 +47,12 @@ class Fusion {
   FusionParams params_;
   JointModels joints_;
   Workers& workers_;
+  BeliefPropagation propagation_;
+  DistinctChoice choice_;
+  std::array<ParentFrames, kSegmentCount> frames_;
+  std::array<EdgeEnergy, kSegmentCount> energy_;
+  HandBelief belief_;
+  Proposals proposals_;
 };
 
 }  // namespace barehand

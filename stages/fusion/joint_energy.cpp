@@ -10,23 +10,6 @@ namespace {
 
 float inverse_square(double sigma) { return static_cast<float>(1 / (sigma * sigma)); }
 
-/// Joint point and rest frame of every parent sample as structure of arrays: the inner loop runs over parents.
-struct ParentFrames {
-  std::vector<float> data;
-  std::size_t n;
-  ParentFrames(const JointModel& joint, const std::vector<SE3>& parents)
-      : data(12 * parents.size()), n(parents.size()) {
-    for (std::size_t p = 0; p < n; ++p) {
-      const Eigen::Vector3f origin = (parents[p] * joint.joint_in_parent).cast<float>();
-      const Eigen::Matrix3f R = (parents[p].R * joint.R_parent_rest).cast<float>();
-      for (int k = 0; k < 3; ++k) data[k * n + p] = origin[k];
-      for (int k = 0; k < 9; ++k) data[(3 + k) * n + p] = R(k % 3, k / 3);
-    }
-  }
-  const float* origin(int axis) const { return data.data() + axis * n; }
-  const float* column(int c, int row) const { return data.data() + (3 + 3 * c + row) * n; }
-};
-
 /// Part of an angle that lies outside mid +- half, the short way round the circle.
 inline float beyond(float angle, float mid, float half) {
   constexpr float kTurn = 2 * std::numbers::pi_v<float>;
@@ -45,7 +28,7 @@ void energy_row(const JointModel& joint, float inv_prox_sq, const ParentFrames& 
   const float *a10 = parents.column(1, 0), *a11 = parents.column(1, 1), *a12 = parents.column(1, 2);
   const float *a20 = parents.column(2, 0), *a21 = parents.column(2, 1), *a22 = parents.column(2, 2);
   const JointModel j = joint;
-  for (std::size_t p = 0; p < parents.n; ++p) {
+  for (std::size_t p = 0; p < parents.size(); ++p) {
     const float dx = x[p] - o[0], dy = y[p] - o[1], dz = z[p] - o[2];
     const float prox = (dx * dx + dy * dy + dz * dz) * inv_prox_sq;
     // Entries of R_rest_posed = R_camera_rest^T R_camera_child that joint_angles() needs.
@@ -83,13 +66,24 @@ JointModels make_joint_models(const HandProfile& profile, const FusionParams& pa
   return models;
 }
 
-EdgeEnergy joint_energy(const JointModel& joint, double sigma_prox, const std::vector<SE3>& parents,
-                        const std::vector<SE3>& children) {
-  const ParentFrames frames(joint, parents);
-  EdgeEnergy energy{parents.size(), children.size(), std::vector<float>(parents.size() * children.size())};
-  for (std::size_t c = 0; c < children.size(); ++c)
-    energy_row(joint, inverse_square(sigma_prox), frames, children[c], energy.value.data() + c * parents.size());
-  return energy;
+void ParentFrames::reset(const JointModel& joint, const std::vector<SE3>& parents) {
+  size_ = parents.size();
+  data_.resize(12 * size_);
+  for (std::size_t p = 0; p < size_; ++p) {
+    const Eigen::Vector3f origin = (parents[p] * joint.joint_in_parent).cast<float>();
+    const Eigen::Matrix3f R = (parents[p].R * joint.R_parent_rest).cast<float>();
+    for (int k = 0; k < 3; ++k) data_[k * size_ + p] = origin[k];
+    for (int k = 0; k < 9; ++k) data_[(3 + k) * size_ + p] = R(k % 3, k / 3);
+  }
+}
+
+void joint_energy(const JointModel& joint, double sigma_prox, const ParentFrames& parents,
+                  const std::vector<SE3>& children, EdgeEnergy& energy) {
+  energy.parents = parents.size();
+  energy.children = children.size();
+  energy.value.resize(energy.parents * energy.children);
+  for (std::size_t c = 0; c < energy.children; ++c)
+    energy_row(joint, inverse_square(sigma_prox), parents, children[c], energy.value.data() + c * energy.parents);
 }
 
 }  // namespace barehand

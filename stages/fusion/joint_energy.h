@@ -21,10 +21,24 @@ using JointModels = std::array<JointModel, kSegmentCount>;  ///< entry of the pa
 
 JointModels make_joint_models(const HandProfile& profile, const FusionParams& params);
 
+/// Joint point and rest frame of every sample of a parent as structure of arrays.
+class ParentFrames {
+ public:
+  /// Keeps its memory.
+  void reset(const JointModel& joint, const std::vector<SE3>& parents);
+  std::size_t size() const { return size_; }
+  const float* origin(int axis) const { return data_.data() + axis * size_; }
+  const float* column(int c, int row) const { return data_.data() + (3 + 3 * c + row) * size_; }
+
+ private:
+  std::vector<float> data_;
+  std::size_t size_ = 0;
+};
+
 /// -log psi (Eq. 4) of all pairs of samples, T_camera_segment each: squared distance between the parent's joint point
 /// and the child's origin over sigma_prox^2 (Eq. 5), plus squared angles beyond the widened limits over their
-/// sigma^2 (Eq. 6), measured the short way round.
-EdgeEnergy joint_energy(const JointModel& joint, double sigma_prox, const std::vector<SE3>& parents,
-                        const std::vector<SE3>& children);
+/// sigma^2 (Eq. 6), measured the short way round. `energy` keeps its memory.
+void joint_energy(const JointModel& joint, double sigma_prox, const ParentFrames& parents,
+                  const std::vector<SE3>& children, EdgeEnergy& energy);
 
 }  // namespace barehand

@@ -16,23 +16,23 @@ double box_distance(const SE3& a, const SE3& b, const Vector6d& half_width) {
 
 }  // namespace
 
-std::vector<std::size_t> best_distinct(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
-                                       const Vector6d& half_width, double separation) {
-  std::vector<std::size_t> order(poses.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+const std::vector<std::size_t>& DistinctChoice::best(const std::vector<SE3>& poses,
+                                                     const std::vector<double>& log_belief, int count,
+                                                     const Vector6d& half_width, double separation) {
+  order_.resize(poses.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
     return log_belief[a] > log_belief[b] || (log_belief[a] == log_belief[b] && a < b);
   });
-  std::vector<std::size_t> chosen;
-  chosen.reserve(count);
-  for (const std::size_t i : order) {
-    if (static_cast<int>(chosen.size()) == count) break;
-    const bool distinct = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t k) {
+  chosen_.clear();
+  for (const std::size_t i : order_) {
+    if (static_cast<int>(chosen_.size()) == count) break;
+    const bool distinct = std::all_of(chosen_.begin(), chosen_.end(), [&](std::size_t k) {
       return box_distance(poses[k], poses[i], half_width) >= separation;
     });
-    if (distinct) chosen.push_back(i);
+    if (distinct) chosen_.push_back(i);
   }
-  return chosen;
+  return chosen_;
 }
 
 SE3 mode_mean(const std::vector<SE3>& poses, const std::vector<double>& log_belief, double radius, double angle) {

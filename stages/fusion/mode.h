@@ -6,10 +6,17 @@
 
 namespace barehand {
 
-/// Indices of at most `count` samples by falling belief (equal beliefs: lower index first); none lies closer to an
-/// earlier choice than `separation` half widths on every axis of that choice's frame.
-std::vector<std::size_t> best_distinct(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
+/// Chooses samples that are good and apart. Keeps its memory from call to call, and nothing else.
+class DistinctChoice {
+ public:
+  /// Indices of at most `count` samples by falling belief (equal beliefs: lower index first); none lies closer to an
+  /// earlier choice than `separation` half widths on every axis of that choice's frame. Valid until the next call.
+  const std::vector<std::size_t>& best(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
                                        const Vector6d& half_width, double separation);
+
+ private:
+  std::vector<std::size_t> order_, chosen_;
+};
 
 /// Belief-weighted mean of the samples within `radius` [m] and `angle` [rad] of the best sample.
 SE3 mode_mean(const std::vector<SE3>& poses, const std::vector<double>& log_belief, double radius, double angle);

@@ -6,7 +6,6 @@
 #include "math/schedule.h"
 #include "stages/segment_tracker/cpu_observer.h"
 #include "stages/segment_tracker/patch_distance.h"
-#include "stages/segment_tracker/self_occlusion.h"
 
 namespace barehand {
 namespace {
@@ -18,8 +17,8 @@ void copy_labels(const Image<std::uint16_t>& hidden, PixelMap& map) {
 }
 
 /// Eq. 3. A sample without evidence gets the mean distance of its siblings: neither punished nor preferred.
-std::vector<double> log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha,
-                                   double sigma_obs) {
+void log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha, double sigma_obs,
+                    std::vector<double>& log_l) {
   const auto has_evidence = [&](const PatchDistance& p) {
     return p.counted > 0 && p.counted_fraction() >= min_counted;
   };
@@ -31,12 +30,11 @@ std::vector<double> log_likelihood(const std::vector<PatchDistance>& patches, do
     ++count;
   }
   const double neutral = count > 0 ? sum / count : 0;
-  std::vector<double> log_l(patches.size());
+  log_l.resize(patches.size());
   for (std::size_t i = 0; i < log_l.size(); ++i) {
     const double d = (has_evidence(patches[i]) ? patches[i].mean() : neutral) / sigma_obs;
     log_l[i] = -alpha * d * d;
   }
-  return log_l;
 }
 
 }  // namespace
@@ -52,36 +50,34 @@ PatchDistance SegmentTracker::compare(const PreparedObservation& prepared, int s
   return patch_distance((*surface_)[segment], T_camera_segment, segment, prepared.map, distance_cap(params_));
 }
 
-PreparedObservation SegmentTracker::prepare(const HandObservation& observation, const HandPose& predicted,
-                                            const Image<std::uint16_t>* hidden) const {
-  PreparedObservation prepared;
-  prepared.id = ++prepared_count_;
-  prepared.map = make_pixel_map(observation, params_.missing_depth == "background", workers_);
+const PreparedObservation& SegmentTracker::prepare(const HandObservation& observation, const HandPose& predicted,
+                                                   const Image<std::uint16_t>* hidden) {
+  PixelMap& map = prepared_.map;
+  ++prepared_.id;
+  map = make_pixel_map(observation, params_.missing_depth == "background", workers_, std::move(map));
   if (hidden)
-    copy_labels(*hidden, prepared.map);
+    copy_labels(*hidden, map);
   else
-    label_self_occlusion(*surface_, predicted, params_, prepared.map, workers_);
+    self_occlusion_.label(*surface_, predicted, params_, map, workers_);
   for (int s = 0; s < kSegmentCount; ++s)
-    prepared.unoccluded[s] = compare(prepared, s, predicted[s]).counted_fraction();
-  return prepared;
+    prepared_.unoccluded[s] = compare(prepared_, s, predicted[s]).counted_fraction();
+  return prepared_;
 }
 
-SegmentSamples SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
-                                      const SampleKey& key) const {
+const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
+                                             const SampleKey& key) {
   const int count = params_.samples, chunks = (count + kSampleChunk - 1) / kSampleChunk;
-  SegmentSamples samples;
-  for (auto& poses : samples.poses) poses.resize(count);
+  for (auto& poses : samples_.poses) poses.resize(count);
   workers_.for_each_index(kSegmentCount * chunks, [&](int task) {
     const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
-    for (int i = begin; i < end; ++i) samples.poses[s][i] = draw_sample(proposals[s], s, i, key);
+    for (int i = begin; i < end; ++i) samples_.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
-  PatchDistances distances;
-  observer_->compare({prepared.map, prepared.id, samples.poses, params_.observe_palm ? kPalm : kPalm + 1}, distances);
+  observer_->compare({prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1}, distances_);
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);
-  samples.unoccluded = prepared.unoccluded;
+  samples_.unoccluded = prepared.unoccluded;
   for (int s = 0; s < kSegmentCount; ++s)
-    samples.log_likelihood[s] = log_likelihood(distances[s], params_.min_counted, prepared.unoccluded[s], sigma_obs);
-  return samples;
+    log_likelihood(distances_[s], params_.min_counted, prepared.unoccluded[s], sigma_obs, samples_.log_likelihood[s]);
+  return samples_;
 }
 
 }  // namespace barehand

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 
 #include "core/parallel.h"
@@ -10,6 +9,7 @@
 #include "observe/observer.h"
 #include "stages/segment_tracker/sampling.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
+#include "stages/segment_tracker/self_occlusion.h"
 
 namespace barehand {
 
@@ -21,7 +21,8 @@ struct PreparedObservation {
 };
 
 /// The 16 local trackers of Sec. 4: each draws its own samples and judges them by the data around it alone. What it
-/// returns depends on the arguments only, not on earlier calls or the number of workers.
+/// returns depends on the arguments only, not on earlier calls or the number of workers; references are valid until
+/// the same is called again: their memory is kept.
 class SegmentTracker {
  public:
   /// `observer` compares the samples with the data; none: the CPU does.
@@ -32,12 +33,12 @@ class SegmentTracker {
 
   /// Once per frame. `hidden`, when given, replaces this stage's own labels of self-occlusion: the size of the region
   /// of interest, bit s set where the hand hides segment s.
-  PreparedObservation prepare(const HandObservation& observation, const HandPose& predicted,
-                              const Image<std::uint16_t>* hidden = nullptr) const;
+  const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted,
+                                     const Image<std::uint16_t>* hidden = nullptr);
 
   /// Once per level: S samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment without
   /// observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
-  SegmentSamples sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) const;
+  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key);
 
   /// One pose of one segment against the data.
   PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;
@@ -47,7 +48,10 @@ class SegmentTracker {
   std::shared_ptr<const HandSurface> surface_;
   Workers& workers_;
   std::unique_ptr<Observer> observer_;
-  mutable std::atomic<std::uint64_t> prepared_count_ = 0;
+  SelfOcclusion self_occlusion_;
+  PreparedObservation prepared_;
+  SegmentSamples samples_;
+  PatchDistances distances_;
 };
 
 }  // namespace barehand

@@ -8,26 +8,21 @@
 namespace barehand {
 namespace {
 
-using Patches = std::array<PredictedPatch, kSegmentCount>;
+using ImagePoint = PredictedPatch::ImagePoint;
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr float kNearest = 0.01f;  // [m]
 
-struct ImagePoint {
-  float u, v, z;
-};
-
 /// Front-facing skin points in pixels of the map.
-std::vector<ImagePoint> project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map) {
+void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map, std::vector<ImagePoint>& points) {
   const Eigen::Matrix3f R = T.R.cast<float>();
   const Eigen::Vector3f t = T.t.cast<float>();
-  std::vector<ImagePoint> points;
+  points.clear();
   for (std::size_t i = 0; i < skin.size(); ++i) {
     const Eigen::Vector3f p = R * Eigen::Vector3f(skin.x[i], skin.y[i], skin.z[i]) + t;
     const Eigen::Vector3f n = R * Eigen::Vector3f(skin.nx[i], skin.ny[i], skin.nz[i]);
     if (p.z() > kNearest && n.dot(p) < 0)
       points.push_back({map.fx * p.x() / p.z() + map.cx, map.fy * p.y() / p.z() + map.cy, p.z()});
   }
-  return points;
 }
 
 /// Calls visit(pixel index, cell index) for the pixels of the map that a patch covers.
@@ -41,34 +36,12 @@ void for_each_pixel(const PredictedPatch& patch, const PixelMap& map, const Visi
             static_cast<std::size_t>((v - patch.v0) / patch.cell) * patch.columns + (u - patch.u0) / patch.cell);
 }
 
-/// Sec. 4.2: data substantially closer to the camera than the prediction. Only skin: other data is judged per sample.
-void label_by_data(const Patches& patches, float threshold, PixelMap& map) {
-  for (int s = 0; s < kSegmentCount; ++s)
-    for_each_pixel(patches[s], map, [&](std::size_t pixel, std::size_t cell) {
-      const float z = map.cells[pixel].z;
-      if (z > 0 && z < patches[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;
-    });
-}
-
-/// The whole predicted hand in one depth buffer: another segment's skin in front hides this one.
-void label_by_model(const Patches& patches, float threshold, PixelMap& map) {
-  std::vector<float> front(map.cells.size(), kFar);
-  for (const PredictedPatch& patch : patches)
-    for_each_pixel(patch, map, [&](std::size_t pixel, std::size_t cell) {
-      if (patch.gap_sq[cell] <= patch.outline_sq) front[pixel] = std::min(front[pixel], patch.z[cell]);
-    });
-  for (int s = 0; s < kSegmentCount; ++s)
-    for_each_pixel(patches[s], map, [&](std::size_t pixel, std::size_t cell) {
-      if (front[pixel] < patches[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;
-    });
-}
-
 }  // namespace
 
-PredictedPatch predict_patch(const SegmentSurface& skin, const SE3& T, const PixelMap& map, double margin) {
-  PredictedPatch patch;
-  const std::vector<ImagePoint> points = project_front(skin, T, map);
-  if (points.empty()) return patch;
+void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const PixelMap& map, double margin) {
+  columns = rows = 0;
+  project_front(skin, T, map, points);
+  if (points.empty()) return;
   float u_lo = kFar, v_lo = kFar, u_hi = -kFar, v_hi = -kFar, z_lo = kFar;
   for (const ImagePoint& p : points) {
     u_lo = std::min(u_lo, p.u);
@@ -81,43 +54,63 @@ PredictedPatch predict_patch(const SegmentSurface& skin, const SE3& T, const Pix
   const float skin_area = std::accumulate(skin.area.begin(), skin.area.end(), 0.0f);
   const float spacing = std::sqrt(skin_area / static_cast<float>(skin.size())) * scale;
   const auto inside = [](float x, int size) { return static_cast<int>(std::clamp(x, 1.0f, size - 1.0f)); };
-  patch.u0 = inside(u_lo - border, map.width);
-  patch.v0 = inside(v_lo - border, map.height);
-  patch.cell = std::max(1, static_cast<int>(spacing / 2));
-  patch.columns = (inside(u_hi + border + 1, map.width) - patch.u0 + patch.cell - 1) / patch.cell;
-  patch.rows = (inside(v_hi + border + 1, map.height) - patch.v0 + patch.cell - 1) / patch.cell;
-  patch.outline_sq = spacing * spacing;
-  patch.z.assign(static_cast<std::size_t>(patch.columns) * patch.rows, kFar);
-  patch.gap_sq.assign(patch.z.size(), kFar);
+  u0 = inside(u_lo - border, map.width);
+  v0 = inside(v_lo - border, map.height);
+  cell = std::max(1, static_cast<int>(spacing / 2));
+  columns = (inside(u_hi + border + 1, map.width) - u0 + cell - 1) / cell;
+  rows = (inside(v_hi + border + 1, map.height) - v0 + cell - 1) / cell;
+  outline_sq = spacing * spacing;
+  z.assign(static_cast<std::size_t>(columns) * rows, kFar);
+  gap_sq.assign(z.size(), kFar);
 
-  const float centre = (patch.cell - 1) / 2.0f, cell = static_cast<float>(patch.cell);
-  for (int row = 0; row < patch.rows; ++row) {
-    float* gap = patch.gap_sq.data() + static_cast<std::size_t>(row) * patch.columns;
-    float* z = patch.z.data() + static_cast<std::size_t>(row) * patch.columns;
-    const float v = patch.v0 + centre + row * cell;
+  const float centre = (cell - 1) / 2.0f, side = static_cast<float>(cell);
+  for (int row = 0; row < rows; ++row) {
+    float* row_gap = gap_sq.data() + static_cast<std::size_t>(row) * columns;
+    float* row_z = z.data() + static_cast<std::size_t>(row) * columns;
+    const float v = v0 + centre + row * side;
     for (const ImagePoint& p : points) {
       const float dv_sq = (v - p.v) * (v - p.v);
-      for (int column = 0; column < patch.columns; ++column) {
-        const float du = patch.u0 + centre + static_cast<float>(column) * cell - p.u;
+      for (int column = 0; column < columns; ++column) {
+        const float du = u0 + centre + static_cast<float>(column) * side - p.u;
         const float d = du * du + dv_sq;
-        const bool nearer = d < gap[column];
-        gap[column] = nearer ? d : gap[column];
-        z[column] = nearer ? p.z : z[column];
+        const bool nearer = d < row_gap[column];
+        row_gap[column] = nearer ? d : row_gap[column];
+        row_z[column] = nearer ? p.z : row_z[column];
       }
     }
   }
-  return patch;
 }
 
-void label_self_occlusion(const HandSurface& surface, const HandPose& predicted, const SegmentTrackerParams& params,
+/// Sec. 4.2: data substantially closer to the camera than the prediction. Only skin: other data is judged per sample.
+void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
+  for (int s = 0; s < kSegmentCount; ++s)
+    for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
+      const float z = map.cells[pixel].z;
+      if (z > 0 && z < patches_[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;
+    });
+}
+
+/// The whole predicted hand in one depth buffer: another segment's skin in front hides this one.
+void SelfOcclusion::label_by_model(float threshold, PixelMap& map) {
+  front_.assign(map.cells.size(), kFar);
+  for (const PredictedPatch& patch : patches_)
+    for_each_pixel(patch, map, [&](std::size_t pixel, std::size_t cell) {
+      if (patch.gap_sq[cell] <= patch.outline_sq) front_[pixel] = std::min(front_[pixel], patch.z[cell]);
+    });
+  for (int s = 0; s < kSegmentCount; ++s)
+    for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
+      if (front_[pixel] < patches_[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;
+    });
+}
+
+void SelfOcclusion::label(const HandSurface& surface, const HandPose& predicted, const SegmentTrackerParams& params,
                           PixelMap& map, Workers& workers) {
   if (params.self_occlusion == "off") return;
-  Patches patches;
-  workers.for_each_index(
-      kSegmentCount, [&](int s) { patches[s] = predict_patch(surface[s], predicted[s], map, params.patch_margin); });
+  workers.for_each_index(kSegmentCount,
+                         [&](int s) { patches_[s].predict(surface[s], predicted[s], map, params.patch_margin); });
   const float threshold = static_cast<float>(params.self_occlusion_threshold);
-  if (params.self_occlusion != "model") label_by_data(patches, threshold, map);
-  if (params.self_occlusion != "data") label_by_model(patches, threshold, map);
+  if (params.self_occlusion != "model") label_by_data(threshold, map);
+  if (params.self_occlusion != "data") label_by_model(threshold, map);
 }
 
 }  // namespace barehand

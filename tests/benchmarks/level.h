@@ -21,7 +21,7 @@ struct Level {
     proposals = fusion.first_proposals(w.predicted);
     samples = draw();
   }
-  SegmentSamples draw() const { return tracker->sample(prepared, proposals, {1, 1, 0, 6}); }
+  const SegmentSamples& draw() { return tracker->sample(prepared, proposals, {1, 1, 0, 6}); }
   /// Samples of all segments, in all iterations.
   static std::int64_t drawn(const benchmark::State& state) {
     return state.iterations() * state.range(0) * kSegmentCount;

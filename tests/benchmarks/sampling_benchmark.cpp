@@ -12,13 +12,13 @@ std::int64_t pairs(const Level& level) {
 
 void prepare(benchmark::State& state) {
   const Level level(state);
-  for (auto _ : state) benchmark::DoNotOptimize(level.tracker->prepare(*level.w.observation, level.w.predicted));
+  for (auto _ : state) benchmark::DoNotOptimize(&level.tracker->prepare(*level.w.observation, level.w.predicted));
 }
 BENCHMARK(prepare)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void sampling(benchmark::State& state) {
-  const Level level(state);
-  for (auto _ : state) benchmark::DoNotOptimize(level.draw());
+  Level level(state);
+  for (auto _ : state) benchmark::DoNotOptimize(&level.draw());
   state.SetItemsProcessed(Level::drawn(state));
 }
 BENCHMARK(sampling)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
@@ -40,24 +40,29 @@ void psi_matrix(benchmark::State& state) {
   const Level level(state);
   const JointModels joints = make_joint_models(*level.w.profile, level.w.tracker.fusion);
   const int s = segment_of(2, 1);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(joint_energy(joints[s], 0.005, level.samples.poses[parent_of(s)], level.samples.poses[s]));
+  ParentFrames frames;
+  EdgeEnergy energy;
+  for (auto _ : state) {
+    frames.reset(joints[s], level.samples.poses[parent_of(s)]);
+    joint_energy(joints[s], 0.005, frames, level.samples.poses[s], energy);
+    benchmark::DoNotOptimize(energy.value.data());
+  }
   state.SetItemsProcessed(state.iterations() * pairs(level));
 }
 BENCHMARK(psi_matrix)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
 /// All messages of the tree and the psi matrices before them.
 void fusing(benchmark::State& state) {
-  const Level level(state);
-  for (auto _ : state) benchmark::DoNotOptimize(level.fusion.fuse(level.samples, 0));
+  Level level(state);
+  for (auto _ : state) benchmark::DoNotOptimize(&level.fusion.fuse(level.samples, 0));
   state.SetItemsProcessed(state.iterations() * pairs(level) * (kSegmentCount - 1));
 }
 BENCHMARK(fusing)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
 void next_proposals(benchmark::State& state) {
-  const Level level(state);
+  Level level(state);
   const HandBelief belief = level.fusion.fuse(level.samples, 0);
-  for (auto _ : state) benchmark::DoNotOptimize(level.fusion.next_proposals(level.samples, belief, 0));
+  for (auto _ : state) benchmark::DoNotOptimize(&level.fusion.next_proposals(level.samples, belief, 0));
 }
 BENCHMARK(next_proposals)->Arg(60)->Unit(benchmark::kMicrosecond);
 

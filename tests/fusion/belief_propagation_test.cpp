@@ -84,9 +84,11 @@ double mismatch(const Beliefs& actual, const Beliefs& expected) {
   return worst;
 }
 
-Beliefs propagate(const SmallTree& t, Marginals marginals = Marginals::sum) {
-  Workers workers(1);
-  return tree_beliefs(t.parent, t.log_phi, t.energy, marginals, workers);
+Beliefs propagate(const SmallTree& t, Marginals marginals = Marginals::sum, int threads = 1) {
+  Workers workers(threads);
+  Beliefs beliefs(t.parent.size());
+  BeliefPropagation(t.parent).run(t.log_phi, t.energy, marginals, workers, beliefs);
+  return beliefs;
 }
 
 TEST(TreeBeliefs, EqualMarginalsByEnumeration) {
@@ -123,9 +125,22 @@ TEST(TreeBeliefs, SumToOne) {
 
 TEST(TreeBeliefs, DoNotDependOnTheNumberOfWorkers) {
   const SmallTree tree = random_tree(11, 20, 20);
-  Workers one(1), three(3);
-  EXPECT_EQ(tree_beliefs(tree.parent, tree.log_phi, tree.energy, Marginals::sum, one),
-            tree_beliefs(tree.parent, tree.log_phi, tree.energy, Marginals::sum, three));
+  EXPECT_EQ(propagate(tree, Marginals::sum, 1), propagate(tree, Marginals::sum, 3));
+}
+
+TEST(TreeBeliefs, DoNotDependOnWhatWasComputedBefore) {
+  const SmallTree tree = random_tree(12, 20, 20);
+  SmallTree larger = tree;  // more samples a node
+  for (std::size_t i = 0; i < larger.parent.size(); ++i) {
+    larger.log_phi[i].resize(9, -1);
+    if (i > 0) larger.energy[i] = {9, 9, std::vector<float>(81, 0.5f)};
+  }
+  Workers workers(1);
+  BeliefPropagation propagation(tree.parent);
+  Beliefs beliefs(tree.parent.size());
+  propagation.run(larger.log_phi, larger.energy, Marginals::sum, workers, beliefs);
+  propagation.run(tree.log_phi, tree.energy, Marginals::sum, workers, beliefs);
+  EXPECT_EQ(beliefs, propagate(tree));
 }
 
 TEST(TreeBeliefsCheck, RejectsAMessageThatIgnoresASibling) {

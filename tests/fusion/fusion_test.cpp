@@ -46,7 +46,7 @@ std::size_t best(const std::vector<double>& v) { return std::max_element(v.begin
 TEST(Fusion, StructureAloneFindsTheClosedHand) {
   // Only palm and fingertips are seen, at sample 0; all others are flat (fully occluded) and must follow.
   Workers workers(1);
-  const Fusion fusion = make_fusion(workers);
+  Fusion fusion = make_fusion(workers);
   SegmentSamples samples = flat_samples(flexed_hand(0.4), 40);
   for (int s = 0; s < kSegmentCount; ++s)
     if (s == kPalm || is_tip(s))
@@ -57,10 +57,11 @@ TEST(Fusion, StructureAloneFindsTheClosedHand) {
 
 TEST(Fusion, LaterLevelsHoldTheJointsTighter) {
   Workers workers(1);
-  const Fusion fusion = make_fusion(workers);
+  Fusion fusion = make_fusion(workers);
   const SegmentSamples samples = flat_samples(flexed_hand(0.4), 30);
   const int last = fusion.params().levels - 1;
-  EXPECT_GT(fusion.fuse(samples, last).log_belief[kPalm][0], fusion.fuse(samples, 0).log_belief[kPalm][0]);
+  const HandBelief tight = fusion.fuse(samples, last), loose = fusion.fuse(samples, 0);
+  EXPECT_GT(tight.log_belief[kPalm][0], loose.log_belief[kPalm][0]);
 }
 
 TEST(Fusion, ResultDoesNotDependOnTheNumberOfWorkers) {
@@ -72,7 +73,7 @@ TEST(Fusion, ResultDoesNotDependOnTheNumberOfWorkers) {
 
 TEST(Fusion, FirstProposalsAreOneBoxAtThePredictionThatGrowsWithTheInterval) {
   Workers workers(1);
-  const Fusion fusion = make_fusion(workers);
+  Fusion fusion = make_fusion(workers);
   const HandPose pose = flexed_hand(0.2);
   const Proposals nominal = fusion.first_proposals(pose), late = fusion.first_proposals(pose, 2);
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -90,7 +91,7 @@ TEST(Fusion, NextProposalsAreTheBestSamplesInShrinkingBoxes) {
   params.kernels = 3;
   params.levels = 4;
   params.kernel_separation = 0;
-  const Fusion fusion = make_fusion(workers, params);
+  Fusion fusion = make_fusion(workers, params);
   const SegmentSamples samples = flat_samples(flexed_hand(0.2), 6);
   HandBelief belief;
   for (auto& b : belief.log_belief) b = {-5, -1, -9, -2, -3, -4};
@@ -106,7 +107,7 @@ TEST(Fusion, NextProposalsAreTheBestSamplesInShrinkingBoxes) {
 
 TEST(Fusion, ReadOutAveragesTheBestModeOnly) {
   Workers workers(1);
-  const Fusion fusion = make_fusion(workers);
+  Fusion fusion = make_fusion(workers);
   SegmentSamples samples;
   HandBelief belief;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -130,7 +131,7 @@ TEST(Fusion, CovarianceIsThatOfTheBeliefInTheCameraFrame) {
   Workers workers(1);
   FusionParams params;
   params.range_end = 0.001;  // leaves nearly nothing to the resolution term
-  const Fusion fusion = make_fusion(workers, params);
+  Fusion fusion = make_fusion(workers, params);
   SegmentSamples samples;
   HandBelief belief;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -151,12 +152,12 @@ TEST(BestDistinct, SkipsSamplesTooNearAnEarlierChoice) {
   poses[1].t.x() = 0.001;
   poses[2].t.x() = 0.02;
   Vector6d half_width = Vector6d::Constant(0.01);
-  EXPECT_EQ(best_distinct(poses, {0, -1, -2}, 2, half_width, 0.5), (std::vector<std::size_t>{0, 2}));
-  EXPECT_EQ(best_distinct(poses, {0, -1, -2}, 2, half_width, 0), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(DistinctChoice().best(poses, {0, -1, -2}, 2, half_width, 0.5), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(DistinctChoice().best(poses, {0, -1, -2}, 2, half_width, 0), (std::vector<std::size_t>{0, 1}));
 }
 
 TEST(BestDistinct, KeepsTheOrderOfEqualBeliefs) {
-  EXPECT_EQ(best_distinct(std::vector<SE3>(4), {-1, -1, -1, -1}, 2, Vector6d::Ones(), 0),
+  EXPECT_EQ(DistinctChoice().best(std::vector<SE3>(4), {-1, -1, -1, -1}, 2, Vector6d::Ones(), 0),
             (std::vector<std::size_t>{0, 1}));
 }
 

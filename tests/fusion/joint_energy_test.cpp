@@ -40,6 +40,15 @@ FusionParams distinct_sigmas() {
   return params;
 }
 
+EdgeEnergy energy_of_all_pairs(const JointModel& joint, double sigma_prox, const std::vector<SE3>& parents,
+                               const std::vector<SE3>& children) {
+  ParentFrames frames;
+  frames.reset(joint, parents);
+  EdgeEnergy energy;
+  joint_energy(joint, sigma_prox, frames, children, energy);
+  return energy;
+}
+
 TEST(JointEnergy, AgreesWithTheEquationsInDoublePrecision) {
   const HandProfile profile = small_hand();
   const FusionParams params = distinct_sigmas();
@@ -52,7 +61,7 @@ TEST(JointEnergy, AgreesWithTheEquationsInDoublePrecision) {
       children.push_back(random_pose(random, 0.02, 1.0));
     }
     children.push_back(random_pose(random, 0.02, 3.1));  // angles past the wrap
-    const EdgeEnergy energy = joint_energy(models[s], 0.005, parents, children);
+    const EdgeEnergy energy = energy_of_all_pairs(models[s], 0.005, parents, children);
     for (std::size_t c = 0; c < children.size(); ++c)
       for (std::size_t p = 0; p < parents.size(); ++p) {
         HandPose pose;
@@ -71,7 +80,7 @@ double energy_at(const JointAngles& angles, int s, const Eigen::Vector3d& gap = 
   HandPose pose = forward_kinematics(profile, SE3{Eigen::Matrix3d::Identity(), {0, 0, 0.5}}, all);
   pose[s].t += gap;
   const auto models = make_joint_models(profile, distinct_sigmas());
-  return joint_energy(models[s], 0.005, {pose[parent_of(s)]}, {pose[s]}).value[0];
+  return energy_of_all_pairs(models[s], 0.005, {pose[parent_of(s)]}, {pose[s]}).value[0];
 }
 
 TEST(JointEnergy, IsZeroWithinTheWidenedLimitsOfAClosedJoint) {

@@ -42,7 +42,7 @@ HandObservation covered_capsule(int covered_to) {
 
 SegmentSamples sample(Workers& workers, const HandObservation& o, const SampleKey& key = {1, 0, 0, 1},
                       const SegmentTrackerParams& params = {}) {
-  const SegmentTracker tracker = make_tracker(workers, params);
+  SegmentTracker tracker = make_tracker(workers, params);
   return tracker.sample(tracker.prepare(o, prediction()), boxes(0.008, 0.3), key);
 }
 
@@ -52,7 +52,7 @@ double spread(const std::vector<double>& v) {
 
 TEST(SegmentTracker, TrueSampleBeatsDisplacedOnes) {
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   const PreparedObservation prepared = tracker.prepare(covered_capsule(0), prediction());
   const double at_truth = tracker.compare(prepared, kTip, upright_pose()).mean();
   EXPECT_LT(at_truth, 0.0007);
@@ -67,7 +67,7 @@ TEST(SegmentTracker, TrueSampleBeatsDisplacedOnes) {
 
 TEST(SegmentTracker, LikelihoodFollowsEquationThree) {
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   const PreparedObservation prepared = tracker.prepare(covered_capsule(48), prediction());
   const SegmentSamples samples = tracker.sample(prepared, boxes(0.002, 0.1), {1, 0, 2, 5});
   const double sigma_obs = 0.002;  // half way from 4 to 1 mm, geometrically
@@ -81,7 +81,7 @@ TEST(SegmentTracker, LikelihoodFollowsEquationThree) {
 TEST(SegmentTracker, MoreOcclusionMakesTheLikelihoodFlatter) {
   // Fig. 5: move the model along the viewing ray; the drop of the likelihood shrinks with alpha.
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   double last_drop = INFINITY;
   for (const int covered : {0, 42, 48, 54, 96}) {
     const PreparedObservation prepared = tracker.prepare(covered_capsule(covered), prediction());
@@ -114,7 +114,7 @@ TEST(SegmentTracker, SamplesThatMoveIntoOcclusionAreNotPunished) {
     });
   };
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   SE3 slid = upright_pose();
   slid.t.y() -= 0.005;
   const auto distance = [&](const HandObservation& o, const SE3& T) {
@@ -127,7 +127,7 @@ TEST(SegmentTracker, SamplesThatMoveIntoOcclusionAreNotPunished) {
 
 TEST(SegmentTracker, SampleWithoutEvidenceGetsItsSiblingsMeanDistance) {
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   const PreparedObservation prepared = tracker.prepare(covered_capsule(48), prediction());
   SE3 gone = upright_pose(), off = upright_pose();
   gone.t.x() -= 0.03;  // wholly behind the object
@@ -146,7 +146,7 @@ TEST(SegmentTracker, CapBoundsAFarPixel) {
   SE3 far = upright_pose();
   far.t.z() += 0.1;
   for (const auto& [params, expected] : {std::pair{SegmentTrackerParams{}, 0.008}, {uncapped, 0.1}}) {
-    const SegmentTracker tracker = make_tracker(workers, params);
+    SegmentTracker tracker = make_tracker(workers, params);
     const HandObservation o = make_observation(small_camera(), [](int, int) {
       return ScenePixel{0.4f, PixelLabel::hand};
     });
@@ -162,7 +162,7 @@ TEST(SegmentTracker, MissingDepthLowersAlphaOnlyWhenItIsUnknown) {
   Workers workers(1);
   SegmentTrackerParams paper;
   paper.missing_depth = "background";
-  const SegmentTracker ours = make_tracker(workers), papers = make_tracker(workers, paper);
+  SegmentTracker ours = make_tracker(workers), papers = make_tracker(workers, paper);
   const PreparedObservation a = ours.prepare(o, prediction()), b = papers.prepare(o, prediction());
   EXPECT_NEAR(a.unoccluded[kTip], 0.75, 0.08);
   EXPECT_NEAR(b.unoccluded[kTip], 1, 0.01);
@@ -180,7 +180,7 @@ TEST(SegmentTracker, PalmIsFlatWhereItIsNotObserved) {
 
 TEST(SegmentTracker, CallersMaskReplacesTheOwnLabels) {
   Workers workers(1);
-  const SegmentTracker tracker = make_tracker(workers);
+  SegmentTracker tracker = make_tracker(workers);
   Image<std::uint16_t> mask(96, 96, std::uint16_t{1u << kTip});
   const PreparedObservation prepared = tracker.prepare(covered_capsule(0), prediction(), &mask);
   EXPECT_EQ(prepared.unoccluded[kTip], 0);

@@ -25,7 +25,7 @@ PixelMap labelled(float data_z, PixelLabel label, const HandPose& pose, const st
   PixelMap map = make_pixel_map(o, false, workers);
   SegmentTrackerParams params;
   params.self_occlusion = rule;
-  label_self_occlusion(make_cylinder_surface(capsule_profile(), 150), pose, params, map, workers);
+  SelfOcclusion().label(make_cylinder_surface(capsule_profile(), 150), pose, params, map, workers);
   return map;
 }
 
@@ -33,15 +33,15 @@ bool hidden_at(const PixelMap& map, int segment, int u, int v) {
   return map.hidden[map.index(u + 1, v + 1)] >> segment & 1;
 }
 
-TEST(PredictPatch, HoldsTheDepthOfTheSkinAndContinuesBeyondIt) {
+TEST(PredictedPatch, HoldsTheDepthOfTheSkinAndContinuesBeyondIt) {
   Workers workers(1);
   const PixelMap map = make_pixel_map(make_observation(small_camera(),
                                                        [](int, int) {
                                                          return ScenePixel{0.4f, PixelLabel::hand};
                                                        }),
                                       false, workers);
-  const PredictedPatch patch =
-      predict_patch(make_cylinder_surface(capsule_profile(), 150)[kTip], upright_pose(), map, 0.010);
+  PredictedPatch patch;
+  patch.predict(make_cylinder_surface(capsule_profile(), 150)[kTip], upright_pose(), map, 0.010);
   const auto depth_at = [&](int u, int v) {
     return patch
         .z[static_cast<std::size_t>((v + 1 - patch.v0) / patch.cell) * patch.columns + (u + 1 - patch.u0) / patch.cell];
