@@ -20,7 +20,9 @@ target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno
 if(BAREHAND_ARCH)
   target_compile_options(barehand_settings INTERFACE -march=${BAREHAND_ARCH})
 endif()
+set(BAREHAND_TEST_TIMEOUT 300)  # seconds
 if(BAREHAND_SANITIZE)
+  set(BAREHAND_TEST_TIMEOUT 1800)  # ten to thirty times as slow
   # A finding ends the program: printed and passed over, it would leave the test green.
   target_compile_options(barehand_settings INTERFACE
     -fsanitize=${BAREHAND_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -39,7 +41,7 @@ endfunction()
 # FOREIGN_LEAKS: loads plug-ins that leak and are unloaded, so that no suppression can name them; leaks go unchecked.
 function(barehand_test area)
   cmake_parse_arguments(ARG "FOREIGN_LEAKS" "" "SOURCES;DEPS" ${ARGN})
-  set(properties TIMEOUT 300)
+  set(properties TIMEOUT ${BAREHAND_TEST_TIMEOUT})
   if(ARG_FOREIGN_LEAKS)
     list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()

@@ -79,12 +79,12 @@ TEST(Allocations, AreCounted) {
   EXPECT_EQ(allocations - before, 1);
 }
 
-// Ceilings a little above what is reached (docs/performance.md): whoever adds allocations per pixel, sample or skin
-// vertex is told so here. The samples' own vectors, several per segment and level, are what is left.
+// Ceilings a little above what is reached (docs/performance.md): whoever adds allocations per pixel, sample, level or
+// skin vertex is told so here.
 TEST(Allocations, StayFewInSteadyState) {
   const Counts counts = allocations_per_frame({});
-  EXPECT_LE(counts.preprocess, 120);
-  EXPECT_LE(counts.track, 2000);
+  EXPECT_LE(counts.preprocess, 100);
+  EXPECT_LE(counts.track, 60);
   EXPECT_LE(counts.publish, 10);
 }
 
