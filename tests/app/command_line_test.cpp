@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "barehand_program.h"
+#include "quick_config.h"
 
 namespace barehand {
 namespace {
@@ -160,10 +161,14 @@ TEST(Track, WaitsForTheNetworkAsItWaitsForFrames) {
 
 TEST(Track, OutlivesANetworkThatIsGoneForAWhile) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
+  const test::TempFolder folder;
+  const std::string config = folder / "quick.yaml";
+  test::write_text(config, test::quick_config());
   ChildProcess child({"unshare", "-rn", "sh", "-c",
                       "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec " BAREHAND_PROGRAM
                       " track --source sim:fist,live=true,loop=true,width=160,height=120 --health"
-                      " --lcm-url 'udpm://239.255.76.67:7667?ttl=0'"});
+                      " --lcm-url 'udpm://239.255.76.67:7667?ttl=0' --config " +
+                          config});
   const auto ip = [&](const std::string& change) {
     return ChildProcess({"nsenter", "--preserve-credentials", "-U", "-n", "-t", std::to_string(child.pid()), "sh", "-c",
                          "ip route " + change + " 224.0.0.0/4 dev lo"})
@@ -213,8 +218,8 @@ TEST(Doctor, FindsTheMissingMulticastRoute) {
 
 TEST(Doctor, IsSatisfiedWithARoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
-  ChildProcess child({"unshare", "-rn", "sh", "-c",
-                      "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_DOCTOR});
+  ChildProcess child(
+      {"unshare", "-rn", "sh", "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_DOCTOR});
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("Ready to track"));
 }

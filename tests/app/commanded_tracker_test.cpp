@@ -28,6 +28,8 @@ class CommandedTrackerTest : public ::testing::Test {
   static TrackerParams cheap() {
     TrackerParams params;
     params.sampling = false;
+    params.search_attempts = 1;
+    params.initialiser.full = params.initialiser.quick;
     return params;
   }
   HandObservationPtr seen(const HandObservation& what) {
@@ -146,15 +148,13 @@ TEST_F(CommandedTrackerTest, ResetForgetsTheHand) {
 }
 
 TEST_F(CommandedTrackerTest, AProfileGoesToTheHandOfItsSide) {
-  TrackerParams params = cheap();
-  params.search_attempts = 1;
   const auto left = std::make_shared<const HandProfile>(mirrored(*profile_));
   for (const bool late : {false, true}) {  // before the first frame, and after it
     std::ostringstream out;
     RepeatLog log(std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)),
                   clock_);
     CommandedTracker tracker(
-        params, {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
+        cheap(), {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
     HandEstimates hands;
     const auto step = [&] { hands = tracker.process({seen(*hand_), seen(HandObservation())}); };
     if (late) step();

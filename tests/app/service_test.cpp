@@ -14,6 +14,7 @@
 #include "io/result_table.h"
 #include "memory_limit.h"
 #include "notify_socket.h"
+#include "quick_config.h"
 #include "small_disk.h"
 #include "support/temp_folder.h"
 
@@ -106,7 +107,7 @@ TEST(ServiceManager, KeepsStillWithoutSystemd) {
 /// `barehand track` before a simulated hand, with a configuration of its own.
 class Service : public ::testing::Test {
  protected:
-  Service() { write_config(test::read_text(BAREHAND_CONFIGS "/default.yaml")); }
+  Service() { write_config(test::quick_config()); }
   void write_config(const std::string& text) const { test::write_text(config_, text); }
   void change(const std::string& from, const std::string& to) const {
     const std::string text = test::read_text(config_);

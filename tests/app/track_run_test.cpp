@@ -9,6 +9,7 @@
 #include "io/lcm_log_reader.h"
 #include "io/recording_writer.h"
 #include "io/result_table.h"
+#include "quick_config.h"
 #include "support/painted_hand.h"
 #include "support/temp_folder.h"
 
@@ -153,16 +154,20 @@ TEST_F(TrackRun, FullDiskEndsTheRunAndKeepsWhatIsWritten) {
 
 TEST_F(TrackRun, SameBytesWhateverTheThreads) {
   record_hand();
+  const std::string config = place_ / "quick.yaml";
+  test::write_text(config, test::quick_config());
   std::vector<std::string> states, tables;
   for (const auto& how : std::vector<std::vector<std::string>>{
            {"--threads", "1", "--inline"}, {"--threads", "1"}, {"--threads", "3"}, {"--threads", "3", "--inline"}}) {
-    ChildProcess child(track(how));
+    std::vector<std::string> arguments = track(how);
+    arguments.insert(arguments.end(), {"--config", config});
+    ChildProcess child(arguments);
     ASSERT_EQ(child.finish(), 0) << child.output();
     EXPECT_THAT(child.output(), HasSubstr("tracked in 6 frames"));
     states.push_back(file_bytes("/states.lcmlog"));
     tables.push_back(file_bytes("/result.csv"));
   }
-  ChildProcess other_seed(track({"--seed", "2"}));
+  ChildProcess other_seed(track({"--seed", "2", "--config", config}));
   ASSERT_EQ(other_seed.finish(), 0);
   for (std::size_t i = 1; i < states.size(); ++i) {
     EXPECT_EQ(states[i], states[0]) << i;
@@ -192,9 +197,8 @@ TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
   record_hand();
   const auto with_observer = [&](const std::string& observer) {
     const std::string file = folder_ + "/" + observer + ".yaml";
-    std::ifstream shipped(BAREHAND_CONFIGS "/default.yaml");
-    const std::string text{std::istreambuf_iterator<char>(shipped), {}};
-    std::ofstream(file) << std::regex_replace(text, std::regex("observer: .*"), "observer: " + observer);
+    test::write_text(file,
+                     std::regex_replace(test::quick_config(), std::regex("observer: .*"), "observer: " + observer));
     return track({"--config", file});
   };
   ChildProcess cpu(with_observer("cpu"));

@@ -8,12 +8,11 @@
 #include <fstream>
 #include <mutex>
 #include <set>
-#include <sstream>
 
 #include "app/barehand_program.h"
+#include "app/quick_config.h"
 #include "barehand/hand_state_t.hpp"
 #include "drivers/lcm/lcm_listener.h"
-#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {
@@ -26,9 +25,7 @@ std::string url() { return "udpm://239.255.76.67:" + std::to_string(port()); }
 
 /// The shipped configuration with another prefix and range.
 std::string configuration(const test::TempFolder& folder, const std::string& prefix, int ttl) {
-  std::stringstream text;
-  text << std::ifstream(BAREHAND_CONFIGS "/default.yaml").rdbuf();
-  std::string config = text.str();
+  std::string config = test::quick_config();
   const auto replace = [&](const std::string& before, const std::string& after) {
     const auto at = config.find(before);
     ASSERT_NE(at, std::string::npos) << before;
