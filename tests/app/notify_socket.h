@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include "support/temp_folder.h"
 
@@ -46,6 +47,12 @@ class NotifySocket {
     std::string message = next(kLongMs);
     while (!message.empty() && message.find(text) == std::string::npos) message = next(kLongMs);
     return message;
+  }
+  /// Throws messages away until the thread is destroyed, as a program waits when ten are unread.
+  [[nodiscard]] std::jthread discard() {
+    return std::jthread([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) next(10);
+    });
   }
 
  private:
