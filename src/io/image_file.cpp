@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "io/file_bytes.h"
@@ -13,8 +15,8 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-Result<Bytes> read_bytes(const std::string& path) {
-  return read_file(path).map([](const std::string& text) { return Bytes(text.begin(), text.end()); });
+std::span<const unsigned char> bytes_of(const std::string& file) {
+  return {reinterpret_cast<const unsigned char*>(file.data()), file.size()};
 }
 
 Result<void> write_bytes(const std::string& path, const Bytes& bytes) {
@@ -35,12 +37,14 @@ Result<T> located(Result<T> result, const std::string& path) {
 }  // namespace
 
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path) {
-  const auto bytes = read_bytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
+  const auto file = read_file(path);
+  if (!file) return tl::unexpected(file.error());
+  const auto bytes = bytes_of(*file);
   // Before OpenCV, which allocates whatever a header claims and knows a dozen other formats.
-  if (const auto size = located(compressed_image_size(*bytes), path); !size) return tl::unexpected(size.error());
+  if (const auto size = located(compressed_image_size(bytes), path); !size) return tl::unexpected(size.error());
   try {
-    const cv::Mat image = cv::imdecode(*bytes, cv::IMREAD_UNCHANGED);
+    const cv::Mat image =
+        cv::imdecode(cv::_InputArray(bytes.data(), static_cast<int>(bytes.size())), cv::IMREAD_UNCHANGED);
     if (image.empty()) return fail("is damaged or no image", path);
     if (image.type() != CV_16UC1) return fail("is no 16-bit image of one channel", path, "depth is stored that way");
     Image<std::uint16_t> depth(image.cols, image.rows);
@@ -52,9 +56,10 @@ Result<Image<std::uint16_t>> read_depth_png(const std::string& path) {
 }
 
 Result<Image<Rgb>> read_colour(const std::string& path) {
-  const auto bytes = read_bytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return located(compressed_image_size(*bytes).and_then([&](ImageSize size) { return decode_image(*bytes, size); }),
+  const auto file = read_file(path);
+  if (!file) return tl::unexpected(file.error());
+  const auto bytes = bytes_of(*file);
+  return located(compressed_image_size(bytes).and_then([&](ImageSize size) { return decode_image(bytes, size); }),
                  path);
 }
 
