@@ -23,13 +23,17 @@ HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles
 void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
   hands_[k] =
       std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
-  if (count() == 1) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
+  check_anew();
 }
 
 void HandsTracker::change(const TrackerParams& params) {
   for (const auto& hand : hands_) hand->change(params);
   params_ = params;
-  if (check_) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
+  check_anew();
+}
+
+void HandsTracker::check_anew() {
+  if (count() == 1) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
 }
 
 HandEstimates HandsTracker::process(const HandObservations& observations) {

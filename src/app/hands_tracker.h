@@ -32,6 +32,7 @@ class HandsTracker {
 
  private:
   using Fit = HandTracker::Fit;
+  void check_anew();
   HandEstimatePtr process_only(const HandObservation& observation);
   bool searched(int k, const HandObservation& observation) const;
   void search_one(int k, const HandObservations& observations, HandEstimates& out);
