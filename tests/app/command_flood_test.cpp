@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <regex>
 #include <thread>
 
 #include "child_process.h"
@@ -54,8 +53,8 @@ class CommandFlood : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
     std::string text = test::quick_config();
-    if (GetParam()) text = std::regex_replace(text, std::regex("  commands: false"), "  commands: true");
-    text = std::regex_replace(text, std::regex(" sampling: true"), " sampling: false");
+    if (GetParam()) text = test::replaced(text, "  commands: false", "  commands: true");
+    text = test::replaced(text, " sampling: true", " sampling: false");
     test::write_text(config_, text);
   }
   const std::string url_ = "udpm://239.255.76.67:" + std::to_string(20'000 + getpid() % 40'000) + "?ttl=0";

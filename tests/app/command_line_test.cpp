@@ -19,10 +19,7 @@ std::string write_file(const std::string& name, const std::string& text) {
   return path;
 }
 
-std::string shipped_config() {
-  std::ifstream file(BAREHAND_CONFIGS "/default.yaml");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string shipped_config() { return test::read_text(BAREHAND_CONFIGS "/default.yaml"); }
 
 TEST(CommandLine, HelpAndVersionSucceed) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--help"},

@@ -1,14 +1,15 @@
 #include "app/commanded_tracker.h"
 
 #include <gmock/gmock.h>
-#include <spdlog/sinks/ostream_sink.h>
 
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "hand/skin.h"
+#include "quick_tracker.h"
 #include "support/painted_hand.h"
+#include "support/temp_folder.h"
+#include "support/text_logger.h"
 
 namespace barehand {
 namespace {
@@ -17,21 +18,9 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string file_text(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// A tracker before an open hand that faces the camera, and the commands it will find.
 class CommandedTrackerTest : public ::testing::Test {
  protected:
-  static TrackerParams cheap() {
-    TrackerParams params;
-    params.sampling = false;
-    params.search_attempts = 1;
-    params.initialiser.full = params.initialiser.quick;
-    return params;
-  }
   HandObservationPtr seen(const HandObservation& what) {
     auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
     frame->utime = utime_ += 33'000;
@@ -49,7 +38,8 @@ class CommandedTrackerTest : public ::testing::Test {
   RepeatLog log_{make_silent_logger(), clock_};
   Workers workers_{1};
   std::vector<Result<Command>> waiting_;
-  CommandedTracker tracker_{cheap(), {profile_}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
+  CommandedTracker tracker_{
+      test::quick_tracker(), {profile_}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
   std::int64_t utime_ = 1'000'000;
 };
 
@@ -67,7 +57,7 @@ TEST_F(CommandedTrackerTest, UsesTheGivenProfile) {
   EXPECT_EQ(next()->handedness, Handedness::right);
   Command command;
   command.kind = Command::Kind::set_profile;
-  command.profile = file_text(BAREHAND_CONFIGS "/hands/adult_left.json");
+  command.profile = test::read_text(BAREHAND_CONFIGS "/hands/adult_left.json");
   send(command);
   EXPECT_EQ(next()->handedness, Handedness::left);
 }
@@ -75,7 +65,7 @@ TEST_F(CommandedTrackerTest, UsesTheGivenProfile) {
 TEST_F(CommandedTrackerTest, IgnoresWhatItCannotReadAndWhatIsForOthers) {
   Command foreign, broken;
   foreign.kind = broken.kind = Command::Kind::set_profile;
-  foreign.profile = file_text(BAREHAND_CONFIGS "/hands/adult_left.json");
+  foreign.profile = test::read_text(BAREHAND_CONFIGS "/hands/adult_left.json");
   foreign.sensor = "another camera";
   broken.profile = "{\"handedness\": \"left\"}";
   send(foreign);
@@ -121,7 +111,7 @@ TEST_F(CommandedTrackerTest, WhatHadToWaitIsFollowedInTheEnd) {
 TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
   tracker_.start_at(pose_);
   const HandEstimatePtr before = next();
-  TrackerParams params = cheap();
+  TrackerParams params = test::quick_tracker();
   params.refinement.iterations += 1;
   tracker_.change(params);
   const HandEstimatePtr after = next();
@@ -134,7 +124,7 @@ TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
 TEST_F(CommandedTrackerTest, OtherParametersAreInForceAtOnce) {
   tracker_.start_at(pose_);
   EXPECT_EQ(next()->status, TrackStatus::tracking);
-  TrackerParams params = cheap();
+  TrackerParams params = test::quick_tracker();
   params.loss.min_hand_pixels = 1'000'000;
   tracker_.change(params);
   EXPECT_EQ(next()->status, TrackStatus::holding);
@@ -151,17 +141,16 @@ TEST_F(CommandedTrackerTest, AProfileGoesToTheHandOfItsSide) {
   const auto left = std::make_shared<const HandProfile>(mirrored(*profile_));
   for (const bool late : {false, true}) {  // before the first frame, and after it
     std::ostringstream out;
-    RepeatLog log(std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)),
-                  clock_);
+    RepeatLog log(test::text_logger(out), clock_);
     CommandedTracker tracker(
-        cheap(), {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
+        test::quick_tracker(), {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
     HandEstimates hands;
     const auto step = [&] { hands = tracker.process({seen(*hand_), seen(HandObservation())}); };
     if (late) step();
     for (const char* side : {"left", "right"}) {
       Command command;
       command.kind = Command::Kind::set_profile;
-      command.profile = file_text(BAREHAND_CONFIGS "/hands/adult_" + std::string(side) + ".json");
+      command.profile = test::read_text(BAREHAND_CONFIGS "/hands/adult_" + std::string(side) + ".json");
       send(command);
     }
     step();

@@ -1,12 +1,13 @@
 #include "app/hands_tracker.h"
 
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
 
 #include <sstream>
 
 #include "hand/skin.h"
+#include "quick_tracker.h"
 #include "support/painted_hand.h"
+#include "support/text_logger.h"
 
 namespace barehand {
 namespace {
@@ -17,13 +18,6 @@ class HandsTrackerTest : public ::testing::Test {
   enum Side { kRight, kLeft };
   static constexpr double kRightX = 0.1, kLeftX = -0.1;
 
-  static TrackerParams cheap() {
-    TrackerParams params;
-    params.sampling = false;
-    params.search_attempts = 1;
-    params.initialiser.full = params.initialiser.quick;
-    return params;
-  }
   /// Its wrist at x.
   static HandObservationPtr seen(const HandProfile& profile, double flexion, double x) {
     HandPose pose = test::facing_pose(profile, 0.5, flexion);
@@ -63,7 +57,7 @@ class HandsTrackerTest : public ::testing::Test {
   const std::shared_ptr<const HandProfile> left_ = std::make_shared<const HandProfile>(mirrored(*right_));
   const HandObservationPtr right_hand_ = seen(*right_, 0.2, kRightX), left_hand_ = seen(*left_, 0.5, kLeftX);
   Workers workers_{1};
-  HandsTracker tracker_{cheap(), {right_, left_}, 1, workers_};
+  HandsTracker tracker_{test::quick_tracker(), {right_, left_}, 1, workers_};
   std::int64_t utime_ = 1'000'000;
 };
 
@@ -90,7 +84,8 @@ TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
 }
 
 TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
-  HandsTracker only_left(cheap(), {left_}, 1, workers_), only_right(cheap(), {right_}, 1, workers_);
+  HandsTracker only_left(test::quick_tracker(), {left_}, 1, workers_),
+      only_right(test::quick_tracker(), {right_}, 1, workers_);
   HandEstimates refused, taken;
   for (int i = 0; i < 4; ++i) {
     refused = next(only_left, right_hand_);
@@ -113,7 +108,7 @@ TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
 
 TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
   Workers two(2);
-  HandsTracker other(cheap(), {right_, left_}, 1, two);
+  HandsTracker other(test::quick_tracker(), {right_, left_}, 1, two);
   const HandEstimates one = next_times(4, tracker_, right_hand_, left_hand_);
   utime_ = 1'000'000;
   const HandEstimates same = next_times(4, other, right_hand_, left_hand_);
@@ -129,9 +124,7 @@ class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithPara
     auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
     profile->origin = ProfileOrigin::measured;
     std::ostringstream out;
-    HandsTracker tracker(
-        cheap(), {profile}, 1, workers_,
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
+    HandsTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
     HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
     for (SE3& T : pose) T.t.x() += kRightX;
     tracker.hand(0).start_at(pose);

@@ -5,7 +5,10 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <deque>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -13,7 +16,8 @@
 
 namespace barehand {
 
-/// The socket that systemd would listen on, named to programs started meanwhile (and to this one).
+/// The socket that systemd would listen on, named to programs started meanwhile (and to this one). Like systemd it
+/// reads all the time: a program waits when ten messages are unread.
 class NotifySocket {
  public:
   explicit NotifySocket(const std::string& watchdog_us = "") {
@@ -26,6 +30,7 @@ class NotifySocket {
     if (!watchdog_us.empty()) setenv("WATCHDOG_USEC", watchdog_us.c_str(), 1);
   }
   ~NotifySocket() {
+    reader_ = {};
     unsetenv("NOTIFY_SOCKET");
     unsetenv("WATCHDOG_USEC");
     close(socket_);
@@ -35,11 +40,12 @@ class NotifySocket {
 
   /// The next message if it comes in time; else "".
   std::string next(int patience_ms = 0) {
-    pollfd ready{socket_, POLLIN, 0};
-    if (poll(&ready, 1, patience_ms) != 1) return "";
-    char buffer[4096];
-    const ssize_t count = recv(socket_, buffer, sizeof buffer, 0);
-    return count > 0 ? std::string(buffer, static_cast<std::size_t>(count)) : "";
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
+    while (true) {
+      const std::string message = take();
+      if (!message.empty() || std::chrono::steady_clock::now() >= deadline) return message;
+      wait();
+    }
   }
   /// Reads until a message contains `text`; "" if none comes.
   std::string wait_for(const std::string& text) {
@@ -48,16 +54,39 @@ class NotifySocket {
     while (!message.empty() && message.find(text) == std::string::npos) message = next(kLongMs);
     return message;
   }
-  /// Throws messages away until the thread is destroyed, as a program waits when ten are unread.
-  [[nodiscard]] std::jthread discard() {
-    return std::jthread([this](const std::stop_token& stop) {
-      while (!stop.stop_requested()) next(10);
-    });
-  }
 
  private:
+  void wait() const {
+    pollfd ready{socket_, POLLIN, 0};
+    poll(&ready, 1, 10);
+  }
+  /// The oldest message that has arrived, or "".
+  std::string take() {
+    const std::lock_guard lock(mutex_);
+    receive();
+    if (messages_.empty()) return "";
+    const std::string oldest = std::move(messages_.front());
+    messages_.pop_front();
+    return oldest;
+  }
+  void receive() {
+    char buffer[4096];
+    for (ssize_t n; (n = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT)) > 0;)
+      messages_.emplace_back(buffer, static_cast<std::size_t>(n));
+  }
+  void read(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      wait();
+      const std::lock_guard lock(mutex_);
+      receive();
+    }
+  }
+
   test::TempFolder folder_;
   const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  std::mutex mutex_;  ///< guards what follows, and reading
+  std::deque<std::string> messages_;
+  std::jthread reader_{[this](const std::stop_token& stop) { read(stop); }};
 };
 
 }  // namespace barehand

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 
 #include "child_process.h"
 #include "hand/skin.h"
@@ -72,10 +71,7 @@ class TrackRun : public ::testing::Test {
     return frames;
   }
 
-  std::string file_bytes(const std::string& name) const {
-    std::ifstream file(folder_ + name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string file_bytes(const std::string& name) const { return test::read_text(folder_ + name); }
 
   const test::TempFolder place_;
   const std::string folder_ = place_ / "recording";
@@ -197,8 +193,7 @@ TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
   record_hand();
   const auto with_observer = [&](const std::string& observer) {
     const std::string file = folder_ + "/" + observer + ".yaml";
-    test::write_text(file,
-                     std::regex_replace(test::quick_config(), std::regex("observer: .*"), "observer: " + observer));
+    test::write_text(file, test::replaced(test::quick_config(), "observer: \"auto\"", "observer: " + observer));
     return track({"--config", file});
   };
   ChildProcess cpu(with_observer("cpu"));

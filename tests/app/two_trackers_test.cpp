@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 
 #include <array>
-#include <fstream>
 #include <mutex>
 #include <set>
 
@@ -25,16 +24,10 @@ std::string url() { return "udpm://239.255.76.67:" + std::to_string(port()); }
 
 /// The shipped configuration with another prefix and range.
 std::string configuration(const test::TempFolder& folder, const std::string& prefix, int ttl) {
-  std::string config = test::quick_config();
-  const auto replace = [&](const std::string& before, const std::string& after) {
-    const auto at = config.find(before);
-    ASSERT_NE(at, std::string::npos) << before;
-    config.replace(at, before.size(), after);
-  };
-  replace("channel_prefix: \"\"", "channel_prefix: " + prefix);
-  replace("lcm_ttl: 0", "lcm_ttl: " + std::to_string(ttl));
+  std::string config = test::replaced(test::quick_config(), "channel_prefix: \"\"", "channel_prefix: " + prefix);
+  config = test::replaced(config, "lcm_ttl: 0", "lcm_ttl: " + std::to_string(ttl));
   const std::string path = folder / prefix + ".yaml";
-  std::ofstream(path) << config;
+  test::write_text(path, config);
   return path;
 }
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <spdlog/sinks/ostream_sink.h>
 
 #include <sstream>
 
@@ -8,6 +7,7 @@
 #include "observe/fallback_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 #include "stages/segment_tracker/make_observer.h"
+#include "support/text_logger.h"
 #include "tests/egl/random_batch.h"
 
 namespace barehand {
@@ -19,8 +19,7 @@ constexpr float kCap = 0.008f;
 /// The lines logged so far.
 struct Log {
   std::ostringstream text;
-  std::shared_ptr<spdlog::logger> logger =
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text));
+  std::shared_ptr<spdlog::logger> logger = test::text_logger(text);
   std::ptrdiff_t warnings() const {
     const std::string all = text.str();
     std::ptrdiff_t count = 0;

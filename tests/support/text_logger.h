@@ -1,0 +1,16 @@
+#pragma once
+
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <ostream>
+
+namespace barehand::test {
+
+/// Writes its lines to `text`, which outlives it.
+inline std::shared_ptr<spdlog::logger> text_logger(std::ostream& text) {
+  return std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text));
+}
+
+}  // namespace barehand::test
