@@ -1,5 +1,7 @@
 #include "drivers/openni2/openni_file_player.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -18,6 +20,12 @@ constexpr std::chrono::milliseconds kPatience{10'000};  // for the next picture 
 constexpr std::string_view kMagic = "NI10";
 constexpr const char* kWhole = "give a whole .oni recording: one whose recorder was killed lacks its table";
 
+/// OpenNI2 knows a file by its name, and goes on where another reader of that name stopped. The descriptor stays open,
+/// as the player's handles do.
+std::string name_of_its_own(const std::string& path) {
+  return "/proc/self/fd/" + std::to_string(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::string& path, const OpenNiParams& params) {
@@ -30,22 +38,23 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   if (std::string_view(head.data(), head.size()) != kMagic) return fail("is no OpenNI recording", path, kWhole);
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
-  auto sensor = OpenNiSensor::open(path, params);
+  auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
   if (!sensor) return fail(sensor.error().what, path, kWhole);
   static_cast<void>(library->release());  // unloaded it would destroy the player's streams: see OpenNiSensor
-  std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(std::move(*sensor)));
+  std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
   if (player->frames() <= 0) return fail("the recording holds no depth pictures", path, "record it again");
   return player;
 }
 
-OpenNiFilePlayer::OpenNiFilePlayer(std::unique_ptr<OpenNiSensor> sensor)
-    : sensor_(std::move(sensor)),
+OpenNiFilePlayer::OpenNiFilePlayer(std::string path, std::unique_ptr<OpenNiSensor> sensor)
+    : path_(std::move(path)),
+      sensor_(std::move(sensor)),
       pairing_(1'000'000 / std::max(1, sensor_->depth_mode().getFps())),
       depth_total_(sensor_->depth_pictures()),
       colour_total_(sensor_->colour_pictures()) {}
 
 Error OpenNiFilePlayer::error(std::string what, std::string remedy) const {
-  return {std::move(what), "openni2:" + sensor_->where(), std::move(remedy)};
+  return {std::move(what), "openni2:" + path_, std::move(remedy)};
 }
 
 SourceEvent OpenNiFilePlayer::next() {

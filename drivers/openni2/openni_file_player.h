@@ -27,11 +27,12 @@ class OpenNiFilePlayer {
  private:
   using Pairing = ColourPairing<openni::VideoFrameRef>;
 
-  explicit OpenNiFilePlayer(std::unique_ptr<OpenNiSensor> sensor);
+  OpenNiFilePlayer(std::string path, std::unique_ptr<OpenNiSensor> sensor);
   std::optional<Pairing::Pair> next_pair();
   SourceEvent frame_of(const Pairing::Pair& pair);
   Error error(std::string what, std::string remedy) const;
 
+  const std::string path_;
   std::unique_ptr<OpenNiSensor> sensor_;
   Pairing pairing_;
   const int depth_total_, colour_total_;

@@ -102,6 +102,7 @@ TEST_F(OniFile, StartAndStep) {
     ASSERT_TRUE(frame && number < frames.size());
     EXPECT_EQ(frame->number, static_cast<std::int64_t>(number));
     EXPECT_EQ(frame->utime, frames[number]->utime);
+    EXPECT_EQ(picture_of(*frame), picture_of(*frames[number]));  // from the start again
   }
 }
 
