@@ -35,7 +35,9 @@ bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effo
 }
 
 void ProfileCheck::nothing_found(const HandObservation& observation, double score) {
-  if (said_size_ || ++failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
+  if (said_size_) return;
+  ++failures_;
+  if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
   const double size = kSizes[tries_++ % kSizes.size()];
   const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick);
   if (!other || other->refined.score > params_.loss.lost_score || !clearly_better(other->refined.score, score)) return;
