@@ -50,6 +50,35 @@ std::unique_ptr<Sequence> make_open(std::uint64_t seed) {
                                                 seed));
 }
 
+/// A hand shown for `barehand calibrate`: from all sides, then every joint bent, palm and back towards the camera.
+std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
+  const Vector3d here(0.0, 0.08, 0.55), still(0, 0, 0), back(0, 2.9, 0);
+  // The thumb bends while the fingers are out of its way.
+  HandAngles thumb_bent = open_relaxed();
+  thumb_bent[0] = {0.15, {0.1, 0.8, 1.15}};
+  const HandAngles half = blend(thumb_bent, fist(), 0.5);
+  return std::make_unique<FreeSequence>(setting(18.0,
+                                                {{0.0, here, still, open_spread()},
+                                                 {0.6, here, still, open_spread()},
+                                                 {1.8, here, {0, 1.1, 0}, open_spread()},
+                                                 {3.6, here, {0, -1.1, 0}, open_spread()},
+                                                 {4.6, here, {0.5, 0, 0}, open_joined()},
+                                                 {5.6, here, {-0.6, 0, 0.2}, open_relaxed()},
+                                                 {6.4, here, {0, -0.3, 0}, thumb_bent},
+                                                 {7.2, here, {0, 0.5, 0}, thumb_bent},
+                                                 {8.0, here, still, half},
+                                                 {8.8, here, {0, 0.5, 0}, fist()},
+                                                 {9.6, here, {0, -0.5, 0}, half},
+                                                 {10.6, here, still, open_spread()},
+                                                 {12.6, here, back, open_spread()},
+                                                 {13.4, here, {0, 2.5, 0}, thumb_bent},
+                                                 {14.2, here, {0, 3.2, 0}, half},
+                                                 {15.0, here, {0.3, 3.1, 0}, fist()},
+                                                 {16.0, here, back, open_joined()},
+                                                 {17.8, here, still, open_spread()}},
+                                                seed));
+}
+
 /// A hand that waves, leaves the view on the right and comes back.
 std::unique_ptr<Sequence> make_wave(std::uint64_t seed) {
   const Vector3d here(-0.02, 0.08, 0.6), edge(0.2, 0.1, 0.6), away(0.62, 0.12, 0.6);

@@ -22,6 +22,7 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
   list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
   list.push_back({"open", "an open hand turns slowly", 180, 30});
+  list.push_back({"scan", "a hand is shown from all sides and bent, for barehand calibrate", 540, 30});
   list.push_back(
       {"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30, true});
   return list;
@@ -43,6 +44,7 @@ Result<SequenceInfo> sequence_info(const std::string& name) {
 Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed) {
   if (name == "fist") return make_fist(seed);
   if (name == "open") return make_open(seed);
+  if (name == "scan") return make_scan(seed);
   if (name == "wave") return make_wave(seed);
   if (name == "returns") return make_returns(seed);
   if (name == "two_hands") return make_two_hands(seed);

@@ -40,6 +40,7 @@ class FreeSequence : public Sequence {
 
 std::unique_ptr<Sequence> make_fist(std::uint64_t seed);
 std::unique_ptr<Sequence> make_open(std::uint64_t seed);
+std::unique_ptr<Sequence> make_scan(std::uint64_t seed);
 std::unique_ptr<Sequence> make_wave(std::uint64_t seed);
 std::unique_ptr<Sequence> make_returns(std::uint64_t seed);
 /// A right and a left hand, without touching.
