@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/bench_command.h"
+#include "app/calibrate_command.h"
 #include "app/convert_command.h"
 #include "app/doctor_command.h"
 #include "app/eval_command.h"
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   barehand::add_record_command(app, exit_code);
   barehand::add_convert_command(app, exit_code);
   barehand::add_eval_command(app, exit_code);
+  barehand::add_calibrate_command(app, exit_code);
   barehand::add_experiment_command(app, exit_code);
   barehand::add_listen_command(app, exit_code);
   barehand::add_bench_command(app, exit_code);

@@ -39,13 +39,15 @@ tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected
 /// One run, put together step by step: all input is checked before the first output file is touched.
 class TrackRun {
  public:
-  TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread)
+  TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread,
+           std::vector<std::unique_ptr<Sink>> more)
       : options_(options),
         config_(config),
         reread_(std::move(reread)),
         log_(make_logger(), clock_),
         reload_(config, news_),
-        interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()) {}
+        interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()),
+        sinks_(std::move(more)) {}
 
   Step prepare();
   TrackOutcome run();
@@ -283,8 +285,9 @@ int tell(const TrackFailure& failure) {
 }  // namespace
 
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
-                                               std::function<Result<Config>()> reread) {
-  TrackRun run(options, config, std::move(reread));
+                                               std::function<Result<Config>()> reread,
+                                               std::vector<std::unique_ptr<Sink>> more) {
+  TrackRun run(options, config, std::move(reread), std::move(more));
   if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
   return run.run();
 }

@@ -6,6 +6,7 @@
 #include "app/exit_code.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/sink.h"
 #include "app/track_options.h"
 
 namespace barehand {
@@ -28,8 +29,10 @@ struct TrackOutcome {
 /// Tracks as `config` and the rest of `options` say; its config, seed and print_config are not looked at. Progress and
 /// log on standard error, nothing on standard output. All input is checked before the first output file is touched.
 /// `reread`: the configuration as it is now, asked for at SIGHUP; empty: SIGHUP has its usual effect.
+/// `more`: sinks besides those of the options.
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
-                                               std::function<Result<Config>()> reread = {});
+                                               std::function<Result<Config>()> reread = {},
+                                               std::vector<std::unique_ptr<Sink>> more = {});
 
 /// Runs `barehand track` and returns its exit code (exit_code.h). Errors are told on standard error, the closing
 /// summary on standard output.

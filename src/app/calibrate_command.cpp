@@ -1,0 +1,136 @@
+#include "app/calibrate_command.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/run_inputs.h"
+#include "app/scan_report.h"
+#include "app/track_run.h"
+#include "core/parallel.h"
+#include "io/hand_json.h"
+
+namespace barehand {
+namespace {
+
+constexpr const char* kHowTo =
+    "Open the hand, turn it slowly to show palm and back, bend and stretch thumb and fingers; ten to twenty seconds.\n"
+    "Ctrl-C ends a live scan; what was seen until then is used.";
+constexpr double kDegrees = 180 / 3.14159265358979;
+
+struct CalibrateOptions {
+  TrackOptions track;
+  std::string hand = "right", out;
+};
+
+int tell(const Error& error, int exit_code) {
+  std::cerr << "barehand calibrate: " << error.message() << std::endl;
+  return exit_code;
+}
+
+/// Keeps the hand as fitted last, and tells the person what to show next.
+class ScanSink : public Sink {
+ public:
+  struct Scan {
+    ScanReport report;
+    std::shared_ptr<const HandProfile> profile;  ///< null: no hand was tracked
+  };
+  explicit ScanSink(Scan& scan) : scan_(scan) {}
+  std::string name() const override { return "scan"; }
+  Result<void> consume(const TrackedFrame& tracked) override {
+    const HandEstimate& hand = *tracked.estimates[0];
+    scan_.report.add(hand);
+    if (hand.has_pose()) scan_.profile = hand.profile;
+    advise();
+    return {};
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
+
+  void advise() {
+    if (complete_ || Clock::now() < advised_ + kAdvise) return;
+    const auto missing = scan_.report.missing();
+    complete_ = missing.empty();
+    std::cerr << "\n" << (complete_ ? "everything was seen; Ctrl-C ends a live scan" : missing.front()) << std::endl;
+    advised_ = Clock::now();
+  }
+
+  Scan& scan_;
+  bool complete_ = false;
+  Clock::time_point advised_ = Clock::now();
+};
+
+void print(const ScanReport& report, const HandProfile& start, const HandProfile& fitted) {
+  std::printf("%-20s %11s %11s %12s %12s %12s\n", "segment", "length [mm]", "before [mm]", "palm side", "back",
+              "bent [deg]");
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const ScannedSegment& seen = report.segment(s);
+    std::printf("%-20s %11.1f %11.1f %12d %12d %5.0f to %3.0f\n", std::string(kSegmentNames[s]).c_str(),
+                fitted.segments[s].length * 1e3, start.segments[s].length * 1e3, seen.palm_side, seen.back_side,
+                seen.least_bent * kDegrees, seen.most_bent * kDegrees);
+  }
+  std::printf("%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(), fitted.hand_length() * 1e3,
+              start.hand_length() * 1e3);
+  for (const std::string& sentence : report.missing())
+    std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
+}
+
+int run(const CalibrateOptions& o) {
+  auto config = read_configuration(o.track.config);
+  if (!config) return tell(config.error(), kExitUsage);
+  config->tracker.shape_fit.enabled = true;
+  const auto hands = choose_hands({o.hand}, {});
+  if (!hands) return tell(hands.error(), kExitUsage);
+  if (hands->size() != 1 || hands->front().profile->origin != ProfileOrigin::mean)
+    return tell(
+        {"is no mean hand to start from", "--hand " + o.hand, "give right or left; scan one hand after the other"},
+        kExitUsage);
+  const auto folder = std::filesystem::absolute(o.out).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    return tell({"no such folder", folder.string(), "make it first"}, kExitUsage);
+
+  ScanSink::Scan scan;
+  std::vector<std::unique_ptr<Sink>> sinks;
+  sinks.push_back(std::make_unique<ScanSink>(scan));
+  TrackOptions track_options = o.track;
+  track_options.hands = {o.hand};
+  std::cerr << kHowTo << std::endl;
+  const auto tracked = track(track_options, *config, {}, std::move(sinks));
+  if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
+  if (!scan.profile)
+    return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
+                kExitFailure);
+  if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
+  print(scan.report, *hands->front().profile, *scan.profile);
+  return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CalibrateOptions>();
+  CalibrateOptions& o = *options;
+  o.track.no_publish = true;
+  o.track.threads = available_cores();
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "Make the profile of a person's hand that is shown to the sensor");
+  calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
+      ->required();
+  calibrate->add_option("--out", o.out, "hand.json to write")->required();
+  calibrate->add_option("--hand", o.hand, "right or left: which hand is shown; or another mean hand.json")
+      ->capture_default_str();
+  calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
+  calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");
+  calibrate->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
+  calibrate->add_option("--threads", o.track.threads, "cores to use; results do not depend on it")
+      ->capture_default_str();
+  calibrate->footer(kHowTo);
+  calibrate->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,55 @@
+#include "app/scan_report.h"
+
+#include <algorithm>
+
+#include "hand/joint_angles.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kFacing = 0.5;  // cosine between line of sight and a side's normal: up to 60 degrees
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+void ScanReport::add(const HandEstimate& estimate) {
+  if (estimate.status != TrackStatus::tracking) return;
+  HandPose pose;
+  for (int s = 0; s < kSegmentCount; ++s) pose[s] = estimate.segments[s].T_camera_segment;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    ScannedSegment& segment = segments_[s];
+    if (!estimate.segments[s].seen) continue;
+    const double back = -pose[s].R.col(1).dot(pose[s].t.normalized());  // +y leaves the back
+    if (back > kFacing) ++segment.back_side;
+    if (back < -kFacing) ++segment.palm_side;
+    const double bent = joint_angles(*estimate.profile, pose, s).flexion;
+    segment.least_bent = segment.seen == 0 ? bent : std::min(segment.least_bent, bent);
+    segment.most_bent = segment.seen == 0 ? bent : std::max(segment.most_bent, bent);
+    ++segment.seen;
+  }
+  ++frames_;
+}
+
+std::vector<std::string> ScanReport::missing() const {
+  std::vector<std::string> palm_sides, back_sides, stiff, sentences;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const ScannedSegment& segment = segments_[s];
+    const std::string name(kSegmentNames[s]);
+    if (segment.palm_side < kEnoughFrames) palm_sides.push_back(name);
+    if (segment.back_side < kEnoughFrames) back_sides.push_back(name);
+    // The thumb's root moves too little to be asked for.
+    if (s != kPalm && s != segment_of(0, 0) && segment.most_bent - segment.least_bent < kEnoughBending)
+      stiff.push_back(name);
+  }
+  if (!palm_sides.empty()) sentences.push_back("show the palm side of: " + list_of(palm_sides));
+  if (!back_sides.empty()) sentences.push_back("show the back of: " + list_of(back_sides));
+  if (!stiff.empty()) sentences.push_back("bend and stretch: " + list_of(stiff));
+  return sentences;
+}
+
+}  // namespace barehand

@@ -1,0 +1,73 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "child_process.h"
+#include "hand/profile.h"
+#include "io/hand_json.h"
+#include "io/recording_writer.h"
+#include "quick_config.h"
+#include "support/adult_hand.h"
+#include "support/temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Calibrate : public ::testing::Test {
+ protected:
+  void SetUp() override { test::write_text(folder_ / "quick.yaml", test::quick_config()); }
+  std::vector<std::string> calibrate(const std::string& source, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {BAREHAND_PROGRAM,       "calibrate", "--source", source, "--config",
+                                          folder_ / "quick.yaml", "--out",     profile_};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  const test::TempFolder folder_;
+  const std::string profile_ = folder_ / "mine.json";
+};
+
+TEST_F(Calibrate, MakesAProfileAndSaysWhatWasNotShown) {
+  ChildProcess child(calibrate("sim:scan,frames=20,width=320,height=240"));
+  ASSERT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(),
+              AllOf(HasSubstr("20 frames tracked"), HasSubstr("show the back of: palm, thumb_metacarpal"),
+                    HasSubstr("bend and stretch: thumb_proximal")));
+  const auto hand = load_profile(profile_);
+  ASSERT_TRUE(hand) << hand.error().message();
+  EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
+  EXPECT_NE(hand->hand_length(), test::adult_hand()->hand_length());
+}
+
+TEST_F(Calibrate, WithoutAHandNothingIsSaved) {
+  RgbdFrame wall;
+  wall.utime = 1'000'000;
+  wall.camera = {64, 48, 60, 60, 31.5, 23.5};
+  wall.depth.reset(64, 48, 800);
+  auto writer = RecordingWriter::create(folder_ / "wall");
+  ASSERT_TRUE(writer && writer->write(wall));
+  ChildProcess child(calibrate("folder:" + (folder_ / "wall")));
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(), HasSubstr("no hand was tracked, nothing to save"));
+  EXPECT_FALSE(std::filesystem::exists(profile_));
+}
+
+TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
+  for (const auto& [option, value, reason] :
+       {std::tuple("--hand", std::string("both"), "is no mean hand to start from"),
+        {"--hand", folder_ / "nobody.json", "nobody.json"},
+        {"--out", folder_ / "nowhere/mine.json", "no such folder"}}) {
+    auto arguments = calibrate("sim:scan");
+    if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);
+    arguments.insert(arguments.end(), {option, value});
+    ChildProcess child(arguments);
+    EXPECT_EQ(child.finish(), 2) << child.output();
+    EXPECT_THAT(child.output(), HasSubstr(reason));
+  }
+}
+
+}  // namespace
+}  // namespace barehand
