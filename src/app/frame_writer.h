@@ -23,12 +23,12 @@ class FrameWriter {
 };
 
 struct FrameWriterOptions {
-  FrameEncoding encoding = {};          ///< of a log; of a folder only colour, which is never raw there
-  std::string channel = "RGBD_FRAME";   ///< of a log
-  double fps = 0;                       ///< nominal rate, noted in a folder; 0 = not noted
-  bool overwrite = false;               ///< of a log; a folder with a recording is never overwritten
-  std::optional<LogRotation> rotation;  ///< of a log: a set of files instead of one
-  const Clock* clock = nullptr;         ///< of the rotation; outlives the writer
+  FrameEncoding encoding = {};               ///< of a log; of a folder only colour, which is never raw there
+  std::string channel = "RGBD_FRAME";        ///< of a log
+  double fps = 0;                            ///< nominal rate, noted in a folder; 0 = not noted
+  bool overwrite = false;                    ///< of a log; a folder with a recording is never overwritten
+  std::optional<LogRotation> rotation = {};  ///< of a log: a set of files instead of one
+  const Clock* clock = nullptr;              ///< of the rotation; outlives the writer
 };
 
 /// Whether frames written to `path` make an LCM log: it ends in .lcmlog, .lcm or .log.
