@@ -17,7 +17,7 @@ units=/run/config/systemd/user
 cp "$tree/configs/default.yaml" /run/config.yaml
 
 # What is left of the unit says how it starts, is watched, reloaded and started again; the watchdog bites sooner.
-sed -E -e "s#/usr/bin/barehand#$program#" -e 's/^WatchdogSec=.*/WatchdogSec=4/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
+sed -E -e "s#/usr/bin/barehand#$program#" -e 's/^WatchdogSec=.*/WatchdogSec=10/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
   -e '/^(Dynamic|Supplementary|State|Working|Device|Capability|Lock|NoNew|Private|Protect|Restrict(A|N|R|S)|System|Memory|Tasks)/d' \
   -e 's/^EnvironmentFile=.*/Environment="BAREHAND_SOURCE=sim:fist,live=true,loop=true,width=160,height=120" "BAREHAND_OPTIONS=--no-publish --config \/run\/config.yaml"/' \
   "$tree/deploy/systemd/barehand.service" >$units/barehand.service
@@ -50,7 +50,7 @@ systemctl --user reload barehand.service
 wait_until "it goes on with the old configuration" is ActiveState active
 cp "$tree/configs/default.yaml" /run/config.yaml
 
-sleep 5  # longer than the watchdog's patience: it is fed
+sleep 11  # longer than the watchdog's patience: it is fed
 is NRestarts 0 || wait_until "it was not started again while it worked" false
 kill -STOP "$(systemctl --user show -P MainPID barehand.service)"  # hangs
 wait_until "the watchdog bites and the service starts again" is NRestarts 1
