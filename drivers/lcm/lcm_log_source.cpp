@@ -8,17 +8,12 @@
 #include <map>
 #include <set>
 
+#include "core/comma_list.h"
 #include "drivers/lcm/frame_message.h"
 
 namespace barehand {
 namespace fs = std::filesystem;
 namespace {
-
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 /// The log itself, or those of a folder; one that was killed before its first event is left out.
 Result<std::vector<std::string>> log_files(const std::string& path) {
@@ -74,13 +69,13 @@ Result<void> LcmLogSource::choose() {
                            : fnmatch(pattern.c_str(), event.entry.channel.c_str(), 0) != 0;
   });
   if (pattern.empty() && with_frames.empty()) {
-    return fail("the log holds no frames; its channels are " + joined(all), path_,
+    return fail("the log holds no frames; its channels are " + comma_list(all), path_,
                 "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
   }
   if (pattern.empty() && with_frames.size() > 1) {
-    return fail("the log holds frames on several channels: " + joined(with_frames), path_, "choose one");
+    return fail("the log holds frames on several channels: " + comma_list(with_frames), path_, "choose one");
   }
-  if (frames_.empty()) return fail("no channel matches \"" + pattern + "\"; there are " + joined(all), path_);
+  if (frames_.empty()) return fail("no channel matches \"" + pattern + "\"; there are " + comma_list(all), path_);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/comma_list.h"
 #include "io/config_visitor.h"
 
 namespace barehand::synthetic {
@@ -55,9 +56,8 @@ class SpecReader : public ConfigVisitor {
                   const char* doc) override {
     const auto text = take(key);
     if (!text) return;
-    std::string all;
-    for (const std::string_view choice : choices) all += (all.empty() ? "" : ", ") + std::string(choice);
-    if (std::find(choices.begin(), choices.end(), *text) == choices.end()) return wrong(key, *text, all, doc);
+    if (std::find(choices.begin(), choices.end(), *text) == choices.end())
+      return wrong(key, *text, comma_list(choices), doc);
     value = *text;
   }
   void operator()(const char*, std::vector<double>&, double, double, const char*) override {}

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 
+#include "core/comma_list.h"
 #include "hand/joint_angles.h"
 
 namespace barehand {
 namespace {
 
 constexpr double kFacing = 0.5;  // cosine between line of sight and a side's normal: up to 60 degrees
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 }  // namespace
 
@@ -46,9 +41,9 @@ std::vector<std::string> ScanReport::missing() const {
     if (s != kPalm && s != segment_of(0, 0) && segment.most_bent - segment.least_bent < kEnoughBending)
       stiff.push_back(name);
   }
-  if (!palm_sides.empty()) sentences.push_back("show the palm side of: " + list_of(palm_sides));
-  if (!back_sides.empty()) sentences.push_back("show the back of: " + list_of(back_sides));
-  if (!stiff.empty()) sentences.push_back("bend and stretch: " + list_of(stiff));
+  if (!palm_sides.empty()) sentences.push_back("show the palm side of: " + comma_list(palm_sides));
+  if (!back_sides.empty()) sentences.push_back("show the back of: " + comma_list(back_sides));
+  if (!stiff.empty()) sentences.push_back("bend and stretch: " + comma_list(stiff));
   return sentences;
 }
 

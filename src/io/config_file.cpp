@@ -6,6 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/comma_list.h"
+
 namespace barehand {
 namespace {
 
@@ -158,9 +160,7 @@ void ConfigReader::operator()(const char* key, std::string& value, std::initiali
     value = node.Scalar();
     return;
   }
-  std::string list;
-  for (const auto choice : choices) list += (list.empty() ? "" : ", ") + std::string(choice);
-  state_->wrong(node, "one of " + list);
+  state_->wrong(node, "one of " + comma_list(choices));
 }
 
 void ConfigReader::operator()(const char* key, std::vector<double>& values, double lo, double hi, const char*) {
