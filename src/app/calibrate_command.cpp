@@ -12,6 +12,7 @@
 #include "app/track_run.h"
 #include "core/parallel.h"
 #include "io/hand_json.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 constexpr const char* kHowTo =
     "Open the hand, turn it slowly to show palm and back, bend and stretch thumb and fingers; ten to twenty seconds.\n"
     "Ctrl-C ends a live scan; what was seen until then is used.";
-constexpr double kDegrees = 180 / 3.14159265358979;
 
 struct CalibrateOptions {
   TrackOptions track;
@@ -72,7 +72,7 @@ void print(const ScanReport& report, const HandProfile& start, const HandProfile
     const ScannedSegment& seen = report.segment(s);
     std::printf("%-20s %11.1f %11.1f %12d %12d %5.0f to %3.0f\n", std::string(kSegmentNames[s]).c_str(),
                 fitted.segments[s].length * 1e3, start.segments[s].length * 1e3, seen.palm_side, seen.back_side,
-                seen.least_bent * kDegrees, seen.most_bent * kDegrees);
+                seen.least_bent / kDegree, seen.most_bent / kDegree);
   }
   std::printf("%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(), fitted.hand_length() * 1e3,
               start.hand_length() * 1e3);

@@ -19,11 +19,8 @@ using ::testing::HasSubstr;
 class Calibrate : public ::testing::Test {
  protected:
   void SetUp() override { test::write_text(folder_ / "quick.yaml", test::quick_config()); }
-  std::vector<std::string> calibrate(const std::string& source, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {BAREHAND_PROGRAM,       "calibrate", "--source", source, "--config",
-                                          folder_ / "quick.yaml", "--out",     profile_};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+  std::vector<std::string> calibrate(const std::string& source) const {
+    return {BAREHAND_PROGRAM, "calibrate", "--source", source, "--config", folder_ / "quick.yaml", "--out", profile_};
   }
 
   const test::TempFolder folder_;

@@ -26,10 +26,8 @@ class PersonFitTest : public ::testing::Test {
   // Shows the hand turning and bending, and fits.
   void show(int looks) {
     for (int i = 0; i < looks; ++i) {
-      HandPose truth = test::facing_pose(*person_, 0.45, 0.15 + 0.1 * (i % 8));
-      const SE3 turn{exp_so3(Eigen::Vector3d(0.4 * std::sin(i), 0.5 * std::cos(0.7 * i), 0)), Eigen::Vector3d::Zero()};
-      const Eigen::Vector3d centre = truth[kPalm].t;
-      for (SE3& T : truth) T = {turn.R * T.R, centre + turn.R * (T.t - centre)};
+      const HandPose facing = test::facing_pose(*person_, 0.45, 0.15 + 0.1 * (i % 8));
+      const HandPose truth = test::turned(facing, {0.4 * std::sin(i), 0.5 * std::cos(0.7 * i), 0}, facing[kPalm].t);
       const auto observation = test::observe_skin(persons_skin_, truth);
       const RefinedPose refined = model_->refinement.refine(*observation, truth, truth, 5);
       const auto change = fit_.look(*observation, refined.pose, model_->refinement, model_->skin);

@@ -24,9 +24,7 @@ class ScanReportTest : public ::testing::Test {
       const SE3 joint = pose[parent_of(s)] * profile_->rest_relative(s);
       pose[s] = {joint.R * joint_rotation({thumb, 0, 0}), joint.t};
     }
-    const SE3 turn{exp_so3(Eigen::Vector3d(0, (side == kBack ? M_PI : 0) + turned, 0)), Eigen::Vector3d::Zero()};
-    const Eigen::Vector3d centre(0, 0, 0.5);
-    for (SE3& T : pose) T = {turn.R * T.R, centre + turn.R * (T.t - centre)};
+    pose = test::turned(pose, {0, (side == kBack ? M_PI : 0) + turned, 0}, {0, 0, 0.5});
     HandEstimate estimate;
     estimate.status = TrackStatus::tracking;
     estimate.profile = profile_;

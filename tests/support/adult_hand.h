@@ -30,4 +30,11 @@ inline HandPose facing_pose(const HandProfile& profile, double distance, double 
   return forward_kinematics(profile, T_camera_palm, angles);
 }
 
+/// A pose turned about a point, by a rotation vector in the camera frame [rad].
+inline HandPose turned(HandPose pose, const Eigen::Vector3d& rotation, const Eigen::Vector3d& centre) {
+  const Eigen::Matrix3d R = exp_so3(rotation);
+  for (SE3& T : pose) T = {R * T.R, centre + R * (T.t - centre)};
+  return pose;
+}
+
 }  // namespace barehand::test
