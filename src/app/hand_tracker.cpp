@@ -128,7 +128,8 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (fit && fit->refined.score < bad_score) {
     search_frames_ = 0;
     if (!doubtful(fit->refined.score)) return fit;
-    found = search_once(observation, Effort::quick, 0);
+    found = ++doubtful_frames_ % params_.doubt_every == 0 ? search_once(observation, Effort::quick, 0)
+                                                          : search_near(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
     found = search(observation, effort());
     ++search_frames_;
@@ -141,8 +142,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
 // Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.
 bool HandTracker::doubtful(double score) {
   usual_score_.update(score);
-  if (score < std::max(params_.search_convincing, usual_score_.level() * (1 + params_.doubt))) return false;
-  return doubtful_frames_++ % params_.doubt_every == 0;
+  return score >= std::max(params_.search_convincing, usual_score_.level() * (1 + params_.doubt));
 }
 
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
@@ -225,11 +225,24 @@ std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& obser
     fit.belief = fused.covariance;
     return fit;
   }
+  if (!lies_elsewhere(fit.refined, fused.pose)) return fit;
   // A good local fit must not be spoilt by a sampled one that only looks as good.
   const RefinedPose sampled =
       model_->refinement.refine(observation, fused.pose, fit.prediction->primary(), params_.refinement.iterations);
   if (clearly_better(sampled.score, fit.refined.score, params_.sampling_advantage)) fit.refined = sampled;
   return fit;
+}
+
+/// Whether anything seen is in another place: else both poses would be refined to the same one.
+bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const {
+  const HandProfile& profile = *model_->profile;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (refined.visible[s] < params_.seen_fraction) continue;
+    if ((refined.pose[s].t - sampled[s].t).norm() > params_.sampling_distinct) return true;
+    const double tips_apart = (distal_end(profile, refined.pose, s) - distal_end(profile, sampled, s)).norm();
+    if (tips_apart > params_.sampling_distinct) return true;
+  }
+  return false;
 }
 
 void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
@@ -251,18 +264,30 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
                                                          int attempt) {
   const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
   const std::uint64_t seed = seed_ + frame_ + attempt * kAttemptSeed;
-  const auto starts =
-      model_->initialiser->propose(observation, effort, seed, workers_, hiding, last_good_ ? &*last_good_ : nullptr);
+  std::optional<Fit> best = best_of(
+      observation,
+      model_->initialiser->propose(observation, effort, seed, workers_, hiding, last_good_ ? &*last_good_ : nullptr),
+      params_.search_iterations);
+  if (best) relax_hidden(observation, best->refined);
+  return best;
+}
+
+std::optional<HandTracker::Fit> HandTracker::search_near(const HandObservation& observation, const HandPose& followed) {
+  return best_of(observation, model_->initialiser->propose_near(observation, followed, seed_ + frame_, workers_),
+                 params_.doubt_iterations);
+}
+
+std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& observation,
+                                                     const std::vector<StartCandidate>& starts, int iterations) const {
   std::vector<Fit> fits(std::min<std::size_t>(params_.search_refined, starts.size()));
   workers_.for_each_index(static_cast<int>(fits.size()), [&](int i) {
-    fits[i].refined = model_->refinement.refine(observation, starts[i].pose, starts[i].pose, params_.search_iterations);
+    fits[i].refined = model_->refinement.refine(observation, starts[i].pose, starts[i].pose, iterations);
   });
   std::optional<Fit> best;
   for (Fit& fit : fits) {
     fit.joint_gap = raw_gap(fit.refined.pose);
     keep_better(best, fit);
   }
-  if (best) relax_hidden(observation, best->refined);
   return best;
 }
 

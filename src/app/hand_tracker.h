@@ -62,9 +62,13 @@ class HandTracker {
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   bool doubtful(double score);
+  bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation, Effort effort);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
+  std::optional<Fit> search_near(const HandObservation& observation, const HandPose& followed);
+  std::optional<Fit> best_of(const HandObservation& observation, const std::vector<StartCandidate>& starts,
+                             int iterations) const;
   TrackEvidence evidence(const HandObservation& observation);
   HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
   void give_new_id() { hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first; }

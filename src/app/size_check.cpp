@@ -44,15 +44,16 @@ std::string other_size(double size, const HandProfile& profile) {
 }
 
 std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
-  if (looks_ >= kLooks || frames_++ % kEvery != 0) return std::nullopt;
-  if (looks_++ == 0) make_candidates();
-  for (Candidate& candidate : candidates_) {
-    const HandPose start = scaled(*profile_, pose, candidate.size);
-    const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
-    candidate.better += clearly_better(other, score);
-    candidate.sum += other;
-  }
-  if (looks_ < kLooks) return std::nullopt;
+  if (looks_ >= kLooks) return std::nullopt;
+  if (candidates_.empty()) make_candidates();
+  const std::size_t turn = frames_++ % kEvery;
+  if (turn >= candidates_.size()) return std::nullopt;
+  Candidate& candidate = candidates_[turn];  // one a frame, or this frame would come late
+  const HandPose start = scaled(*profile_, pose, candidate.size);
+  const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
+  candidate.better += clearly_better(other, score);
+  candidate.sum += other;
+  if (turn + 1 < candidates_.size() || ++looks_ < kLooks) return std::nullopt;
   const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
   const std::optional<double> size = best->better >= kMost ? std::optional(best->size) : std::nullopt;
   candidates_.clear();

@@ -18,8 +18,9 @@ class SizeCheck {
             std::shared_ptr<const Skin> skin)
       : params_(params), profile_(std::move(profile)), skin_(std::move(skin)) {}
 
-  /// One look at a tracked frame at its refined pose, which explains it with `score`. After enough looks, once: size of
-  /// the hand in view by that of the profile, if another one explains most of them clearly better.
+  /// Looks at a tracked frame at its refined pose, which explains it with `score`, with one of the copies in turn.
+  /// After enough looks, once: size of the hand in view by that of the profile, if another one explains most of them
+  /// clearly better.
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
@@ -28,7 +29,7 @@ class SizeCheck {
   struct Candidate {
     double size;
     std::unique_ptr<Refinement> refinement;
-    int better = 0;  // looks that it explains clearly better
+    int better = 0;  // frames that it explains clearly better
     double sum = 0;  // of its scores
   };
   void make_candidates();

@@ -21,6 +21,7 @@ struct TrackerParams {
   double skin_cell = 0.004;
   bool sampling = true;
   double sampling_advantage = 0.02;
+  double sampling_distinct = 0.005;
   double search_advantage = 0.1;
   double nominal_rate = 30;
   double seen_fraction = 0.15;
@@ -30,7 +31,8 @@ struct TrackerParams {
   int search_attempts = 4;
   double search_convincing = 0.002;
   double doubt = 0.15;
-  int doubt_every = 3;
+  int doubt_every = 6;
+  int doubt_iterations = 6;
   double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
   FusionParams fusion;
@@ -52,6 +54,8 @@ void visit(V& v, TrackerParams& p) {
   v("sampling", p.sampling, "draw samples and fuse them by belief propagation (Sec. 4); false: refinement alone");
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
+  v("sampling_distinct", p.sampling_distinct, 0.0, 1.0,
+    "m, a sampled pose is refined if what is seen lies farther than this from the refined prediction");
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
@@ -64,7 +68,9 @@ void visit(V& v, TrackerParams& p) {
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
-  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched");
+  v("doubt_every", p.doubt_every, 1, 100000,
+    "of so many doubtful frames one is searched anew, the others near the followed pose");
+  v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
   v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
   v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");

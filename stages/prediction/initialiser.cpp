@@ -18,7 +18,8 @@ constexpr double kMaxPitch = 0.9;    // [rad]
 constexpr double kSkinCell = 0.004;  // [m]
 constexpr int kSkinPoints = 600;     // per segment: dense enough for the palm at the fine cell
 constexpr int kLastGoodTurns = 8;
-constexpr int kPlacedTogether = 24;
+constexpr int kPlacedTogether = 24, kChangedTogether = 6;
+constexpr double kNearDistinct = 0.25;  // of the distance between results: one finger is a fifth of a hand
 
 /// Mean of the points that face a camera looking along `view`, weighted by the area they show.
 Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
@@ -95,11 +96,53 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
     const KeyedRandom random(seed, frame, 2, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.second_evaluations, random, params_.search);
   });
+  return ranked(std::move(trials), params_.distinct);
+}
+
+std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& observation, const HandPose& followed,
+                                                      std::uint64_t seed, Workers& workers) const {
+  if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
+  const ScoreGrid grid = make_score_grid(observation, params_.fine_cell);
+  if (grid.empty()) return {};
+  const PoseCost cost(*profile_, grid, fine_skin_, params_.score, params_.search.shape_prior);
+  const auto frame = static_cast<std::uint32_t>(observation.frame->number);
+
+  Trials trials = changed_fingers(followed);
+  for_each_trial(trials, cost, kChangedTogether, workers, [&](Trial& trial, std::uint32_t, PoseCost& own) {
+    trial.scored.cost = own(trial.scored.articulated);
+  });
+  const double distinct = kNearDistinct * params_.distinct;
+  trials = most_promising(std::move(trials), params_.near_survivors, distinct);
+  for_each_trial(trials, cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& own) {
+    const KeyedRandom random(seed, frame, 3, number);
+    trial.scored = search_pose(trial.scored, own, limits_, params_.near_evaluations, random, params_.search);
+  });
+  return ranked(std::move(trials), distinct);
+}
+
+std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct) const {
   std::vector<StartCandidate> result;
-  for (Trial& trial : most_promising(std::move(trials), params_.results, params_.distinct)) {
+  for (Trial& trial : most_promising(std::move(trials), params_.results, distinct))
     result.push_back({trial.name, posed(*profile_, trial.scored.articulated), trial.scored.cost});
-  }
   return result;
+}
+
+/// The pose itself, and with one finger bent as in one of the templates.
+Initialiser::Trials Initialiser::changed_fingers(const HandPose& pose) const {
+  const ArticulatedPose original = articulated_from(*profile_, pose, limits_);
+  Trials trials{{"followed", {original, 0}, true}};
+  for (int finger = 0; finger < kFingerCount; ++finger) {
+    for (const ShapeTemplate& shape : shapes_) {
+      ArticulatedPose changed = original;
+      for (int k = 0; k < 3; ++k) {
+        const int s = segment_of(finger, k);
+        changed.angles[s].flexion = shape.angles[s].flexion;
+        if (finger == 0) changed.angles[s].abduction = shape.angles[s].abduction;
+      }
+      trials.push_back({std::string(shape.name), {changed, 0}, true});
+    }
+  }
+  return trials;
 }
 
 /// Calls visit(trial, its number, a cost of its thread's own) for every trial; `together` of them share one task.

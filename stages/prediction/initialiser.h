@@ -41,6 +41,8 @@ struct InitialiserParams {
   int min_hand_pixels = 200;   ///< fewer: no start is proposed
   int results = 12;            ///< start poses returned at most
   double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
+  int near_survivors = 3;      ///< near a followed pose: templates improved on the fine grid
+  int near_evaluations = 60;   ///< trials for each
   SearchEffort full;
   SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost
   CoarseScoreParams score;
@@ -56,6 +58,8 @@ void visit(V& v, InitialiserParams& p) {
   v("min_hand_pixels", p.min_hand_pixels, 1, 1000000, "fewer hand pixels: no start is proposed");
   v("results", p.results, 1, 1000, "start poses returned at most");
   v("distinct", p.distinct, 0.0, 1.0, "m, results differ by more than this (mean over the segment ends)");
+  v("near_survivors", p.near_survivors, 1, 10000, "near a followed pose: changed fingers improved on the fine grid");
+  v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of them");
   v("full", p.full, "effort of a full search");
   v("quick", p.quick, "effort of the search made in every frame while the hand is lost");
   v("score", p.score, "quick score of a whole pose");
@@ -90,12 +94,19 @@ class Initialiser {
                                       Workers& workers, Hiding hiding = Hiding::costs,
                                       const HandPose* last_good = nullptr) const;
 
+  /// Ranked start poses near `followed`, whose palm is about right: it and what single fingers of the templates make of
+  /// it, the best improved on the fine grid.
+  std::vector<StartCandidate> propose_near(const HandObservation& observation, const HandPose& followed,
+                                           std::uint64_t seed, Workers& workers) const;
+
  private:
   struct Trial;
   using Trials = std::vector<Trial>;
   template <class Visit>
   static void for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers, const Visit& visit);
   Trials template_shapes(const SearchEffort& effort, double turn) const;
+  Trials changed_fingers(const HandPose& pose) const;
+  std::vector<StartCandidate> ranked(Trials trials, double distinct) const;
   Trials last_good_shapes(const HandPose& last_good) const;
   void place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const;
   Trials most_promising(Trials trials, int count, double distinct) const;

@@ -94,10 +94,43 @@ TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
   EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.02);
 }
 
+TEST_F(InitialiserTest, FindsTheOneFingerThatIsElsewhereNearAFollowedPose) {
+  const HandPose truth = shape(1, 0, 0.4);
+  const auto observation = test::PointWorld(*profile_).observe(truth);
+  for (const int finger : {0, 1, 3}) {
+    ArticulatedPose followed = articulated_from(*profile_, truth, limits_);
+    const auto& fist = shape_templates(*profile_, limits_)[5].angles;
+    for (int k = 0; k < 3; ++k) followed.angles[segment_of(finger, k)] = fist[segment_of(finger, k)];
+    const auto starts = initialiser_->propose_near(*observation, posed(*profile_, followed), kSeed, workers_);
+    ASSERT_FALSE(starts.empty());
+    const auto tip_error = [&](const HandPose& pose) {
+      const int tip = segment_of(finger, 2);
+      return (distal_end(*profile_, pose, tip) - distal_end(*profile_, truth, tip)).norm();
+    };
+    const double before = tip_error(posed(*profile_, followed));
+    EXPECT_GT(before, 0.03) << "finger " << finger << " is to be wrong at first";
+    EXPECT_LT(tip_error(starts.front().pose), 0.4 * before) << "finger " << finger;
+    EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.01) << "finger " << finger;
+  }
+}
+
+TEST_F(InitialiserTest, NearAFollowedPoseTheSameSeedGivesTheSamePosesOnAnyNumberOfCores) {
+  const HandPose truth = shape(1, 0, 0.7);
+  const auto observation = test::PointWorld(*profile_).observe(truth);
+  Workers three(3);
+  const auto a = initialiser_->propose_near(*observation, truth, kSeed, workers_);
+  const auto b = initialiser_->propose_near(*observation, truth, kSeed, three);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
+}
+
 TEST_F(InitialiserTest, ProposesNothingWithoutAHand) {
-  auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0));
+  const HandPose truth = shape(1, 0, 0);
+  auto observation = test::PointWorld(*profile_).observe(truth);
   observation->hand_pixels.resize(50);
   EXPECT_TRUE(initialiser_->propose(*observation, Effort::full, kSeed, workers_).empty());
+  EXPECT_TRUE(initialiser_->propose_near(*observation, truth, kSeed, workers_).empty());
 }
 
 TEST_F(InitialiserTest, ResultsObeyTheWidenedLimits) {
