@@ -117,8 +117,9 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   pipeline = std::make_unique<Pipeline>(
       PipelineStages{source, std::move(stages.preprocess), std::move(stages.track), {publish->get(), &measure}},
       options, clock, log);
+  std::int64_t dropped_before = 0;
   measure.on_start = [&] {
-    pipeline->take_interval_health();
+    dropped_before = pipeline->take_interval_health().dropped;
     reception.clear();
   };
   if (conditions.warm_up == 0) measure.start();
@@ -128,6 +129,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   BenchResult result;
   measure.report(result);
   result.health = pipeline->take_interval_health();
+  result.health.dropped -= dropped_before;
   if (conditions.rate) result.received = reception.summary();
   result.frame_bytes = store.bytes();
   result.peak_bytes = memory_usage().peak;
