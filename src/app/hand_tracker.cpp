@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
+constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -87,7 +88,9 @@ std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observa
 }
 
 Effort HandTracker::effort() const {
-  return search_frames_ % params_.full_search_every == 0 ? Effort::full : Effort::quick;
+  // A hand that was followed until now is most likely near: a full search would only hold up its next frames.
+  const int first_full = last_good_ ? std::min(kQuickFirst, params_.full_search_every - 1) : 0;
+  return search_frames_ % params_.full_search_every == first_full ? Effort::full : Effort::quick;
 }
 
 TrackEvidence HandTracker::evidence(const HandObservation& observation) {
