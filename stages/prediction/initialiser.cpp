@@ -108,9 +108,8 @@ std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& obs
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
 
   Trials trials = changed_fingers(followed);
-  for_each_trial(trials, cost, kChangedTogether, workers, [&](Trial& trial, std::uint32_t, PoseCost& own) {
-    trial.scored.cost = own(trial.scored.articulated);
-  });
+  for_each_trial(trials, cost, kChangedTogether, workers,
+                 [&](Trial& trial, std::uint32_t, PoseCost& own) { place(trial, grid, own); });
   const double distinct = kNearDistinct * params_.distinct;
   trials = most_promising(std::move(trials), params_.near_survivors, distinct);
   for_each_trial(trials, cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& own) {

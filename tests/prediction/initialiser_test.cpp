@@ -13,6 +13,12 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint64_t kSeed = 7;
 
+void expect_equal(const std::vector<StartCandidate>& a, const std::vector<StartCandidate>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
+}
+
 class InitialiserTest : public testing::Test {
  protected:
   void SetUp() override { use(test::adult_hand()); }
@@ -76,10 +82,7 @@ TEST_F(InitialiserTest, TheSameSeedGivesTheSamePosesOnAnyNumberOfCores) {
   const auto a = initialiser_->propose(*observation, Effort::quick, kSeed, workers_);
   const auto b = initialiser_->propose(*observation, Effort::quick, kSeed, three);
   const auto other = initialiser_->propose(*observation, Effort::quick, kSeed + 1, workers_);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
-  }
+  expect_equal(a, b);
   ASSERT_FALSE(other.empty());
   EXPECT_NE(a[0].cost, other[0].cost);
 }
@@ -120,9 +123,8 @@ TEST_F(InitialiserTest, NearAFollowedPoseTheSameSeedGivesTheSamePosesOnAnyNumber
   Workers three(3);
   const auto a = initialiser_->propose_near(*observation, truth, kSeed, workers_);
   const auto b = initialiser_->propose_near(*observation, truth, kSeed, three);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
+  ASSERT_FALSE(a.empty());
+  expect_equal(a, b);
 }
 
 TEST_F(InitialiserTest, ProposesNothingWithoutAHand) {
