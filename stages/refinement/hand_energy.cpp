@@ -26,6 +26,7 @@ class DataTerm {
         outside_{scale_sq(p.silhouette_scale, widening), scale_sq(p.silhouette_gate, widening),
                  information(p, p.weight_outside)},
         unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
+        tangential_(static_cast<float>(std::clamp(widening - 1, 0.0, 1.0))),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
   /// The residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out. Calls
@@ -40,17 +41,35 @@ class DataTerm {
       use(c.normal, along, share * surface_.weight(distance_sq));
       return share * surface_.energy(distance_sq);
     }
-    // Outside: the silhouette says nothing about depth. Unexplained: the data is a point of the skin.
-    const Robust& robust = c.kind == Kind::outside ? outside_ : unexplained_;
-    const int axes = c.kind == Kind::outside ? 2 : 3;
-    const float distance_sq = r.head(axes).squaredNorm();
-    if (distance_sq > robust.gate_sq) return 0;
-    const float weight = share * robust.weight(distance_sq);
-    for (int axis = 0; axis < axes; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], weight);
-    return share * robust.energy(distance_sq);
+    return c.kind == Kind::outside ? add_outside(r, share, use) : add_unexplained(r, c.normal, share, use);
   }
 
  private:
+  // The silhouette says nothing about depth.
+  template <class Use>
+  double add_outside(const Vector3f& r, float share, const Use& use) const {
+    const float distance_sq = r.head<2>().squaredNorm();
+    if (distance_sq > outside_.gate_sq) return 0;
+    const float weight = share * outside_.weight(distance_sq);
+    for (int axis = 0; axis < 2; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], weight);
+    return share * outside_.energy(distance_sq);
+  }
+
+  // The data is a point of the skin, and at first the model's is pulled to it. Most such data lies beside a silhouette,
+  // where the surface turns away, millimetres deeper than the model's last cell however well that fits: what remains
+  // of the pull in the end is the part across the surface.
+  template <class Use>
+  double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
+    if (r.squaredNorm() > unexplained_.gate_sq) return 0;
+    const float along = normal.dot(r), across_share = 1 - tangential_;
+    const float distance_sq = across_share * sq(along) + tangential_ * r.squaredNorm();
+    const float weight = share * unexplained_.weight(distance_sq);
+    use(normal, along, across_share * weight);
+    if (tangential_ > 0)
+      for (int axis = 0; axis < 3; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], tangential_ * weight);
+    return share * unexplained_.energy(distance_sq);
+  }
+
   // Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
   struct Robust {
     float scale_sq, gate_sq, information;
@@ -65,6 +84,7 @@ class DataTerm {
   }
 
   Robust surface_, outside_, unexplained_;
+  float tangential_;  // share of the pull along the surface
   float palm_trust_;
 };
 

@@ -50,9 +50,9 @@ void visit(V& v, EnergyParams& p) {
 }
 
 /// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
-/// correspondence pulls along the model's normal, a silhouette one in the image plane (and in depth where data is
-/// unexplained). Adds to `tree`, and what the residuals say about the shape to `shape`, which needs normals in the
-/// comparison; returns the robust energy.
+/// correspondence pulls along the model's normal, model outside the data in the image plane, unexplained data in all
+/// directions while `widening` is 2, along the normal alone at 1. Needs the comparison's normals. Adds to `tree`, and
+/// what the residuals say about the shape to `shape`; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, double widening, GaussianTree& tree, ShapeMoments* shape = nullptr);
 
