@@ -7,7 +7,8 @@ namespace barehand {
 namespace {
 
 constexpr std::size_t kFewestColours = 30;  // fewer pixels say nothing about a distribution
-constexpr float kOddsLimit = 4.f;           // no single pixel may outvote its whole neighbourhood
+constexpr double kLeastSpread = 0.35;       // of skin's log brightness: it may turn into the shade at any time
+constexpr double kUsualSpread = 2;          // standard deviations below the mean that say nothing
 
 /// Generic densities over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of fingertips
 /// and of shaded folds. Everything else scatters around grey.
@@ -58,9 +59,30 @@ void SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& co
 
 void SkinModel::learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& other) {
   if (rate_ <= 0) return;
+  const double known = skin_mass_;
   add(skin_, skin_mass_, skin, rate_, *this);
+  if (skin_mass_ != known) learn_brightness(skin);
   add(other_, other_mass_, other, rate_, *this);
   rebuild();
+}
+
+void SkinModel::learn_brightness(const std::vector<Rgb>& skin) {
+  double sum = 0, sum_sq = 0;
+  for (const Rgb& c : skin) {
+    const double x = std::log(std::max({1, int{c.r}, int{c.g}, int{c.b}}));
+    sum += x;
+    sum_sq += x * x;
+  }
+  const double count = static_cast<double>(skin.size());
+  brightness_ += rate_ * (sum / count - brightness_);
+  brightness_sq_ += rate_ * (sum_sq / count - brightness_sq_);
+  const double mean = brightness_ / skin_mass_, variance = brightness_sq_ / skin_mass_ - mean * mean;
+  const double spread = std::max(kLeastSpread, std::sqrt(std::max(0.0, variance)));
+  for (int i = 1; i < 256; ++i) {
+    const double below = std::max(0.0, (mean - std::log(i)) / spread);
+    const double odds = -0.5 * std::max(0.0, below * below - kUsualSpread * kUsualSpread);
+    too_dark_[i] = static_cast<float>(skin_mass_ * std::max(odds, -2.0 * kOddsLimit));  // whatever its chroma says
+  }
 }
 
 void SkinModel::rebuild() {

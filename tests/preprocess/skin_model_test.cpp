@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace barehand {
 namespace {
 
@@ -27,6 +29,21 @@ TEST(SkinModel, LearnsToTellAWoodenObjectFromThisSkin) {
   for (int frame = 0; frame < 20; ++frame) model.learn(std::vector<Rgb>(200, skin), std::vector<Rgb>(200, wood));
   EXPECT_LT(model.log_odds(wood), -0.4f);
   EXPECT_GT(model.log_odds(skin), 0.4f);
+}
+
+TEST(SkinModel, WhatIsMuchDarkerThanThisSkinIsSomethingElse) {
+  SkinModel model(0.1, 0.85);
+  const auto shade = [](double share) {
+    const auto channel = [share](double full) { return static_cast<std::uint8_t>(std::lround(share * full)); };
+    return Rgb{channel(205), channel(150), channel(128)};
+  };
+  ASSERT_GT(model.log_odds(shade(0.2)), 0.4f);  // as dark a skin may come yet
+  std::vector<Rgb> skin;
+  for (int i = 0; i < 200; ++i) skin.push_back(shade(0.7 + 0.3 * i / 200));
+  for (int frame = 0; frame < 20; ++frame) model.learn(skin, {});
+  EXPECT_LT(model.log_odds(shade(0.2)), -0.4f);
+  EXPECT_GT(model.log_odds(shade(0.5)), 0.4f);  // the shade of an object
+  EXPECT_EQ(model.log_odds(Rgb{}), 0.f);        // no colour
 }
 
 TEST(SkinModel, SkinSeenAlsoElsewhereStaysUndecidedRatherThanLost) {
