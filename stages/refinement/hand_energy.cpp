@@ -21,12 +21,12 @@ float sq(float x) { return x * x; }
 
 class DataTerm {
  public:
-  DataTerm(const EnergyParams& p, double widening)
+  DataTerm(const EnergyParams& p, double widening, double tangential)
       : surface_{scale_sq(p.robust_scale, widening), scale_sq(p.gate, widening), information(p, 1)},
         outside_{scale_sq(p.silhouette_scale, widening), scale_sq(p.silhouette_gate, widening),
                  information(p, p.weight_outside)},
         unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
-        tangential_(static_cast<float>(std::clamp(widening - 1, 0.0, 1.0))),
+        tangential_(static_cast<float>(tangential)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
   /// The residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out. Calls
@@ -55,9 +55,8 @@ class DataTerm {
     return share * outside_.energy(distance_sq);
   }
 
-  // The data is a point of the skin, and at first the model's is pulled to it. Most such data lies beside a silhouette,
-  // where the surface turns away, millimetres deeper than the model's last cell however well that fits: what remains
-  // of the pull in the end is the part across the surface.
+  // The data is a point of the skin. Most of it lies beside a silhouette, where the surface turns away, millimetres
+  // deeper than the model's last cell however well that fits: there the pull along the surface misleads.
   template <class Use>
   double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
     if (r.squaredNorm() > unexplained_.gate_sq) return 0;
@@ -91,8 +90,9 @@ class DataTerm {
 }  // namespace
 
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
-                      const EnergyParams& params, double widening, GaussianTree& tree, ShapeMoments* shape) {
-  const DataTerm term(params, widening);
+                      const EnergyParams& params, double widening, double tangential, GaussianTree& tree,
+                      ShapeMoments* shape) {
+  const DataTerm term(params, widening, tangential);
   ResidualMoments sums(pose);
   double total = 0;
   for (const Correspondence& c : comparison.correspondences) {

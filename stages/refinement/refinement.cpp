@@ -47,7 +47,9 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
                       Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
   refined.evidence.set_zero();
-  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, refined.evidence);
+  // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
+  const double tangential = profile_->origin == ProfileOrigin::measured ? std::clamp(widening - 1, 0.0, 1.0) : 1;
+  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, tangential, refined.evidence);
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
@@ -110,7 +112,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   energy.palm_trust = kShapePalmTrust;
   ShapeMoments moments;
   moments.reset(pose, skin_->vertices.size());
-  add_data_terms(*skin_, pose, work->comparison, energy, 1, tree, &moments);
+  add_data_terms(*skin_, pose, work->comparison, energy, 1, 0, tree, &moments);
   add_joint_terms(*profile_, limits_, pose, energy, tree);
   add_prior_terms(*profile_, pose, freedom(judged), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
