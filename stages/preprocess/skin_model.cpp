@@ -40,7 +40,7 @@ SkinModel::SkinModel(double rate, double share) : rate_(rate), share_(share) {
   rebuild();
 }
 
-void SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
+bool SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
                     const SkinModel& model) {
   Histogram fresh{};
   double total = 0;
@@ -50,18 +50,17 @@ void SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& co
     fresh[model.bin(c)] += weight;
     total += weight;
   }
-  if (total < kFewestColours) return;
+  if (total < kFewestColours) return false;
   const float scale = static_cast<float>(rate / total);
   for (std::size_t i = 0; i < learned.size(); ++i)
     learned[i] = static_cast<float>(1 - rate) * learned[i] + scale * fresh[i];
   mass = (1 - rate) * mass + rate;
+  return true;
 }
 
 void SkinModel::learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& other) {
   if (rate_ <= 0) return;
-  const double known = skin_mass_;
-  add(skin_, skin_mass_, skin, rate_, *this);
-  if (skin_mass_ != known) learn_brightness(skin);
+  if (add(skin_, skin_mass_, skin, rate_, *this)) learn_brightness(skin);
   add(other_, other_mass_, other, rate_, *this);
   rebuild();
 }

@@ -45,7 +45,8 @@ class SkinModel {
     const int blue = (log_[c.b] - log_[c.g] + kBlueOffset) / kFraction;
     return std::clamp(blue, 0, kBins - 1) * kBins + std::clamp(red, 0, kBins - 1);
   }
-  static void add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
+  /// False: too few colours.
+  static bool add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
                   const SkinModel& model);
   void learn_brightness(const std::vector<Rgb>& skin);
   void rebuild();

@@ -46,6 +46,15 @@ TEST(SkinModel, WhatIsMuchDarkerThanThisSkinIsSomethingElse) {
   EXPECT_EQ(model.log_odds(Rgb{}), 0.f);        // no colour
 }
 
+TEST(SkinModel, FollowsTheLightHoweverLongItHasLearned) {
+  SkinModel model(0.1, 0.85);
+  const Rgb day{205, 150, 128}, dusk{41, 30, 26};
+  for (int frame = 0; frame < 2000; ++frame) model.learn(std::vector<Rgb>(200, day), {});
+  ASSERT_LT(model.log_odds(dusk), -0.4f);
+  for (int frame = 0; frame < 60; ++frame) model.learn(std::vector<Rgb>(200, dusk), {});
+  EXPECT_GT(model.log_odds(dusk), 0.4f);
+}
+
 TEST(SkinModel, SkinSeenAlsoElsewhereStaysUndecidedRatherThanLost) {
   SkinModel model(0.1, 0.85);
   const Rgb skin{205, 150, 128};
