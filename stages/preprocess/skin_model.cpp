@@ -45,7 +45,7 @@ bool SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& co
   Histogram fresh{};
   double total = 0;
   for (const Rgb& c : colours) {
-    const float weight = model.trust_[std::max({c.r, c.g, c.b})];
+    const float weight = model.trust_[brightest_of(c)];
     if (std::min({c.r, c.g, c.b}) >= kOverexposed) continue;
     fresh[model.bin(c)] += weight;
     total += weight;
@@ -68,7 +68,7 @@ void SkinModel::learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& othe
 void SkinModel::learn_brightness(const std::vector<Rgb>& skin) {
   double sum = 0, sum_sq = 0;
   for (const Rgb& c : skin) {
-    const double x = std::log(std::max({1, int{c.r}, int{c.g}, int{c.b}}));
+    const double x = std::log(std::max(brightest_of(c), 1));
     sum += x;
     sum_sq += x * x;
   }

@@ -19,7 +19,7 @@ class SkinModel {
 
   /// log p(colour | skin) - log p(colour | other), damped for dark and overexposed pixels; 0 = no evidence.
   float log_odds(Rgb c) const {
-    const int brightest = c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b);
+    const int brightest = brightest_of(c);
     const int darkest = c.r < c.g ? (c.r < c.b ? c.r : c.b) : (c.g < c.b ? c.g : c.b);
     if (darkest >= kOverexposed) return 0.f;
     return std::max(-kOddsLimit, trust_[brightest] * odds_[bin(c)] + too_dark_[brightest]);
@@ -38,6 +38,7 @@ class SkinModel {
   static constexpr int kFraction = 64;        // fixed-point steps per bin
   static constexpr double kRedStart = -0.6;   // log R/G of the first bin's lower edge
   static constexpr double kBlueStart = -1.5;  // log B/G
+  static int brightest_of(Rgb c) { return c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b); }
   int bin(Rgb c) const {
     constexpr int kRedOffset = static_cast<int>(-kRedStart / kBinWidth * kFraction + 0.5);
     constexpr int kBlueOffset = static_cast<int>(-kBlueStart / kBinWidth * kFraction + 0.5);

@@ -29,8 +29,8 @@ class DataTerm {
         tangential_(static_cast<float>(tangential)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
-  /// The residual model - data in its one direction or two or three; returns the energy, 0 if it is gated out. Calls
-  /// `use(direction, residual, information)` for each.
+  /// Calls `use(direction, residual, information)` with the residual model - data in every direction that counts, up to
+  /// four of them; returns the energy, 0 if it is gated out.
   template <class Use>
   double add(const Correspondence& c, const SkinVertex& v, const Use& use) const {
     const Vector3f r = c.model - c.data;

@@ -40,6 +40,13 @@ class EnergyTest : public ::testing::Test {
     return comparison;
   }
 
+  GaussianTree data_terms(const ModelComparison& comparison, double tangential) const {
+    GaussianTree tree;
+    tree.set_zero();
+    add_data_terms(skin_, pose_, comparison, params_, 1, tangential, tree);
+    return tree;
+  }
+
   // Energy with the evidence's model points carried along by the skin.
   double data_energy(ModelComparison comparison, const HandPose& pose, double tangential) const {
     for (Correspondence& c : comparison.correspondences) {
@@ -79,9 +86,7 @@ class EnergyTest : public ::testing::Test {
 TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
   const ModelComparison comparison = evidence();
   for (const double tangential : {0.0, 0.4, 1.0}) {
-    GaussianTree tree;
-    tree.set_zero();
-    add_data_terms(skin_, pose_, comparison, params_, 1, tangential, tree);
+    GaussianTree tree = data_terms(comparison, tangential);
     const auto energy = [&](const HandPose& pose) { return data_energy(comparison, pose, tangential); };
     EXPECT_LT(gradient_error(energy, tree, 2e-4), 0.02) << tangential;  // single-precision points bound the accuracy
     tree.g[segment_of(1, 1)] *= 0.5;
@@ -95,9 +100,7 @@ TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
   std::erase_if(comparison.correspondences, [](const Correspondence& c) { return c.kind != Kind::unexplained; });
   for (Correspondence& c : comparison.correspondences) c.data = c.model + 0.004f * c.normal.unitOrthogonal();
   const auto pull = [&](double tangential) {
-    GaussianTree tree;
-    tree.set_zero();
-    add_data_terms(skin_, pose_, comparison, params_, 1, tangential, tree);
+    const GaussianTree tree = data_terms(comparison, tangential);
     double sum = 0;
     for (const Vector6d& g : tree.g) sum += g.norm();
     return sum;
@@ -110,10 +113,7 @@ TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
 TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
   const auto information = [&](double palm_trust) {
     params_.palm_trust = palm_trust;
-    GaussianTree tree;
-    tree.set_zero();
-    add_data_terms(skin_, pose_, evidence(), params_, 1, 1, tree);
-    return tree;
+    return data_terms(evidence(), 1);
   };
   const GaussianTree equal = information(1), trusted_less = information(0.1);
   const int tip = segment_of(2, 2), thumb_root = segment_of(0, 0);
