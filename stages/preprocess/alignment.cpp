@@ -23,32 +23,77 @@ struct Silhouette {
   float total = 0;
 };
 
-struct Projected {
-  Eigen::Vector2f a, b;
-  float za, zb, radius, pixel_radius;
+/// A capsule in the image.
+struct Rod {
+  Eigen::Vector2f a, axis;  ///< one end and the way to the other [pixels]
+  float inverse_length_sq, za, dz, radius, pixel_radius;
 };
 
 Eigen::Vector2f project(const Intrinsics& camera, const Eigen::Vector3f& p) {
   return camera.project(p.cast<double>()).cast<float>();
 }
 
-Silhouette draw(const PredictedHand& hand, const Intrinsics& camera) {
-  std::vector<Projected> rods;
+/// Where the nearest rod is, for the pixels of a row.
+struct RowOfDistances {
+  std::vector<float> distance;  ///< from its outline [pixels]; beyond `border` perhaps too much
+  std::vector<float> z;         ///< of its skin [m]
+
+  void reset(int width) {
+    distance.assign(width, INFINITY);
+    z.assign(width, 0);
+  }
+  /// The row's first pixel is at (u0, v); what is farther than `border` pixels does not matter.
+  void add(const Rod& rod, float u0, float v, float border) {
+    const float reach = rod.pixel_radius + border, y = v - rod.a.y(), other_y = y - rod.axis.y();
+    if (std::min(y, other_y) > reach || std::max(y, other_y) < -reach) return;
+    const float low = rod.a.x() + std::min(rod.axis.x(), 0.f) - reach - u0;
+    const float high = rod.a.x() + std::max(rod.axis.x(), 0.f) + reach - u0;
+    const int begin = std::max(0, static_cast<int>(low));
+    const int end = std::min(static_cast<int>(distance.size()), static_cast<int>(high) + 1);
+    const float ax = rod.axis.x(), ay = rod.axis.y(), start = u0 - rod.a.x();
+    float *nearest = distance.data(), *skin = z.data();
+    for (int u = begin; u < end; ++u) {
+      const float x = start + static_cast<float>(u);
+      float t = (x * ax + y * ay) * rod.inverse_length_sq;
+      t = t < 0.f ? 0.f : t;
+      t = t > 1.f ? 1.f : t;
+      const float ex = x - t * ax, ey = y - t * ay;
+      const float d = std::sqrt(ex * ex + ey * ey) - rod.pixel_radius, depth = rod.za + t * rod.dz - rod.radius;
+      const bool nearer = d < nearest[u];
+      skin[u] = nearer ? depth : skin[u];
+      nearest[u] = nearer ? d : nearest[u];
+    }
+  }
+};
+
+/// Draws silhouettes; keeps its allocations.
+class Drawer {
+ public:
+  /// Nothing (total = 0) of a hand that is too near or far outside the image.
+  void draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out);
+
+ private:
+  std::vector<Rod> rods_;
+  RowOfDistances row_;
+};
+
+void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out) {
+  out.total = 0;
+  rods_.clear();
   const float depth = std::max(0.05f, hand.centre().z());
   const float per_metre = static_cast<float>(camera.fx) / depth;
   Eigen::Vector2f low(1e6f, 1e6f), high(-1e6f, -1e6f);
   for (const Capsule& c : hand.capsules()) {
     if (c.a.z() < 0.05f || c.b.z() < 0.05f) continue;
-    rods.push_back({project(camera, c.a), project(camera, c.b), c.a.z(), c.b.z(), c.radius, c.radius * per_metre});
-    for (const Eigen::Vector2f& p : {rods.back().a, rods.back().b}) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    const Eigen::Vector2f a = project(camera, c.a), b = project(camera, c.b), axis = b - a;
+    rods_.push_back(
+        {a, axis, 1 / std::max(axis.squaredNorm(), 1e-6f), c.a.z(), c.b.z() - c.a.z(), c.radius, c.radius * per_metre});
+    low = low.cwiseMin(a).cwiseMin(b);
+    high = high.cwiseMax(a).cwiseMax(b);
   }
-  Silhouette out;
   const float border = (kRing + 0.02f) * per_metre;
   const int limit = 2 * (camera.width + camera.height);
-  if (rods.empty() || !(high - low).allFinite() || (high - low).maxCoeff() > static_cast<float>(limit)) return out;
+  if (rods_.empty() || !(high - low).allFinite() || (high - low).maxCoeff() > static_cast<float>(limit)) return;
   out.u0 = static_cast<int>(std::floor(low.x() - border));
   out.v0 = static_cast<int>(std::floor(low.y() - border));
   const int width = static_cast<int>(high.x() + border) - out.u0 + 1;
@@ -57,26 +102,20 @@ Silhouette draw(const PredictedHand& hand, const Intrinsics& camera) {
   out.z.reset(width, height);
   const Eigen::Vector2f wrist = project(camera, hand.wrist());
   const Eigen::Vector2f arm = project(camera, hand.wrist() + 0.02f * hand.arm_axis()) - wrist;
-  for (int v = 0; v < height; ++v)
+  for (int v = 0; v < height; ++v) {
+    row_.reset(width);
+    for (const Rod& rod : rods_)
+      row_.add(rod, static_cast<float>(out.u0), static_cast<float>(v + out.v0), kRing * per_metre);
     for (int u = 0; u < width; ++u) {
+      const float metres = row_.distance[u] / per_metre;
       const Eigen::Vector2f p(static_cast<float>(u + out.u0), static_cast<float>(v + out.v0));
-      float nearest = INFINITY, z = 0;
-      for (const Projected& rod : rods) {
-        const Eigen::Vector2f axis = rod.b - rod.a;
-        const float t = std::clamp((p - rod.a).dot(axis) / std::max(axis.squaredNorm(), 1e-6f), 0.f, 1.f);
-        const float d = (p - rod.a - t * axis).norm() - rod.pixel_radius;
-        if (d >= nearest) continue;
-        nearest = d;
-        z = rod.za + t * (rod.zb - rod.za) - rod.radius;
-      }
-      const float metres = nearest / per_metre;
       if (metres > kRing || (metres > 0 && (p - wrist).dot(arm) > 0)) continue;
       const float weight = std::clamp(1.f - metres / kBlur * (1.f - kOutside), kOutside, 1.f);
       out.weight.at(u, v) = weight;
-      out.z.at(u, v) = z;
+      out.z.at(u, v) = row_.z[u];
       out.total += std::max(weight, 0.f);
     }
-  return out;
+  }
 }
 
 /// What the silhouette is laid over: cells that may be hand, and cells where a hand may be hidden.
@@ -107,11 +146,11 @@ struct Shift {
   float score = -INFINITY;
 };
 
-/// Best shift within +-range around (du, dv); short motions win ties.
-Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, float free_range) {
+/// Best shift within +-range around (du, dv), in steps; short motions win ties.
+Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, int step, float free_range) {
   Shift best;
-  for (int y = dv - range; y <= dv + range; ++y)
-    for (int x = du - range; x <= du + range; ++x) {
+  for (int y = dv - range; y <= dv + range; y += step)
+    for (int x = du - range; x <= du + range; x += step) {
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
       const float score = overlap(shape, scene, x, y) / shape.total - kMotionCost * motion;
       if (score > best.score) best = {x, y, score};
@@ -119,42 +158,56 @@ Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int ra
   return best;
 }
 
-Image<float> blocks_of(const Image<float>& cells) {
-  Image<float> blocks((cells.width() + kBlock - 1) / kBlock, (cells.height() + kBlock - 1) / kBlock);
+void average_blocks(const Image<float>& cells, Image<float>& blocks) {
+  blocks.reset((cells.width() + kBlock - 1) / kBlock, (cells.height() + kBlock - 1) / kBlock);
   for (int v = 0; v < cells.height(); ++v)
     for (int u = 0; u < cells.width(); ++u)
       blocks.at(u / kBlock, v / kBlock) += cells.at(u, v) / static_cast<float>(kBlock * kBlock);
-  return blocks;
 }
 
 }  // namespace
 
-std::optional<Eigen::Vector3f> align_translation(const PredictedHand& hand, const CoarseGrid& grid,
-                                                 const Image<std::uint8_t>& mask, double reach) {
+struct TranslationSearch::Buffers {
+  Drawer drawer;
+  Scene scene, blocks;
+  Silhouette fine, rough;
+  std::vector<float> steps;
+};
+
+TranslationSearch::TranslationSearch() : buffers_(std::make_unique<Buffers>()) {}
+TranslationSearch::~TranslationSearch() = default;
+
+std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand, const CoarseGrid& grid,
+                                                       const Image<std::uint8_t>& mask, double reach) {
+  auto& [drawer, scene, blocks, fine, rough, steps] = *buffers_;
   const Intrinsics& camera = grid.camera;
   const float z0 = hand.centre().z();
   if (!(z0 > 0.05f)) return std::nullopt;
   // Towards the camera a hand moves less than across, and what is far from its depth is something else.
   const float depth_gate = 0.10f + 0.4f * static_cast<float>(reach);
-  Scene scene{Image<float>(mask.width(), mask.height()), Image<float>(mask.width(), mask.height())};
+  scene.hand.reset(mask.width(), mask.height());
+  scene.possible.reset(mask.width(), mask.height());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const float z = grid.z[i];
     scene.hand[i] = mask[i] && std::abs(z - z0) < depth_gate ? 1.f : 0.f;
     scene.possible[i] = scene.hand[i] > 0 ? 1.f : z > 0 && z < z0 ? kHidden : 0.f;
   }
-  const Scene blocks{blocks_of(scene.hand), blocks_of(scene.possible)};
+  average_blocks(scene.hand, blocks.hand);
+  average_blocks(scene.possible, blocks.possible);
   const double s = kBlock, half = (s - 1) / 2;
   const Intrinsics block_camera{blocks.hand.width(), blocks.hand.height(),   camera.fx / s,
                                 camera.fy / s,       (camera.cx - half) / s, (camera.cy - half) / s};
-  const Silhouette rough = draw(hand, block_camera), fine = draw(hand, camera);
+  drawer.draw(hand, block_camera, rough);
+  drawer.draw(hand, camera, fine);
   if (rough.total <= 0 || fine.total <= 0) return std::nullopt;
   const float range = std::min(static_cast<float>(reach * camera.fx) / z0, static_cast<float>(camera.width));
   const int block_range = static_cast<int>(std::ceil(range / kBlock));
-  const Shift block = search(rough, blocks, 0, 0, block_range, range / kBlock);
-  const Shift cell = search(fine, scene, block.du * kBlock, block.dv * kBlock, kBlock, range);
+  const Shift block = search(rough, blocks, 0, 0, block_range, 1, range / kBlock);
+  const Shift near = search(fine, scene, block.du * kBlock, block.dv * kBlock, kBlock, 2, range);
+  const Shift cell = search(fine, scene, near.du, near.dv, 1, 1, range);
   if (cell.score < kLeastScore) return std::nullopt;
 
-  std::vector<float> steps;
+  steps.clear();
   for (int v = 0; v < fine.weight.height(); ++v)
     for (int u = 0; u < fine.weight.width(); ++u) {
       const int x = u + fine.u0 + cell.du, y = v + fine.v0 + cell.dv;

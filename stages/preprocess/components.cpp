@@ -20,8 +20,8 @@ std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
 void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Components& out) {
   const int width = mask.width(), height = mask.height();
   out.id.reset(width, height, -1);
-  std::vector<std::int32_t> parent;
-  parent.reserve(1024);
+  std::vector<std::int32_t>& parent = out.parent;
+  parent.clear();
   const int du[4] = {-1, -1, 0, 1}, dv[4] = {0, -1, -1, -1};
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
@@ -38,12 +38,12 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
       if (own < 0) parent.push_back(own = static_cast<std::int32_t>(parent.size()));
       out.id.at(u, v) = own;
     }
-  std::vector<std::int32_t> index(parent.size(), -1);
+  out.part_of_root.assign(parent.size(), -1);
   out.parts.clear();
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       if (out.id.at(u, v) < 0) continue;
-      std::int32_t& i = index[root(parent, out.id.at(u, v))];
+      std::int32_t& i = out.part_of_root[root(parent, out.id.at(u, v))];
       if (i < 0) {
         i = static_cast<std::int32_t>(out.parts.size());
         out.parts.push_back({.nearest = grid.z.at(u, v)});

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/preprocess/alignment.h"
-
 namespace barehand {
 namespace {
 
@@ -99,7 +97,7 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
   movable_.reset(grid.z.width(), grid.z.height());
   for (std::size_t i = 0; i < movable_.size(); ++i)
     movable_[i] = candidates_[i] && surfaces_.parts[surfaces_.id[i]].area < params_.max_hand_area;
-  if (const auto step = align_translation(hand, grid, movable_, reach)) return step;
+  if (const auto step = translation_.find(hand, grid, movable_, reach)) return step;
   // The hand may touch such a surface: then it is looked for close by only.
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -108,7 +106,7 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
       movable_.at(u, v) = (p - hand.centre()).squaredNorm() < kSearchRadius * kSearchRadius &&
                           hand.distance(p) < static_cast<float>(kCloseBy);
     }
-  return align_translation(hand, grid, movable_, std::min(reach, kCloseBy));
+  return translation_.find(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
 bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_age, CoarseHand& hand) {
@@ -117,10 +115,7 @@ bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_
   body.translate(*step);
   const float margin = static_cast<float>(params_.wrist_margin);
 
-  struct Share {
-    int on_model = 0, off_model = 0;  // cells near the hand
-  };
-  std::vector<Share> share(surfaces_.parts.size());
+  shares_.assign(surfaces_.parts.size(), {});
   hand.distance.reset(grid.z.width(), grid.z.height(), INFINITY);
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -129,13 +124,13 @@ bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_
       const Eigen::Vector3f p = grid.point(u, v);
       if ((p - body.centre()).squaredNorm() > kSearchRadius * kSearchRadius || body.behind_wrist(p) > margin) continue;
       const float d = hand.distance.at(u, v) = body.distance(p);
-      share[id].on_model += d < kOnModel;
-      share[id].off_model += d > kLeakReach;
+      shares_[id].on_model += d < kOnModel;
+      shares_[id].off_model += d > kLeakReach;
     }
   for (std::size_t i = 0; i < hand.distance.size(); ++i) {
     const std::int32_t id = surfaces_.id[i];
     if (id < 0 || std::isinf(hand.distance[i])) continue;
-    const Share& own = share[id];
+    const Share& own = shares_[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));

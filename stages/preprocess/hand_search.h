@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "stages/preprocess/alignment.h"
 #include "stages/preprocess/components.h"
 #include "stages/preprocess/predicted_hand.h"
 #include "stages/preprocess/wrist.h"
@@ -38,10 +39,17 @@ class HandSearch {
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;
 
+  /// Cells of a surface near a followed hand.
+  struct Share {
+    int on_model = 0, off_model = 0;
+  };
+
   PreprocessParams params_;
   Image<std::uint8_t> all_candidates_, candidates_, movable_;
   CandidateFinder finder_;
+  TranslationSearch translation_;
   Components surfaces_;
+  std::vector<Share> shares_;  // of every surface
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> hints_;
 };

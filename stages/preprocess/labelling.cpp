@@ -79,20 +79,54 @@ void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, 
   }
 }
 
-bool HandMask::supported(int u, int v, float z) const {
-  return z > lowest_.at(column_[u], row_[v]) && z < highest_.at(column_[u], row_[v]);
+void HandMask::find_supported(const Image<float>& depth) {
+  const int width = depth.width(), height = depth.height();
+  supported_.reset(width, height);
+  low_.resize(width);
+  high_.resize(width);
+  for (int v = 0; v < height; ++v) {
+    if (v == 0 || row_[v] != row_[v - 1])
+      for (int u = 0; u < width; ++u) {
+        low_[u] = lowest_.at(column_[u], row_[v]);
+        high_[u] = highest_.at(column_[u], row_[v]);
+      }
+    const float *z = depth.row(v), *low = low_.data(), *high = high_.data();
+    std::uint8_t* supported = supported_.row(v);
+    for (int u = 0; u < width; ++u) supported[u] = (z[u] > low[u]) & (z[u] < high[u]);
+  }
 }
 
-Evidence HandMask::judge(bool possible, int u, int v) const {
-  if (edges_.at<std::uint8_t>(v, u)) return Evidence::open;
-  if (!possible) return Evidence::other;
-  const float present = present_.at<float>(v, u), own = own_odds_.at<float>(v, u);
-  if (present < 0.5f || own == 0.f) return Evidence::open;
-  const float mean = odds_.at<float>(v, u) / present;
-  // Beside a colour border the mean alone would take a strip of one side for the other.
-  if (mean > static_cast<float>(params_.skin_odds) && own > 0) return Evidence::hand;
-  const float other = -static_cast<float>(params_.other_odds);
-  return mean < other && own < other ? Evidence::other : Evidence::open;
+void HandMask::judge_depth(const Image<float>& depth) {
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    evidence_[i] = depth[i] <= 0 ? Evidence::none : (supported_[i] ? Evidence::hand : Evidence::other);
+}
+
+void HandMask::judge_colour(const Image<float>& depth) {
+  constexpr auto kNone = static_cast<std::int32_t>(Evidence::none), kHand = static_cast<std::int32_t>(Evidence::hand),
+                 kOther = static_cast<std::int32_t>(Evidence::other), kOpen = static_cast<std::int32_t>(Evidence::open);
+  const float least_skin = static_cast<float>(params_.skin_odds), most_other = -static_cast<float>(params_.other_odds);
+  const int width = depth.width();
+  judged_.resize(width);
+  for (int v = 0; v < depth.height(); ++v) {
+    const float *z = depth.row(v), *sum = odds_.ptr<float>(v), *present = present_.ptr<float>(v),
+                *own = own_odds_.ptr<float>(v);
+    const std::uint8_t *edge = edges_.ptr<std::uint8_t>(v), *supported = supported_.row(v);
+    std::int32_t* judged = judged_.data();
+    for (int u = 0; u < width; ++u) {  // everything is computed before it is chosen from: it vectorises
+      const float mean = sum[u] / present[u];
+      const bool asked = (present[u] >= 0.5f) & (own[u] != 0.f);
+      // Beside a colour border the mean alone would take a strip of one side for the other.
+      const bool skin = asked & (mean > least_skin) & (own[u] > 0),
+                 other = asked & (mean < most_other) & (own[u] < most_other);
+      std::int32_t e = other ? kOther : kOpen;
+      e = skin ? kHand : e;
+      e = supported[u] ? e : kOther;
+      e = edge[u] ? kOpen : e;
+      judged[u] = z[u] > 0 ? e : kNone;
+    }
+    Evidence* evidence = evidence_.row(v);
+    for (int u = 0; u < width; ++u) evidence[u] = static_cast<Evidence>(judged[u]);
+  }
 }
 
 void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
@@ -100,41 +134,38 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
                        Image<std::uint8_t>& mask) {
   tabulate(frame.camera, grid, region);
   support(grid, hand);
+  find_supported(depth);
+  evidence_.reset(region.width, region.height, Evidence::none);
   if (grid.coloured) {
     colour_evidence(frame, skin, region);
     const cv::Mat edges(region.height, region.width, CV_8U, const_cast<std::uint8_t*>(edge.data()));
     const int side = 2 * params_.skew_px + 1;
     cv::dilate(edges, edges_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  }
-  evidence_.reset(region.width, region.height, Evidence::none);
-  for (int v = 0; v < region.height; ++v)
-    for (int u = 0; u < region.width; ++u) {
-      const float z = depth.at(u, v);
-      if (z <= 0) continue;
-      const bool possible = supported(u, v, z);
-      evidence_.at(u, v) = grid.coloured ? judge(possible, u, v) : (possible ? Evidence::hand : Evidence::other);
-    }
-  if (grid.coloured) {
+    judge_colour(depth);
     const float fx = static_cast<float>(frame.camera.fx);
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
+  } else {
+    judge_depth(depth);
   }
   mask.reset(region.width, region.height);
-  for (int v = 0; v < region.height; ++v)
+  for (int v = 0; v < region.height; ++v) {
+    const Evidence* evidence = evidence_.row(v);
+    const std::uint8_t* supported = supported_.row(v);
     for (int u = 0; u < region.width; ++u) {
-      const Evidence own = evidence_.at(u, v);
-      if (own != Evidence::hand && own != Evidence::open) continue;
-      const float z = depth.at(u, v);
-      if (!supported(u, v, z) || (own == Evidence::open && odds_.at<float>(v, u) < 0)) continue;
-      mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, z)) <= 0;
+      const bool open = evidence[u] == Evidence::open;
+      if (!(supported[u] & (open | (evidence[u] == Evidence::hand)))) continue;
+      if (open && odds_.at<float>(v, u) < 0) continue;
+      mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, depth.at(u, v))) <= 0;
     }
+  }
   remove_specks(frame, depth, mask);
 }
 
-void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, HandObservation& out) {
+void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, PixelRays& rays,
+                  HandObservation& out) {
   out.label.reset(mask.width(), mask.height(), PixelLabel::unknown);
   const float reach_sq = static_cast<float>(reach * reach);
   const float per_pixel_sq = static_cast<float>(1 / (camera.fx * camera.fy));
-  PixelRays rays;
   rays.reset(camera, out.u0, out.v0, mask.width(), mask.height());
   for (int v = 0; v < mask.height(); ++v)
     for (int u = 0; u < mask.width(); ++u) {

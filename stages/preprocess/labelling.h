@@ -24,14 +24,18 @@ class HandMask {
   void tabulate(const Intrinsics& camera, const CoarseGrid& grid, const Region& region);
   void support(const CoarseGrid& grid, const CoarseHand& hand);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
-  bool supported(int u, int v, float z) const;
-  Evidence judge(bool possible, int u, int v) const;
+  void find_supported(const Image<float>& depth);
+  void judge_depth(const Image<float>& depth);
+  void judge_colour(const Image<float>& depth);
   void remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask);
 
   PreprocessParams params_;
   PixelRays rays_;
   std::vector<int> column_, row_;  // of the grid's cell in which a pixel of the region lies
   Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
+  std::vector<float> low_, high_;  // the same along a row of pixels
+  std::vector<std::int32_t> judged_;
+  Image<std::uint8_t> supported_;  // 1 = may be hand as far as depth says
   cv::Mat own_odds_, odds_, present_, edges_, labels_, stats_, centroids_;
   Image<Rgb> colours_;  // of the region
   Image<Evidence> evidence_;
@@ -40,7 +44,8 @@ class HandMask {
 };
 
 /// Names the remaining pixels: object = no hand but within `reach` [m] of the nearest hand pixel, or in front of it;
-/// background = other data; unknown = no data.
-void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, HandObservation& out);
+/// background = other data; unknown = no data. `rays` is scratch.
+void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, PixelRays& rays,
+                  HandObservation& out);
 
 }  // namespace barehand

@@ -94,21 +94,21 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
   }
 }
 
-double measure_noise(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor) {
+double NoiseMeter::measure(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor) {
   constexpr int kSpan = 6;                      // third difference of every second pixel
   constexpr double kToSigma = 1.4826 / 4.4721;  // median absolute value to sigma; sqrt(1 + 9 + 9 + 1)
   constexpr std::size_t kFewest = 50;
-  std::vector<float> differences;
+  differences_.clear();
   for (int v = 0; v < mask.height(); v += 2) {
     const std::uint8_t* hand = mask.row(v);
     const float* z = depth.row(v);
     for (int u = 0; u + kSpan < mask.width(); u += 2)
       if (hand[u] & hand[u + 2] & hand[u + 4] & hand[u + 6])
-        differences.push_back(std::abs(z[u] - 3 * z[u + 2] + 3 * z[u + 4] - z[u + 6]));
+        differences_.push_back(std::abs(z[u] - 3 * z[u + 2] + 3 * z[u + 4] - z[u + 6]));
   }
-  if (differences.size() < kFewest) return floor;
-  const auto middle = differences.begin() + differences.size() / 2;
-  std::nth_element(differences.begin(), middle, differences.end());
+  if (differences_.size() < kFewest) return floor;
+  const auto middle = differences_.begin() + differences_.size() / 2;
+  std::nth_element(differences_.begin(), middle, differences_.end());
   return std::max(floor, kToSigma * *middle);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "observe/observation.h"
 
 namespace barehand {
@@ -16,8 +18,15 @@ class NormalFitter {
   Image<float> padded_;  // depth of the hand pixels alone, with a border
 };
 
-/// 1-sigma depth noise [m] of the hand pixels: median of third differences along the rows, which smooth curvature
-/// does not reach; every second pixel, because sensors correlate neighbours. At least `floor`.
-double measure_noise(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor);
+/// Keeps its allocation.
+class NoiseMeter {
+ public:
+  /// 1-sigma depth noise [m] of the hand pixels: median of third differences along the rows, which smooth curvature
+  /// does not reach; every second pixel, because sensors correlate neighbours. At least `floor`.
+  double measure(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor);
+
+ private:
+  std::vector<float> differences_;
+};
 
 }  // namespace barehand

@@ -90,12 +90,12 @@ void Preprocessor::describe_hand(HandObservation& out) {
     mask_.reset(0, 0);
   }
   transform_.compute(mask_, out.nearest_hand);
-  label_pixels(camera, mask_, params_.object_reach, out);
+  label_pixels(camera, mask_, params_.object_reach, rays_, out);
   object_.reset(mask_.width(), mask_.height());
   for (std::size_t i = 0; i < object_.size(); ++i) object_[i] = out.label[i] == PixelLabel::object;
   transform_.compute(object_, out.nearest_object);
   normals_.fit(mask_, params_.normal_radius, out);
-  out.noise = measure_noise(mask_, out.depth, params_.noise_floor);
+  out.noise = noise_.measure(mask_, out.depth, params_.noise_floor);
   thin_cloud(params_.cloud_points, out);
 }
 

@@ -42,6 +42,8 @@ class Preprocessor {
   DepthCleaner cleaner_;
   NearestPixelTransform transform_;
   NormalFitter normals_;
+  NoiseMeter noise_;
+  PixelRays rays_;  // scratch
   ObservationPool pool_;
   CoarseGrid grid_;
   Image<std::uint8_t> edge_, mask_, object_;

@@ -85,13 +85,14 @@ TEST(NormalFitter, IgnoreWhatLiesBeyondADepthEdge) {
   for (const std::int32_t i : sphere.observation.hand_pixels) ASSERT_LT(sphere.observation.normal[i].z(), -0.999f);
 }
 
-TEST(MeasureNoise, FindsTheNoiseOfACurvedSurface) {
+TEST(NoiseMeter, FindsTheNoiseOfACurvedSurface) {
+  NoiseMeter meter;
   for (const double sigma : {0.0006, 0.0015}) {
     const Sphere sphere(sigma);
-    EXPECT_NEAR(measure_noise(sphere.mask, sphere.observation.depth, 1e-5), sigma, 0.1 * sigma);
+    EXPECT_NEAR(meter.measure(sphere.mask, sphere.observation.depth, 1e-5), sigma, 0.1 * sigma);
   }
   const Sphere exact(0);
-  EXPECT_EQ(measure_noise(exact.mask, exact.observation.depth, 3e-4), 3e-4);
+  EXPECT_EQ(meter.measure(exact.mask, exact.observation.depth, 3e-4), 3e-4);
 }
 
 }  // namespace
