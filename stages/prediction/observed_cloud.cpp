@@ -65,14 +65,15 @@ Eigen::Vector3d ObservedCloud::centroid() const {
   return sum / static_cast<double>(std::max<std::size_t>(1, size()));
 }
 
-std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p) const {
-  assert(!empty());
-  const float query[3] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p, std::size_t guess) const {
+  assert(guess < size());
+  const Eigen::Vector3f query = p.cast<float>();
   std::size_t best = 0;
   float distance_sq = 0;
   nanoflann::KNNResultSet<float> result(1);
   result.init(&best, &distance_sq);
-  index_->tree->findNeighbors(result, query, nanoflann::SearchParams());
+  result.addPoint((index_->points[guess] - query).squaredNorm(), guess);  // only what is nearer is looked at
+  index_->tree->findNeighbors(result, query.data(), nanoflann::SearchParams());
   return best;
 }
 

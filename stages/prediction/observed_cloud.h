@@ -23,8 +23,9 @@ class ObservedCloud {
   /// Unit, towards the camera; zero where undefined.
   Eigen::Vector3d normal(std::size_t i) const;
   Eigen::Vector3d centroid() const;
-  /// Index of the point nearest to `p`. The cloud is not empty.
-  std::size_t nearest(const Eigen::Vector3d& p) const;
+  /// Index of the point nearest to `p`. The cloud is not empty. Any index is a valid guess; a near one saves most of
+  /// the search.
+  std::size_t nearest(const Eigen::Vector3d& p, std::size_t guess) const;
   /// An object is seen in front of `p`: nothing can be said about a surface there.
   bool hidden(const Eigen::Vector3d& p) const;
 

@@ -34,10 +34,10 @@ Vector3d centroid_of(std::span<const OrientedPoint> points) {
 class Registration {
  public:
   Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const IcpParams& params)
-      : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)) {}
+      : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)), nearest_(model.size(), 0) {}
 
   /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point.
-  SE3 run(const SE3& motion, int begin, int end, std::size_t stride) const {
+  SE3 run(const SE3& motion, int begin, int end, std::size_t stride) {
     SE3 T_camera_pivot = motion * SE3{Eigen::Matrix3d::Identity(), pivot_};
     const double ratio = params_.scale_end / params_.scale_start;
     for (int i = begin; i < end; ++i) {
@@ -53,19 +53,20 @@ class Registration {
     double cost = 0, rms = 0, inliers = 0;
   };
   /// How well a motion explains the cloud: robust mean of squared nearest distances over what is not hidden.
-  Fit fit(const SE3& motion) const {
+  Fit fit(const SE3& motion) {
     const double scale = 2 * params_.scale_end;
     Fit fit;
     double sum_sq = 0;
     int matched = 0, counted = 0;
-    for (const OrientedPoint& q : model_) {
+    for (std::size_t k = 0; k < model_.size(); ++k) {
+      const OrientedPoint& q = model_[k];
       const Vector3d moved = motion * q.p;
       if (cloud_.hidden(moved)) {
         fit.cost += kHiddenCost * scale * scale;
         continue;
       }
       ++counted;
-      const IcpPair pair = match(motion, q.p - pivot_, q, moved);
+      const IcpPair pair = match(motion, q.p - pivot_, k, moved);
       const double distance_sq = (moved - pair.data).squaredNorm(), plane = pair.normal.dot(moved - pair.data);
       fit.cost += robust_cost(distance_sq, scale);
       if (distance_sq > scale * scale) continue;
@@ -80,20 +81,20 @@ class Registration {
 
  private:
   /// The data's normal where it is defined and agrees with the model's, else the model's own.
-  IcpPair match(const SE3& motion, const Vector3d& in_pivot, const OrientedPoint& q, const Vector3d& moved) const {
-    const std::size_t i = cloud_.nearest(moved);
-    const Vector3d model_normal = motion.R * q.n, data_normal = cloud_.normal(i);
+  IcpPair match(const SE3& motion, const Vector3d& in_pivot, std::size_t k, const Vector3d& moved) {
+    const std::size_t i = nearest_[k] = cloud_.nearest(moved, nearest_[k]);
+    const Vector3d model_normal = motion.R * model_[k].n, data_normal = cloud_.normal(i);
     return {in_pivot, cloud_.point(i), data_normal.dot(model_normal) > 0.5 ? data_normal : model_normal};
   }
 
-  SE3 step(const SE3& T, double scale, double point_weight, std::size_t stride) const {
+  SE3 step(const SE3& T, double scale, double point_weight, std::size_t stride) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d b = Vector6d::Zero();
     for (std::size_t k = 0; k < model_.size(); k += stride) {
       const OrientedPoint& q = model_[k];
       const Vector3d in_pivot = q.p - pivot_, moved = T * in_pivot;
       if (cloud_.hidden(moved)) continue;
-      const IcpPair pair = match(T, in_pivot, q, moved);
+      const IcpPair pair = match(T, in_pivot, k, moved);
       const IcpResidual r = icp_residual(T, pair);
       const Eigen::Vector4d w = robust_weight(r.value.tail<3>().squaredNorm(), scale) *
                                 Eigen::Vector4d(1, point_weight, point_weight, point_weight);
@@ -111,6 +112,7 @@ class Registration {
   const ObservedCloud& cloud_;
   const IcpParams& params_;
   Vector3d pivot_;
+  std::vector<std::size_t> nearest_;  // of every model point when it was last matched: most likely still near
 };
 
 bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
@@ -140,12 +142,13 @@ IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair) {
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
                       double dt, const IcpParams& params) {
   if (!params.enabled || static_cast<int>(cloud.size()) < params.min_points || model.size() < 20) return {};
-  const Registration registration(model, cloud, params);
+  Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
   const std::array<SE3, 3> starts = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
   // Far from the goal few points suffice; starts that met by then go on as one.
   const int coarse = params.iterations / 2;
   std::vector<SE3> motions;
+  motions.reserve(starts.size());
   for (const SE3& start : starts) {
     const SE3 motion = registration.run(start, 0, coarse, kCoarseStride);
     const bool met = std::any_of(motions.begin(), motions.end(),

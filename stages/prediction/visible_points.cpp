@@ -19,6 +19,9 @@ struct Facing {
 
 std::vector<Facing> facing_points(const HandSurface& surface, const HandPose& pose) {
   std::vector<Facing> facing;
+  std::size_t points = 0;
+  for (const SegmentSurface& skin : surface) points += skin.size();
+  facing.reserve(points);
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentSurface& skin = surface[s];
     for (std::size_t i = 0; i < skin.size(); ++i) {

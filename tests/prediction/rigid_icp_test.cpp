@@ -40,6 +40,24 @@ TEST(IcpResidual, JacobianMatchesDifferencesAndAWrongOneDoesNot) {
   }
 }
 
+TEST(ObservedCloud, AnyGuessLeadsToTheNearestPoint) {
+  const auto profile = test::adult_hand();
+  ArticulatedPose shape{{palm_orientation(0.2, 0.3, 0.4), {0.02, 0.05, 0.4}}, {}};
+  shape.angles = shape_templates(*profile, widened_limits(*profile, 0.1))[2].angles;
+  const auto observation = test::PointWorld(*profile).observe(posed(*profile, shape));
+  const ObservedCloud cloud(*observation);
+  ASSERT_GT(cloud.size(), 200u);
+  KeyedRandom random(1, 0);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d p =
+        cloud.centroid() + 0.1 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    double nearest = INFINITY;
+    for (std::size_t k = 0; k < cloud.size(); ++k) nearest = std::min(nearest, (cloud.point(k) - p).norm());
+    const auto guess = static_cast<std::size_t>(random.uniform() * static_cast<double>(cloud.size()));
+    EXPECT_NEAR((cloud.point(cloud.nearest(p, guess)) - p).norm(), nearest, 1e-6);
+  }
+}
+
 class RigidIcp : public testing::Test {
  protected:
   void SetUp() override {
