@@ -131,8 +131,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (fit && fit->refined.score < bad_score) {
     search_frames_ = 0;
     if (!doubtful(fit->refined.score)) return fit;
-    found = ++doubtful_frames_ % params_.doubt_every == 0 ? search_once(observation, Effort::quick, 0)
-                                                          : search_near(observation, fit->refined.pose);
+    found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
     found = search(observation, effort());
     ++search_frames_;
@@ -140,6 +139,14 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
     return found;
   return fit;
+}
+
+std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,
+                                                             const HandPose& followed) {
+  ++doubtful_frames_;
+  if (doubtful_frames_ % params_.doubt_every == 0) return search_once(observation, Effort::quick, 0);
+  if (doubtful_frames_ % params_.doubt_near_every == 0) return search_near(observation, followed);
+  return std::nullopt;
 }
 
 // Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.
@@ -193,18 +200,12 @@ FusedPose HandTracker::sample(const HandObservation& observation, const Predicti
 }
 
 RefinedPose HandTracker::refine_best_start(const HandObservation& observation, const Prediction& prediction) {
-  const HandPose* start = &prediction.primary();
-  RefinedPose best = model_->refinement.evaluate(observation, *start);
+  starts_.assign(1, prediction.primary());
   for (std::size_t i = 1; i < prediction.candidates.size(); ++i) {
     const HandPose& pose = prediction.candidates[i].pose;
-    if (pose_distance(*model_->profile, pose, prediction.primary()) < kDistinct) continue;
-    const RefinedPose other = model_->refinement.evaluate(observation, pose);
-    if (other.score < best.score) {
-      best = other;
-      start = &pose;
-    }
+    if (pose_distance(*model_->profile, pose, prediction.primary()) >= kDistinct) starts_.push_back(pose);
   }
-  return model_->refinement.refine(observation, *start, prediction.primary(), params_.refinement.iterations);
+  return model_->refinement.refine_best(observation, starts_, prediction.primary(), params_.refinement.iterations);
 }
 
 std::optional<HandTracker::Fit> HandTracker::follow(const HandObservation& observation) {

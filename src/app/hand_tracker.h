@@ -66,6 +66,7 @@ class HandTracker {
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation, Effort effort);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
+  std::optional<Fit> search_doubtful(const HandObservation& observation, const HandPose& followed);
   std::optional<Fit> search_near(const HandObservation& observation, const HandPose& followed);
   std::optional<Fit> best_of(const HandObservation& observation, const std::vector<StartCandidate>& starts,
                              int iterations) const;
@@ -103,6 +104,7 @@ class HandTracker {
   const HandIds ids_;
   std::int32_t hand_id_ = 0;
   std::optional<HandPose> requested_start_, last_good_;
+  std::vector<HandPose> starts_;  // scratch: where the refinement of a frame may begin
   HandEstimatePtr last_tracked_;  // base of velocities and of holding
 };
 

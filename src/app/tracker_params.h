@@ -32,6 +32,7 @@ struct TrackerParams {
   double search_convincing = 0.002;
   double doubt = 0.15;
   int doubt_every = 6;
+  int doubt_near_every = 2;
   int doubt_iterations = 6;
   double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
@@ -68,8 +69,9 @@ void visit(V& v, TrackerParams& p) {
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
-  v("doubt_every", p.doubt_every, 1, 100000,
-    "of so many doubtful frames one is searched anew, the others near the followed pose");
+  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched anew");
+  v("doubt_near_every", p.doubt_near_every, 1, 100000,
+    "of so many doubtful frames one is searched near the followed pose, if not anew");
   v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
   v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");

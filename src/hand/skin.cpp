@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hand/implicit_hand.h"
 #include "hand/joint_angles.h"
@@ -126,6 +127,45 @@ void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& po
     posed[i] = R[v.a] * v.in_a + t[v.a];
     if (v.weight_b > 0) posed[i] += v.weight_b * (R[v.b] * v.in_b + t[v.b] - posed[i]);
   }
+}
+
+Skin coarsened(const Skin& skin, double cell) {
+  using Cell = std::array<int, 4>;  // segment and cube in its frame
+  const float per_metre = static_cast<float>(1 / cell);
+  struct Cluster {
+    Vector3f sum = Vector3f::Zero();
+    int count = 0, vertex = -1;
+    float distance = 0;  // of that vertex from the mean
+  };
+  std::map<Cell, int> numbers;
+  std::vector<Cluster> clusters;
+  std::vector<int> cluster_of;
+  cluster_of.reserve(skin.vertices.size());
+  for (const SkinVertex& v : skin.vertices) {
+    const Eigen::Array3i cube = (v.in_a.array() * per_metre).floor().cast<int>();
+    const auto [known, fresh] =
+        numbers.try_emplace({v.a, cube.x(), cube.y(), cube.z()}, static_cast<int>(clusters.size()));
+    if (fresh) clusters.emplace_back();
+    cluster_of.push_back(known->second);
+    clusters[known->second].sum += v.in_a;
+    ++clusters[known->second].count;
+  }
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
+    Cluster& cluster = clusters[cluster_of[i]];
+    const float distance = (skin.vertices[i].in_a - cluster.sum / static_cast<float>(cluster.count)).norm();
+    if (cluster.vertex >= 0 && distance >= cluster.distance) continue;
+    cluster.vertex = static_cast<int>(i);
+    cluster.distance = distance;
+  }
+  Skin coarse;
+  coarse.vertices.reserve(clusters.size());
+  for (const Cluster& cluster : clusters) coarse.vertices.push_back(skin.vertices[cluster.vertex]);
+  for (const auto& t : skin.triangles) {
+    const std::array<std::int32_t, 3> corners = {cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]};
+    if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+      coarse.triangles.push_back(corners);
+  }
+  return coarse;
 }
 
 HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment) {

@@ -31,6 +31,10 @@ Skin make_blended_skin(const HandProfile& profile, double cell = 0.003);
 /// Vertex positions in the camera frame for a pose; `posed` keeps its allocation.
 void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Eigen::Vector3f>& posed);
 
+/// The same skin with fewer triangles: of the vertices of a segment in a cube of `cell` [m] at rest, the one nearest to
+/// their mean stands for all.
+Skin coarsened(const Skin& skin, double cell);
+
 /// The skin as rigid surface points per segment (every vertex goes to the segment with the larger weight), for the
 /// local trackers. Thinned to at most `points_per_segment`, evenly by area.
 HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment);

@@ -34,6 +34,8 @@ void pose_normals(const Skin& skin, RenderedHand& out) {
 }
 
 class Rasteriser {
+  using Vertex = Eigen::Array4f;  // (i, j, 1/z, z)
+
  public:
   Rasteriser(const Skin& skin, const Intrinsics& camera, RenderedHand& out) : skin_(skin), out_(out) {
     const CellGrid& g = out.grid;
@@ -45,20 +47,19 @@ class Rasteriser {
       cell_[i] = {
           (static_cast<float>(camera.fx) * p.x() * inverse_z + static_cast<float>(camera.cx) - g.u0) * inverse_stride,
           (static_cast<float>(camera.fy) * p.y() * inverse_z + static_cast<float>(camera.cy) - g.v0) * inverse_stride,
-          inverse_z};
+          inverse_z, p.z()};
     }
   }
 
   void draw(const Triangle& t) {
-    const Vector3f &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
+    const Vertex &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
     // Image v points down, so a triangle counter-clockwise from outside has negative area here when it faces us.
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (!(area < 0) || std::min({out_.position[t[0]].z(), out_.position[t[1]].z(), out_.position[t[2]].z()}) < kNear)
-      return;
-    const Box box{std::max(0, static_cast<int>(std::ceil(std::min({a.x(), b.x(), c.x()})))),
-                  std::min(out_.grid.width - 1, static_cast<int>(std::floor(std::max({a.x(), b.x(), c.x()})))),
-                  std::max(0, static_cast<int>(std::ceil(std::min({a.y(), b.y(), c.y()})))),
-                  std::min(out_.grid.height - 1, static_cast<int>(std::floor(std::max({a.y(), b.y(), c.y()}))))};
+    const Vertex low = a.min(b).min(c), high = a.max(b).max(c);
+    if (!(area < 0) || low.w() < kNear) return;
+    const Eigen::Array4i first = low.ceil().cast<int>(), last = high.floor().cast<int>();
+    const Box box{std::max(0, first.x()), std::min(out_.grid.width - 1, last.x()), std::max(0, first.y()),
+                  std::min(out_.grid.height - 1, last.y())};
     for (int i = box.i0; i <= box.i1; i += kLanes) shade(t, 1.0f / area, box, i);
   }
 
@@ -70,7 +71,7 @@ class Rasteriser {
   // The columns from `i` on, as many as there are lanes, of all rows. No branch depends on a cell: triangles are a few
   // cells large, so a processor would guess most of them wrong.
   void shade(const Triangle& t, float inverse_area, const Box& box, int i) {
-    const Vector3f &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
+    const Vertex &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
     // Barycentric weights and 1/z are linear in the image.
     const Lanes x = static_cast<float>(i) + kSteps;
     const float y = static_cast<float>(box.j0);
@@ -130,8 +131,8 @@ class Rasteriser {
   }
 
   const Skin& skin_;
-  RenderedHand& out_;           // depth: its inverse while drawing, 0 where there is nothing yet
-  std::vector<Vector3f> cell_;  // (i, j, 1/z) of every vertex
+  RenderedHand& out_;         // depth: its inverse while drawing, 0 where there is nothing yet
+  std::vector<Vertex> cell_;  // of every vertex of the skin
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace barehand {
 /// Soft constraints, message passing and hierarchy of the fusion stage (paper Sec. 4.3, 4.4). "start" and "end" are the
 /// values at the first and last level, geometric in between; the paper keeps its sigmas constant.
 struct FusionParams {
-  int levels = 6;
+  int levels = 4;
   int kernels = 5;
   double kernel_separation = 0.5;
   std::string marginals = "sum";

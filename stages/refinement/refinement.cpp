@@ -11,6 +11,11 @@ namespace {
 // A palm whose own shape is being fitted deserves more trust than one that stays wrong.
 constexpr double kShapePalmTrust = 0.3;
 
+// Far from the goal a coarse comparison leads as well.
+constexpr int kFineSteps = 3;
+constexpr double kCoarseCell = 0.006;       // m, of its skin
+constexpr std::size_t kManyPixels = 10000;  // of a hand: every other cell is enough of them
+
 // How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
 std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
   std::array<double, kSegmentCount> free;
@@ -25,13 +30,16 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
     : params_(params),
       profile_(std::move(profile)),
       skin_(std::move(skin)),
+      coarse_skin_(coarsened(*skin_, kCoarseCell)),
       limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)) {}
 
-void Refinement::compare_at(const HandObservation& observation, const HandPose& pose, Normals normals,
-                            Workspace& work) const {
-  render_hand(*skin_, pose, observation.frame->camera, grid_of(observation, params_.comparison.stride), work.rendered,
+void Refinement::compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail,
+                            Normals normals, Workspace& work) const {
+  render_hand(detail.skin, pose, observation.frame->camera, grid_of(observation, detail.stride), work.rendered,
               normals);
-  compare(observation, *skin_, pose, work.rendered, params_.comparison, work.comparison);
+  ComparisonParams params = params_.comparison;
+  params.stride = detail.stride;
+  compare(observation, detail.skin, pose, work.rendered, params, work.comparison);
 }
 
 void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
@@ -44,12 +52,12 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
 }
 
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening,
-                      Workspace& work, RefinedPose& refined) const {
+                      const Skin& skin, Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
   refined.evidence.set_zero();
   // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
   const double tangential = profile_->origin == ProfileOrigin::measured ? std::clamp(widening - 1, 0.0, 1.0) : 1;
-  add_data_terms(*skin_, pose, work.comparison, params_.energy, widening, tangential, refined.evidence);
+  add_data_terms(skin, pose, work.comparison, params_.energy, widening, tangential, refined.evidence);
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
@@ -77,24 +85,42 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
   RefinedPose result;
   result.pose = pose;
   result.evidence.set_zero();
-  compare_at(observation, pose, Normals::left_out, *work);
+  compare_at(observation, pose, {*skin_, params_.comparison.stride}, Normals::left_out, *work);
   summarise(*work, result);
   return result;
 }
 
 RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                                int iterations) const {
-  const auto work = workspaces_.take();
+  return refine_best(observation, {&start, 1}, predicted, iterations);
+}
+
+RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
+                                    const HandPose& predicted, int iterations) const {
+  const int stride = params_.comparison.stride, coarser = observation.hand_pixels.size() < kManyPixels ? 1 : 2;
+  const Detail fine{*skin_, stride}, coarse{coarse_skin_, coarser * stride};
+  // What step i sees; the score after the last one is a fine one.
+  const auto detail = [&](int i) -> const Detail& { return i + kFineSteps < iterations ? coarse : fine; };
+  auto work = workspaces_.take();
   RefinedPose result;
-  result.pose = start;
+  result.pose = starts[0];
   result.evidence.set_zero();
-  compare_at(observation, start, Normals::computed, *work);
+  compare_at(observation, starts[0], detail(0), Normals::computed, *work);
+  for (const HandPose& start : starts.subspan(1)) {
+    auto other = workspaces_.take();
+    compare_at(observation, start, detail(0), Normals::computed, *other);
+    if (other->comparison.score >= work->comparison.score) continue;
+    std::swap(work, other);
+    result.pose = start;
+  }
   summarise(*work, result);
   const std::array<double, kSegmentCount> seen = freedom(result);
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
-    if (!step(predicted, seen, 1 + (params_.first_widening - 1) * (1 - progress), *work, result)) break;
-    compare_at(observation, result.pose, i + 1 < iterations ? Normals::computed : Normals::left_out, *work);
+    const double widening = 1 + (params_.first_widening - 1) * (1 - progress);
+    if (!step(predicted, seen, widening, detail(i).skin, *work, result)) break;
+    compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
+               *work);
   }
   summarise(*work, result);
   return result;
@@ -103,7 +129,7 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
 void Refinement::shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
                                  ShapeEquations& equations) const {
   const auto work = workspaces_.take();
-  compare_at(observation, pose, Normals::computed, *work);
+  compare_at(observation, pose, {*skin_, params_.comparison.stride}, Normals::computed, *work);
   RefinedPose judged;
   summarise(*work, judged);
   equations.set_zero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "core/pool.h"
 #include "stages/refinement/hand_energy.h"
@@ -51,6 +52,9 @@ class Refinement {
   /// of its skin agrees with data at `start`.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                      int iterations) const;
+  /// The same from that of the starts, at least one, which explains the frame best as it is; the first of equals.
+  RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
+                          const HandPose& predicted, int iterations) const;
   /// Score and visibility of a pose as it is.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
   /// What the frame says about the hand's shape at a refined pose; `basis` belongs to the skin.
@@ -64,14 +68,21 @@ class Refinement {
     ModelComparison comparison;
     GaussianTree tree;
   };
-  void compare_at(const HandObservation& observation, const HandPose& pose, Normals normals, Workspace& work) const;
+  /// How finely model and data are compared.
+  struct Detail {
+    const Skin& skin;
+    int stride;  // pixels
+  };
+  void compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail, Normals normals,
+                  Workspace& work) const;
   void summarise(const Workspace& work, RefinedPose& result) const;
-  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, Workspace& work,
-            RefinedPose& refined) const;
+  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, const Skin& skin,
+            Workspace& work, RefinedPose& refined) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
+  Skin coarse_skin_;  // for all but the last steps
   std::array<JointLimits, kSegmentCount> limits_;
   mutable Pool<Workspace> workspaces_;
 };

@@ -6,7 +6,7 @@ namespace barehand {
 
 /// Local trackers: how many samples, how they are compared with the data, what counts as hidden (paper Sec. 4.1, 4.2).
 struct SegmentTrackerParams {
-  int samples = 60;
+  int samples = 40;
   double sigma_obs_start = 0.004;
   double sigma_obs_end = 0.001;
   double pixel_distance_cap = 0.008;

@@ -23,7 +23,7 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
   wanted.tracker.doubt = 0.5;
   wanted.tracker.fusion.levels = 2;
   const Reload::Changes changes = reload.apply(wanted);
-  EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 6 -> 2"));
+  EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));
   EXPECT_THAT(changes.for_restart, IsEmpty());
   EXPECT_EQ(news.tracker.take()->doubt, 0.5);
   EXPECT_FALSE(news.preprocess.take());

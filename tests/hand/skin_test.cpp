@@ -1,5 +1,8 @@
 #include "hand/skin.h"
 
+#include <algorithm>
+#include <map>
+
 #include "support/adult_hand.h"
 
 namespace barehand {
@@ -57,6 +60,40 @@ TEST_F(SkinTest, ThicknessFollowsTheProfile) {
     if (v.a == s && std::abs(-v.in_a.z() - 0.5 * segment.length) < 0.004)
       widest = std::max<double>(widest, std::abs(v.in_a.x()));
   EXPECT_NEAR(widest, 0.5 * (segment.half_width[0] + segment.half_width[1]), 0.001);
+}
+
+/// Edges that are not passed once in each direction: the rim at the wrist.
+int open_edges(const Skin& skin) {
+  std::map<std::pair<int, int>, int> balance;
+  for (const auto& t : skin.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  return static_cast<int>(std::ranges::count_if(balance, [](const auto& edge) { return edge.second != 0; }));
+}
+
+TEST_F(SkinTest, ACoarserOneHasFewerTrianglesAndNoNewHoles) {
+  const Skin coarse = coarsened(skin_, 0.006);
+  EXPECT_LT(coarse.triangles.size(), 0.5 * skin_.triangles.size());
+  ASSERT_GT(open_edges(skin_), 0);
+  EXPECT_LE(open_edges(coarse), open_edges(skin_));
+  EXPECT_EQ(coarsened(skin_, 1e-6).triangles, skin_.triangles) << "too small a cell joins nothing";
+}
+
+TEST_F(SkinTest, ACoarserOneLiesWhereTheFineOneDoes) {
+  const Skin coarse = coarsened(skin_, 0.006);
+  const HandPose pose = test::facing_pose(*profile_, 0.5, 0.3);
+  std::vector<Vector3f> fine_posed, coarse_posed;
+  pose_skin(skin_, pose, fine_posed);
+  pose_skin(coarse, pose, coarse_posed);
+  for (std::size_t i = 0; i < fine_posed.size(); ++i) {
+    float nearest = 1;
+    for (std::size_t k = 0; k < coarse_posed.size(); ++k)
+      if (coarse.vertices[k].a == skin_.vertices[i].a)
+        nearest = std::min(nearest, (coarse_posed[k] - fine_posed[i]).norm());
+    EXPECT_LT(nearest, 0.009f);
+  }
 }
 
 TEST_F(SkinTest, SurfacePointsCarryTheWholeArea) {

@@ -30,6 +30,21 @@ TEST_F(RefinementTest, FindsAPoseFromTenMillimetresAndDegreesAway) {
   EXPECT_LT(refined.score, 0.0005);
 }
 
+TEST_F(RefinementTest, TheStartThatExplainsMostIsRefined) {
+  const HandPose truth = test::facing_pose(*profile_, 0.45, 0.35);
+  const auto observation = test::observe_skin(*skin_, truth);
+  const std::array<HandPose, 3> starts = {test::facing_pose(*profile_, 0.45, 0.0),
+                                          test::facing_pose(*profile_, 0.45, 0.3),
+                                          test::facing_pose(*profile_, 0.45, 0.15)};
+  const RefinedPose best = refinement_.refine_best(*observation, starts, starts[0], 2);
+  const RefinedPose second = refinement_.refine(*observation, starts[1], starts[0], 2);
+  const RefinedPose first = refinement_.refine(*observation, starts[0], starts[0], 2);
+  EXPECT_EQ(best.score, second.score);
+  EXPECT_EQ(best.visible, second.visible);
+  EXPECT_EQ(mean_end_error(best.pose, second.pose), 0);
+  EXPECT_GT(mean_end_error(best.pose, first.pose), 0.001);
+}
+
 TEST_F(RefinementTest, JointsStayClosed) {
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.35);
   const auto observation = test::observe_skin(*skin_, truth);
