@@ -83,15 +83,15 @@ TEST(Allocations, AreCounted) {
 // skin vertex is told so here.
 TEST(Allocations, StayFewInSteadyState) {
   const Counts counts = allocations_per_frame({});
-  EXPECT_LE(counts.preprocess, 100);
-  EXPECT_LE(counts.track, 60);
+  EXPECT_LE(counts.preprocess, 45);
+  EXPECT_LE(counts.track, 36);
   EXPECT_LE(counts.publish, 10);
 }
 
 TEST(Allocations, OfTheRefinementAloneAreAHandful) {
   TrackerParams params;
   params.sampling = false;
-  EXPECT_LE(allocations_per_frame(params).track, 40);
+  EXPECT_LE(allocations_per_frame(params).track, 34);
 }
 
 }  // namespace
