@@ -21,7 +21,8 @@ class Comparer {
     wrist_axis_ = T_palm_camera.R.row(2).cast<float>();
     wrist_offset_ = static_cast<float>(T_palm_camera.t.z());
     const Intrinsics& c = obs_.frame->camera;
-    cell_area_per_z_sq_ = static_cast<float>(params.stride * params.stride / (c.fx * c.fy)) / kReferenceArea;
+    const int stride = rendered.grid.stride;
+    cell_area_per_z_sq_ = static_cast<float>(stride * stride / (c.fx * c.fy)) / kReferenceArea;
   }
 
   void run() {

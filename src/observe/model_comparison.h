@@ -53,6 +53,7 @@ struct ModelComparison {
 /// Cells of the whole region of interest.
 CellGrid grid_of(const HandObservation& observation, int stride);
 
+/// Cell by cell of `rendered`, whose grid says how finely; the parameters' stride does not count here.
 void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
              const ComparisonParams& params, ModelComparison& out);
 

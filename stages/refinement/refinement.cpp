@@ -33,13 +33,17 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
       coarse_skin_(coarsened(*skin_, kCoarseCell)),
       limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)) {}
 
+Refinement::Detail Refinement::fine() const { return {*skin_, params_.comparison.stride}; }
+
+Refinement::Detail Refinement::coarse(const HandObservation& observation) const {
+  return {coarse_skin_, params_.comparison.stride * (observation.hand_pixels.size() < kManyPixels ? 1 : 2)};
+}
+
 void Refinement::compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail,
                             Normals normals, Workspace& work) const {
   render_hand(detail.skin, pose, observation.frame->camera, grid_of(observation, detail.stride), work.rendered,
               normals);
-  ComparisonParams params = params_.comparison;
-  params.stride = detail.stride;
-  compare(observation, detail.skin, pose, work.rendered, params, work.comparison);
+  compare(observation, detail.skin, pose, work.rendered, params_.comparison, work.comparison);
 }
 
 void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
@@ -85,7 +89,7 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
   RefinedPose result;
   result.pose = pose;
   result.evidence.set_zero();
-  compare_at(observation, pose, {*skin_, params_.comparison.stride}, Normals::left_out, *work);
+  compare_at(observation, pose, fine(), Normals::left_out, *work);
   summarise(*work, result);
   return result;
 }
@@ -97,10 +101,8 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
 
 RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                                     const HandPose& predicted, int iterations) const {
-  const int stride = params_.comparison.stride, coarser = observation.hand_pixels.size() < kManyPixels ? 1 : 2;
-  const Detail fine{*skin_, stride}, coarse{coarse_skin_, coarser * stride};
   // What step i sees; the score after the last one is a fine one.
-  const auto detail = [&](int i) -> const Detail& { return i + kFineSteps < iterations ? coarse : fine; };
+  const auto detail = [&](int i) { return i + kFineSteps < iterations ? coarse(observation) : fine(); };
   auto work = workspaces_.take();
   RefinedPose result;
   result.pose = starts[0];
@@ -129,7 +131,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
 void Refinement::shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
                                  ShapeEquations& equations) const {
   const auto work = workspaces_.take();
-  compare_at(observation, pose, {*skin_, params_.comparison.stride}, Normals::computed, *work);
+  compare_at(observation, pose, fine(), Normals::computed, *work);
   RefinedPose judged;
   summarise(*work, judged);
   equations.set_zero();

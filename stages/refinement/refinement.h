@@ -73,6 +73,8 @@ class Refinement {
     const Skin& skin;
     int stride;  // pixels
   };
+  Detail fine() const;
+  Detail coarse(const HandObservation& observation) const;
   void compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail, Normals normals,
                   Workspace& work) const;
   void summarise(const Workspace& work, RefinedPose& result) const;
