@@ -19,7 +19,7 @@ BONES = {
 # A joint turns about the centre of the rounded head of its proximal bone: this far inside that bone's end.
 HEAD_DEPTH = {"metacarpal": 6.0, "thumb_metacarpal": 4.5, "proximal": 3.5, "intermediate": 2.5}
 CARTILAGE = 1.0  # between two bones
-CARPUS = 19.0  # wrist centre, in the head of the capitate, to the base of the third metacarpal
+CARPUS = 0.54 * 64.6  # wrist centre, between radius and carpus, to the base of the third metacarpal (Youm et al. 1978)
 
 # Where the knuckles lie in the palm: (x, height below the middle one, shortfall along z against the middle one).
 KNUCKLES = {"index": (-21.5, -3.5, 1.5), "middle": (0.0, 0.0, 0.0), "ring": (18.0, -2.5, 6.5), "little": (34.0, -8.0, 14.0)}
@@ -27,7 +27,7 @@ KNUCKLES = {"index": (-21.5, -3.5, 1.5), "middle": (0.0, 0.0, 0.0), "ring": (18.
 SPLAY = {"index": -4.0, "middle": 2.0, "ring": 8.0, "little": 16.0}
 ROLL = {"index": 4.0, "middle": 0.0, "ring": -5.0, "little": -12.0}
 # Thumb: trapeziometacarpal joint, direction of the relaxed thumb (radial, palmar abduction) and its pronation.
-THUMB_BASE = (-21.0, -10.0, -18.0)
+THUMB_BASE = (-21.0, -10.0, -34.0)
 THUMB_RADIAL, THUMB_PALMAR, THUMB_PRONATION = 37.0, 22.0, 78.0
 
 # Skin radii at the joints of one calibrated small hand (first joint, second, third, tip), enlarged to this hand.

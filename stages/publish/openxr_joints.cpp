@@ -9,7 +9,7 @@ constexpr int kThumb = 0, kMiddle = 2;
 /// Mean metacarpal lengths of index to little finger [mm] and the part of the way from the wrist joint to the middle
 /// knuckle that the middle metacarpal takes; the rest are the carpal bones.
 constexpr std::array<double, kFingerCount> kMetacarpal_mm = {46.2, 68.1, 64.6, 58.0, 53.7};
-constexpr double kMetacarpalPart = 0.76;
+constexpr double kMetacarpalPart = 0.63;
 
 /// The knuckle of a finger in the palm's frame.
 Eigen::Vector3d knuckle(const HandProfile& profile, int finger) {

@@ -10,6 +10,8 @@ namespace {
 
 // A palm whose own shape is being fitted deserves more trust than one that stays wrong.
 constexpr double kShapePalmTrust = 0.3;
+// m. A mean hand's skin is off by centimetres in places: there most of all it must grow.
+constexpr double kShapeRobustScale = 0.012;
 
 // Far from the goal a coarse comparison leads as well.
 constexpr int kFineSteps = 3;
@@ -138,6 +140,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   GaussianTree& tree = equations.tree;
   EnergyParams energy = params_.energy;
   energy.palm_trust = kShapePalmTrust;
+  energy.robust_scale = kShapeRobustScale;
   ShapeMoments moments;
   moments.reset(pose, skin_->vertices.size());
   add_data_terms(*skin_, pose, work->comparison, energy, 1, 0, tree, &moments);

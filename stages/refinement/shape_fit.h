@@ -11,7 +11,7 @@ struct ShapeFitParams {
   bool enabled = true;
   int every = 1, every_later = 8;  ///< frames between two looks: at first, and after `eager_looks`
   int eager_looks = 100;
-  double weight = 0.1;        ///< of a look against the prior: its errors are the model's, not independent noise
+  double weight = 0.01;       ///< of a look against the prior: its errors are the model's, not independent noise
   double memory = 1.5;        ///< how far back, of all looks so far: old ones were taken with a worse hand
   double memory_looks = 200;  ///< but never further back than so many
   int first_rebuild = 8;      ///< looks before a skin is made anew; then after twice, four times ... as many

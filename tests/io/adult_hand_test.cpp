@@ -23,8 +23,10 @@ class AdultHand : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(AdultHand, HasTheSizeOfAnAdult) {
-  EXPECT_GT(hand_.hand_length(), 0.166);
-  EXPECT_LT(hand_.hand_length(), 0.183);
+  // Hands are measured from the crease of the wrist, over the head of the capitate: 16 mm in front of the joint.
+  const double from_crease = hand_.hand_length() - 0.016;
+  EXPECT_GT(from_crease, 0.166);
+  EXPECT_LT(from_crease, 0.183);
   const double knuckles = (rest_[segment_of(1, 0)].t - rest_[segment_of(4, 0)].t).norm();
   const double breadth = knuckles + 0.010 + hand_.segments[segment_of(1, 0)].radius[0] +
                          hand_.segments[segment_of(4, 0)].radius[0];  // 5 mm of flesh on both sides

@@ -130,7 +130,7 @@ TEST_F(RigidIcp, PartialOcclusionDoesNotPull) {
   const SE3 truth = motion({0, 0.1, 0.15}, {0.01, -0.01, 0.01});
   const auto observation = world.observe(moved(truth, before_));
   const std::size_t all = observation->cloud.size();
-  test::PointWorld::occlude(*observation, 175, 0.3f);
+  test::PointWorld::occlude(*observation, 177, 0.3f);
   ASSERT_LT(observation->cloud.size(), 0.75 * all);
   EXPECT_LT(error_of(align_rigid(model_, ObservedCloud(*observation), SE3{}, kFrame, params_), truth), 0.005);
 }
