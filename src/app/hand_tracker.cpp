@@ -55,7 +55,7 @@ void HandTracker::change(const TrackerParams& params) {
   if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
   MotionModel motion(params.prediction, params.icp);
   if (motion_.has_pose()) motion.restart(motion_.pose(), motion_.utime());
-  motion_ = motion;
+  motion_ = std::move(motion);
   const bool followed = loss_.status() == TrackStatus::tracking || loss_.status() == TrackStatus::holding;
   loss_ = LossDetector(params.loss);
   uncertainty_ = PoseUncertainty(params.uncertainty, params.refinement.energy);

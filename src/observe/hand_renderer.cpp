@@ -40,11 +40,11 @@ class Rasteriser {
   Rasteriser(const Skin& skin, const Intrinsics& camera, RenderedHand& out) : skin_(skin), out_(out) {
     const CellGrid& g = out.grid;
     const float inverse_stride = 1.0f / g.stride;
-    cell_.resize(out.position.size());
-    for (std::size_t i = 0; i < cell_.size(); ++i) {
+    out.in_grid.resize(out.position.size());
+    for (std::size_t i = 0; i < out.in_grid.size(); ++i) {
       const Vector3f& p = out.position[i];
       const float inverse_z = 1.0f / std::max(p.z(), kNear);
-      cell_[i] = {
+      out.in_grid[i] = {
           (static_cast<float>(camera.fx) * p.x() * inverse_z + static_cast<float>(camera.cx) - g.u0) * inverse_stride,
           (static_cast<float>(camera.fy) * p.y() * inverse_z + static_cast<float>(camera.cy) - g.v0) * inverse_stride,
           inverse_z, p.z()};
@@ -52,7 +52,7 @@ class Rasteriser {
   }
 
   void draw(const Triangle& t) {
-    const Vertex &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
+    const Vertex &a = out_.in_grid[t[0]], &b = out_.in_grid[t[1]], &c = out_.in_grid[t[2]];
     // Image v points down, so a triangle counter-clockwise from outside has negative area here when it faces us.
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     const Vertex low = a.min(b).min(c), high = a.max(b).max(c);
@@ -71,7 +71,7 @@ class Rasteriser {
   // The columns from `i` on, as many as there are lanes, of all rows. No branch depends on a cell: triangles are a few
   // cells large, so a processor would guess most of them wrong.
   void shade(const Triangle& t, float inverse_area, const Box& box, int i) {
-    const Vertex &a = cell_[t[0]], &b = cell_[t[1]], &c = cell_[t[2]];
+    const Vertex &a = out_.in_grid[t[0]], &b = out_.in_grid[t[1]], &c = out_.in_grid[t[2]];
     // Barycentric weights and 1/z are linear in the image.
     const Lanes x = static_cast<float>(i) + kSteps;
     const float y = static_cast<float>(box.j0);
@@ -131,8 +131,7 @@ class Rasteriser {
   }
 
   const Skin& skin_;
-  RenderedHand& out_;         // depth: its inverse while drawing, 0 where there is nothing yet
-  std::vector<Vertex> cell_;  // of every vertex of the skin
+  RenderedHand& out_;  // depth: its inverse while drawing, 0 where there is nothing yet
 };
 
 }  // namespace

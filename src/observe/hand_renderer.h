@@ -21,6 +21,7 @@ struct RenderedHand {
   Image<float> depth;                             ///< z of the front-most skin [m]; 0 = no skin
   Image<std::int32_t> vertex;                     ///< skin vertex that carries the cell; -1 = no skin
   std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]; normals may be left out
+  std::vector<Eigen::Array4f> in_grid;            ///< of every skin vertex: cell i, j, 1/z [1/m], z [m]
   std::array<int, kSegmentCount> projected{};     ///< cells that a segment's camera-facing skin covers, hidden or not
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "observe/pixel_rays.h"
-
 namespace barehand {
 namespace {
 
@@ -14,10 +12,8 @@ constexpr PixelMap::Cell kSilent{0, 0, -1, -kInfinity};
 /// One frame's pixels as cells.
 class Cells {
  public:
-  Cells(const HandObservation& observation, bool missing_is_background)
-      : o_(observation), missing_is_background_(missing_is_background) {
-    rays_.reset(o_.frame->camera, o_.u0, o_.v0, o_.label.width(), o_.label.height());
-  }
+  Cells(const HandObservation& observation, const PixelRays& rays, bool missing_is_background)
+      : o_(observation), rays_(rays), missing_is_background_(missing_is_background) {}
 
   PixelMap::Cell at(int u, int v) const {
     const std::size_t pixel = o_.label.index(u, v);
@@ -40,8 +36,8 @@ class Cells {
 
  private:
   const HandObservation& o_;
+  const PixelRays& rays_;
   const bool missing_is_background_;
-  PixelRays rays_;
 };
 
 }  // namespace
@@ -60,7 +56,8 @@ PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Wo
   map.hidden.assign(map.cells.size(), 0);
   if (w == 0 || h == 0) return map;
 
-  const Cells cells(o, missing_is_background);
+  map.rays.reset(camera, o.u0, o.v0, w, h);
+  const Cells cells(o, map.rays, missing_is_background);
   workers.for_each_index(map.height, [&](int row) {
     const int v = row - 1;
     for (int u = -1; u <= w; ++u) {

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "observe/observation.h"
+#include "observe/pixel_rays.h"
 
 namespace barehand {
 
@@ -21,6 +22,7 @@ struct PixelMap {
   float cx = 0, cy = 0;              ///< principal point in coordinates of this map
   std::vector<Cell> cells;           ///< row-major
   std::vector<std::int32_t> hidden;  ///< bit s: hidden from segment s by the hand itself
+  PixelRays rays;                    ///< of the region of interest, without the border
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * width + u; }
 };

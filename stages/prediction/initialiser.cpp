@@ -233,7 +233,8 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
 void Initialiser::align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud,
                         PoseCost& cost) const {
   const HandPose pose = posed(*profile_, trial.scored.articulated);
-  const auto model = visible_points(surface_, pose, observation.frame->camera, params_.icp.model_points);
+  VisiblePoints visible;
+  const auto model = visible.of(surface_, pose, observation.frame->camera, params_.icp.model_points);
   const IcpResult icp = align_rigid(model, cloud, SE3{}, 0, params_.icp);
   if (!icp.reliable) return;
   ScoredPose aligned = trial.scored;

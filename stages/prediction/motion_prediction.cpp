@@ -78,22 +78,22 @@ HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, 
   return pose;
 }
 
-Prediction MotionModel::predict(const HandObservation& observation, const HandSurface& surface) const {
+Prediction MotionModel::predict(const HandObservation& observation, const HandSurface& surface) {
   assert(has_pose_);
   Prediction result;
   result.utime = observation.frame->utime;
   result.dt = std::abs(static_cast<double>(observation.frame->utime - utime_) * 1e-6);
   const StartPose held{"held", pose_};
-  const ObservedCloud cloud(observation);
-  if (static_cast<int>(cloud.size()) < icp_params_.min_points) {
+  cloud_.reset(observation);
+  if (static_cast<int>(cloud_.size()) < icp_params_.min_points) {
     result.candidates = {held};
     return result;
   }
   const bool recent = result.dt > 0 && result.dt <= params_.max_interval;
   const double ahead = recent && params_.velocity ? result.dt : 0;
   const SE3 last_motion = boxplus(pose_[kPalm], ahead * global_velocity_) * pose_[kPalm].inverse();
-  const auto model = visible_points(surface, pose_, observation.frame->camera, icp_params_.model_points);
-  result.icp = align_rigid(model, cloud, last_motion, result.dt, icp_params_);
+  const auto model = visible_points_.of(surface, pose_, observation.frame->camera, icp_params_.model_points);
+  result.icp = align_rigid(model, cloud_, last_motion, result.dt, icp_params_);
 
   const HandPose carried = moved(last_motion, pose_);
   const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "hand/samples.h"
+#include "stages/prediction/observed_cloud.h"
 #include "stages/prediction/rigid_icp.h"
+#include "stages/prediction/visible_points.h"
 
 namespace barehand {
 
@@ -68,7 +70,7 @@ class MotionModel {
 
   /// Candidates for an observation. Needs has_pose(). With few hand points the pose is held: one candidate `held`.
   /// Equal stamps are a standstill; a recording played backwards has falling stamps and moves all the same.
-  Prediction predict(const HandObservation& observation, const HandSurface& surface) const;
+  Prediction predict(const HandObservation& observation, const HandSurface& surface);
 
   /// Per second, relative to the global motion: of the origin, then angular, camera frame.
   const std::array<Vector6d, kSegmentCount>& relative_velocity() const { return velocity_; }
@@ -85,6 +87,8 @@ class MotionModel {
   std::array<bool, kSegmentCount> seen_{};
   std::array<Vector6d, kSegmentCount> velocity_{};
   Vector6d global_velocity_ = Vector6d::Zero();  // of the palm's frame under the global motion, per second
+  ObservedCloud cloud_;
+  VisiblePoints visible_points_;
 };
 
 /// The pose moved rigidly: every segment by `motion` (camera frame).

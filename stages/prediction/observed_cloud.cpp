@@ -18,7 +18,7 @@ struct ObservedCloud::Index {
   }
 
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Index>, Index, 3>;
-  std::unique_ptr<Tree> tree;
+  Tree tree{3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(16)};
 };
 
 namespace {
@@ -41,14 +41,16 @@ Eigen::Vector3f normal_at(const HandObservation& observation, const Eigen::Vecto
 
 }  // namespace
 
-ObservedCloud::ObservedCloud(const HandObservation& observation)
-    : observation_(&observation), index_(std::make_unique<Index>()) {
+ObservedCloud::ObservedCloud() : index_(std::make_unique<Index>()) {}
+ObservedCloud::ObservedCloud(const HandObservation& observation) : ObservedCloud() { reset(observation); }
+
+void ObservedCloud::reset(const HandObservation& observation) {
+  observation_ = &observation;
   index_->points = observation.cloud;
   std::erase_if(index_->points, [](const Eigen::Vector3f& p) { return !(p.z() > 0) || !p.allFinite(); });
-  index_->normals.reserve(index_->points.size());
+  index_->normals.clear();
   for (const Eigen::Vector3f& p : index_->points) index_->normals.push_back(normal_at(observation, p));
-  if (index_->points.empty()) return;
-  index_->tree = std::make_unique<Index::Tree>(3, *index_, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  index_->tree.buildIndex();
 }
 
 ObservedCloud::~ObservedCloud() = default;
@@ -73,7 +75,7 @@ std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p, std::size_t guess) 
   nanoflann::KNNResultSet<float> result(1);
   result.init(&best, &distance_sq);
   result.addPoint((index_->points[guess] - query).squaredNorm(), guess);  // only what is nearer is looked at
-  index_->tree->findNeighbors(result, query.data(), nanoflann::SearchParams());
+  index_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
   return best;
 }
 

@@ -8,13 +8,17 @@
 namespace barehand {
 
 /// The hand points of one frame with their normals, indexed for nearest-neighbour search. Refers to the observation,
-/// which must outlive it.
+/// which must outlive it or the next reset().
 class ObservedCloud {
  public:
+  ObservedCloud();
   explicit ObservedCloud(const HandObservation& observation);
   ~ObservedCloud();
   ObservedCloud(ObservedCloud&&) noexcept;
   ObservedCloud& operator=(ObservedCloud&&) noexcept;
+
+  /// Another frame's points, in the same memory.
+  void reset(const HandObservation& observation);
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
@@ -31,7 +35,7 @@ class ObservedCloud {
 
  private:
   struct Index;
-  const HandObservation* observation_;
+  const HandObservation* observation_ = nullptr;
   std::unique_ptr<Index> index_;
 };
 

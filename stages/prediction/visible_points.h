@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "core/image.h"
 #include "hand/hand_pose.h"
 #include "hand/surface.h"
 #include "math/camera.h"
@@ -13,9 +15,26 @@ struct OrientedPoint {
   Eigen::Vector3d p, n;
 };
 
-/// At most `count` points of the posed surface that the camera sees (facing it and not behind another part of the
-/// hand), spread evenly over the image: each stands for about the same number of pixels. Deterministic.
-std::vector<OrientedPoint> visible_points(const HandSurface& surface, const HandPose& pose, const Intrinsics& camera,
-                                          int count);
+/// Chooses what the camera sees of a hand. Keeps its memory from pose to pose.
+class VisiblePoints {
+ public:
+  /// At most `count` points of the posed surface that the camera sees (facing it and not behind another part of the
+  /// hand), spread evenly over the image: each stands for about the same number of pixels. Deterministic. Valid until
+  /// the next call.
+  std::span<const OrientedPoint> of(const HandSurface& surface, const HandPose& pose, const Intrinsics& camera,
+                                    int count);
+
+ private:
+  struct Facing {
+    OrientedPoint point;
+    double weight;  // pixels that the point covers, up to a constant
+  };
+  void find_facing(const HandSurface& surface, const HandPose& pose);
+  void remove_hidden(const Intrinsics& camera);
+
+  std::vector<Facing> facing_;
+  Image<float> front_;  // z-buffer of coarse cells [m]
+  std::vector<OrientedPoint> chosen_;
+};
 
 }  // namespace barehand

@@ -15,15 +15,18 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 
 Result<void> check(const RgbdFrame& frame) {
   const Intrinsics& c = frame.camera;
-  const std::string where = "frame " + std::to_string(frame.number);
-  if (!c.valid()) return fail("no valid camera intrinsics", where, "give width, height, fx, fy, cx, cy of the sensor");
-  if (!(frame.depth_unit > 0)) return fail("depth unit is not positive", where, "give the metres per depth count");
-  const std::string expected = ", the intrinsics say " + size_text(c.width, c.height);
+  const auto where = [&] { return "frame " + std::to_string(frame.number); };
+  if (!c.valid())
+    return fail("no valid camera intrinsics", where(), "give width, height, fx, fy, cx, cy of the sensor");
+  if (!(frame.depth_unit > 0)) return fail("depth unit is not positive", where(), "give the metres per depth count");
+  const auto sizes = [&](int width, int height) {
+    return size_text(width, height) + ", the intrinsics say " + size_text(c.width, c.height);
+  };
   if (frame.depth.width() != c.width || frame.depth.height() != c.height)
-    return fail("depth is " + size_text(frame.depth.width(), frame.depth.height()) + expected, where,
+    return fail("depth is " + sizes(frame.depth.width(), frame.depth.height()), where(),
                 "use the intrinsics of this depth image");
   if (!frame.colour.empty() && (frame.colour.width() != c.width || frame.colour.height() != c.height))
-    return fail("colour is " + size_text(frame.colour.width(), frame.colour.height()) + expected, where,
+    return fail("colour is " + sizes(frame.colour.width(), frame.colour.height()), where(),
                 "register colour to depth, or send no colour");
   return {};
 }

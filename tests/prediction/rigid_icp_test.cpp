@@ -66,7 +66,7 @@ class RigidIcp : public testing::Test {
     ArticulatedPose start{{palm_orientation(0.2, 0.3, 0.4), {0.02, 0.05, 0.4}}, {}};
     start.angles = shape_templates(*profile_, widened_limits(*profile_, 0.1))[2].angles;
     before_ = posed(*profile_, start);
-    model_ = visible_points(surface_, before_, test::small_camera(), params_.model_points);
+    model_ = visible_points_.of(surface_, before_, test::small_camera(), params_.model_points);
     centre_ = before_[kPalm] * Eigen::Vector3d(0, 0, -0.07);
   }
   /// Rotation about the middle of the palm, then a shift.
@@ -82,7 +82,8 @@ class RigidIcp : public testing::Test {
   HandSurface surface_;
   HandPose before_;
   IcpParams params_;
-  std::vector<OrientedPoint> model_;
+  VisiblePoints visible_points_;
+  std::span<const OrientedPoint> model_;
   Eigen::Vector3d centre_;
 };
 
