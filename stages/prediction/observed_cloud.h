@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// The hand points of one frame with their normals, indexed for nearest-neighbour search. Refers to the observation,
-/// which must outlive it or the next reset().
+/// The hand points of one frame with their normals, indexed for nearest-neighbour search. Refers to the observation:
+/// nothing but reset() may be called after that has gone.
 class ObservedCloud {
  public:
   ObservedCloud();

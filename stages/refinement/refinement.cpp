@@ -10,7 +10,7 @@ namespace {
 
 // A palm whose own shape is being fitted deserves more trust than one that stays wrong.
 constexpr double kShapePalmTrust = 0.3;
-// m. A mean hand's skin is off by centimetres in places: there most of all it must grow.
+// m. Where a mean hand's skin is far off it must change most, so that is no outlier.
 constexpr double kShapeRobustScale = 0.012;
 
 // Far from the goal a coarse comparison leads as well.

@@ -62,7 +62,7 @@ TEST_F(SkinTest, ThicknessFollowsTheProfile) {
   EXPECT_NEAR(widest, 0.5 * (segment.half_width[0] + segment.half_width[1]), 0.001);
 }
 
-/// Edges that are not passed once in each direction: the rim at the wrist.
+/// Edges that are not passed once in each direction: a rim.
 int open_edges(const Skin& skin) {
   std::map<std::pair<int, int>, int> balance;
   for (const auto& t : skin.triangles)
@@ -76,7 +76,9 @@ int open_edges(const Skin& skin) {
 TEST_F(SkinTest, ACoarserOneHasFewerTrianglesAndNoNewHoles) {
   const Skin coarse = coarsened(skin_, 0.006);
   EXPECT_LT(coarse.triangles.size(), 0.5 * skin_.triangles.size());
-  ASSERT_GT(open_edges(skin_), 0);
+  Skin torn = skin_;
+  torn.triangles.pop_back();
+  ASSERT_GT(open_edges(torn), open_edges(skin_));
   EXPECT_LE(open_edges(coarse), open_edges(skin_));
   EXPECT_EQ(coarsened(skin_, 1e-6).triangles, skin_.triangles) << "too small a cell joins nothing";
 }
