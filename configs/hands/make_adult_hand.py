@@ -19,7 +19,8 @@ BONES = {
 # A joint turns about the centre of the rounded head of its proximal bone: this far inside that bone's end.
 HEAD_DEPTH = {"metacarpal": 6.0, "thumb_metacarpal": 4.5, "proximal": 3.5, "intermediate": 2.5}
 CARTILAGE = 1.0  # between two bones
-CARPUS = 0.54 * 64.6  # wrist centre, between radius and carpus, to the base of the third metacarpal (Youm et al. 1978)
+# Wrist centre, between radius and carpus, to the base of the third metacarpal (carpal height ratio, Youm et al. 1978).
+CARPUS = 0.54 * BONES["middle"]["metacarpal"]
 
 # Where the knuckles lie in the palm: (x, height below the middle one, shortfall along z against the middle one).
 KNUCKLES = {"index": (-21.5, -3.5, 1.5), "middle": (0.0, 0.0, 0.0), "ring": (18.0, -2.5, 6.5), "little": (34.0, -8.0, 14.0)}

@@ -40,10 +40,7 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
         const std::int32_t other_dv = rows[other] - v;
         // From this column on the new parabola is strictly lower.
         const std::int32_t above = u * u + dv * dv - other * other - other_dv * other_dv, span = 2 * (u - other);
-        if (span == 2 && above == 2 * u - 1)
-          start = u;  // most often, and without a division
-        else
-          start = above < 0 ? 0 : above / span + 1;
+        start = above < 0 ? 0 : above / span + 1;
         if (start > from_[last]) break;
         --last;
         start = 0;
