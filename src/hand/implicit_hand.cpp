@@ -12,48 +12,62 @@ namespace {
 
 // The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
 // known poses. Factors multiply the profile's own sections.
-constexpr double kPalmBlend = 0.009;      // m, between the metacarpals
-constexpr double kThenarBlend = 0.0134;   // m, between thumb and palm: the fold of skin
-constexpr double kFingerBlend = 0.00206;  // m, between fingers and palm: the webs
-constexpr double kKnuckleTaper = 0.759;   // a phalanx next to the palm has lost this much of its taper at kMiddle
-constexpr double kMiddle = 0.527;         // of a phalanx
-constexpr double kWristSpread = 0.353;    // of the wrist's half width: where the outer metacarpals begin
-constexpr double kWristWidth = 0.607;     // of one metacarpal tube at the wrist
-constexpr double kWristThickness = 0.463;
-constexpr double kWristOffset = 0.232;
-constexpr double kWristShift = 0.0584;  // of the wrist's half width, towards the little finger
+constexpr double kPalmBlend = 0.0072;     // m, between the metacarpals
+constexpr double kThenarBlend = 0.0158;   // m, between thumb and palm: the fold of skin
+constexpr double kFingerBlend = 0.00342;  // m, between fingers and palm: the webs
+constexpr double kWristSpread = 0.255;    // of the wrist's half width: where the outer metacarpals begin
+constexpr double kWristWidth = 0.603;     // of one metacarpal tube at the wrist
+constexpr double kWristThickness = 0.476;
+constexpr double kWristOffset = 0.182;
+constexpr double kWristShift = -0.0423;  // of the wrist's half width, towards the little finger
 // Slopes: what is added below the little finger and subtracted below the index finger.
-constexpr double kWristThicknessSlope = -0.0774;
-constexpr double kWristOffsetSlope = -0.0519;
-constexpr double kHeelThicknessSlope = -0.0598;
-constexpr double kHeelWidth = 0.918;
+constexpr double kWristThicknessSlope = -0.0794;
+constexpr double kWristOffsetSlope = -0.12;
+constexpr double kHeelThicknessSlope = 0.0268;
+constexpr double kHeelWidth = 1.03;
 constexpr double kHeelAt = 0.362;         // the heel of the hand, as a fraction of the metacarpals
-constexpr double kHeelThickness = 0.729;  // of the wrist's section, which includes the root of the thumb
-constexpr double kHeelOffset = 0.808;
-constexpr double kKnuckleThickness = 0.904;
-constexpr double kKnuckleOffset = 0.935;
-constexpr double kThenarRootWidth = 1.01;
-constexpr double kThenarRootThickness = 0.901;
-constexpr double kThenarRootOffset = 0.824;
-constexpr double kThenarRootShift = 0.0927;  // of its half width, away from the palm
-constexpr double kThenarMiddleThickness = 1.1;
-constexpr double kThenarTaper = 0.745;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
-constexpr double kThenarMiddle = 0.465;
-constexpr double kBorderThumb = 1.24;  // the palm's borders lie outside the outer knuckles' sections
-constexpr double kBorderLittle = 1.17;
-constexpr double kProximalOffset = 0.889;  // flesh under a proximal phalanx at its middle
-constexpr double kWebBlend = 0.00466;      // m, between a web and its fingers
-constexpr double kWebAt = 0.251;           // of the proximal phalanges: where the fold of skin between them lies
-constexpr double kWebHalfLength = 1.07;    // along the fingers, of their thickness at the next joint
-constexpr double kWebThickness = 0.946;
-constexpr double kWebOffset = 1.57;  // towards the palm, of the knuckles' flesh offset
+constexpr double kHeelThickness = 0.719;  // of the wrist's section, which includes the root of the thumb
+constexpr double kHeelOffset = 0.753;
+constexpr double kKnuckleThickness = 0.867;
+constexpr double kKnuckleOffset = 0.863;
+constexpr double kThenarTaper = 0.649;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
+constexpr double kThenarRootShift = 0.0426;  // of its half width, away from the palm
+constexpr double kThenarCap = 0.367;         // of the rounding at its far end
+constexpr double kBorderThumb = 1.03;        // the palm's borders lie outside the outer knuckles' sections
+constexpr double kBorderLittle = 1.13;
+constexpr double kWebBlend = 0.00427;    // m, between a web and its fingers
+constexpr double kWebAt = 0.232;         // of the proximal phalanges: where the fold of skin between them lies
+constexpr double kWebHalfLength = 1.14;  // along the fingers, of their thickness at the next joint
+constexpr double kWebThickness = 0.94;
+constexpr double kWebOffset = 1.54;  // towards the palm, of the knuckles' flesh offset
 
-constexpr double kThumbWebAlongThumb = 0.795;  // of its metacarpal: where the web of the thumb begins
-constexpr double kThumbWebAlongPalm = 0.73;    // from the wrist to the index knuckle: where it ends
-constexpr double kThumbWebThickness = 0.662;   // of the thumb's next joint
-constexpr double kThumbWebHalfLength = 0.675;
-constexpr double kThumbWebOffset = -0.144;  // out of the back of the hand, at the palm's end
-constexpr double kThumbWebBlend = 0.00647;  // m
+constexpr double kThumbWebAlongThumb = 0.799;  // of its metacarpal: where the web of the thumb begins
+constexpr double kThumbWebAlongPalm = 0.661;   // from the wrist to the index knuckle: where it ends
+constexpr double kThumbWebThickness = 0.484;   // of the thumb's next joint
+constexpr double kThumbWebHalfLength = 1.18;
+constexpr double kThumbWebOffset = -0.35;   // out of the back of the hand, at the palm's end
+constexpr double kThumbWebBlend = 0.00821;  // m
+
+// A section of a phalanx against what the profile states there, or mixes between its two ends.
+struct SectionShape {
+  double width = 1, thickness = 1;  // factors of the half axes
+  double rise = 0;                  // of the half thickness, towards the back of the hand
+};
+struct PhalanxShape {
+  double middle;                         // where the middle section lies, as a fraction of the length
+  double taper;                          // how far the profile's section has changed there from one end to the other
+  std::array<SectionShape, 3> sections;  // at the proximal end, in the middle, at the distal end
+};
+constexpr std::array<PhalanxShape, 3> kThumb = {{
+    {.middle = 0.497, .taper = 0.563, .sections = {{{0.961, 0.83, 0.0513}, {1.11, 1.04}, {1.03, 1.05}}}},
+    {.middle = 0.412, .taper = 0.594, .sections = {{{1.12, 1}, {0.89, 0.967, 0.0265}, {1.11, 1.04}}}},
+    {.middle = 0.768, .taper = 0.594, .sections = {{{}, {1.01, 0.906}, {0.792, 1.12, 0.126}}}},
+}};
+constexpr std::array<PhalanxShape, 3> kFinger = {{
+    {.middle = 0.49, .taper = 0.768, .sections = {{{0.937, 0.909}, {1.02, 1.03}, {1.03, 1}}}},
+    {.middle = 0.512, .taper = 0.594, .sections = {{{}, {1, 1.03}, {0.944, 1}}}},
+    {.middle = 0.594, .taper = 0.594, .sections = {{{1.02, 1}, {1, 1.01}, {0.954, 1, 0.113}}}},
+}};
 
 // Polynomial smooth minimum: differs from min only where |a - b| < k, by at most k / 4.
 double smooth_min(double a, double b, double k) {
@@ -92,32 +106,31 @@ SE3 frame_along(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const 
 
 EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int segment) {
   const SegmentProfile& s = profile.segments[segment];
+  const bool thumb = finger_of(segment) == 0;
+  const PhalanxShape& shape = (thumb ? kThumb : kFinger)[(segment - 1) % 3];
   EllipticTube tube;
   tube.T_tube_hand = pose[segment].inverse();
   tube.length = s.length;
-  tube.middle = kMiddle;
-  EllipticSection proximal = section_at(s, 0), distal = section_at(s, 1);
-  double taper = kMiddle;
-  if (segment == segment_of(0, 0)) {
-    proximal.half_x *= kThenarRootWidth;
-    proximal.half_y *= kThenarRootThickness;
-    proximal.centre_x += side_sign(profile.handedness) * kThenarRootShift * proximal.half_x;
-    proximal.centre_y *= kThenarRootOffset;
+  tube.middle = shape.middle;
+  const EllipticSection proximal = section_at(s, 0);
+  EllipticSection distal = section_at(s, 1);
+  if (segment == segment_of(0, 0))
     distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
-    taper = kThenarMiddle;
-  } else if (parent_of(segment) == kPalm) {
-    taper = kKnuckleTaper;  // flesh around a knuckle thins out fast
-  }
-  tube.sections = {proximal, mix(proximal, distal, taper), distal};
-  if (segment == segment_of(0, 0)) tube.sections[1].half_y *= kThenarMiddleThickness;
-  if (parent_of(segment) == kPalm && segment != segment_of(0, 0)) {
-    tube.sections[0].half_y *= kKnuckleThickness;
-    tube.sections[0].centre_y *= kKnuckleOffset;
-    tube.sections[1].centre_y *= kProximalOffset;
+  tube.sections = {proximal, mix(proximal, distal, shape.taper), distal};
+  for (int i = 0; i < 3; ++i) {
+    EllipticSection& section = tube.sections[i];
+    const SectionShape& change = shape.sections[i];
+    section.centre_y += change.rise * section.half_y;
+    section.half_x *= change.width;
+    section.half_y *= change.thickness;
   }
   // The tip's skin ends one distal radius beyond the tip joint; other ends only need to meet their neighbour.
   tube.cap = {std::min(s.half_width[0], s.half_thickness[0]),
               is_tip(segment) ? s.radius[1] : std::min(distal.half_x, distal.half_y)};
+  if (segment == segment_of(0, 0)) {
+    tube.sections[0].centre_x += side_sign(profile.handedness) * kThenarRootShift * proximal.half_x;
+    tube.cap[1] *= kThenarCap;
+  }
   return tube;
 }
 

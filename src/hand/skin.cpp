@@ -26,11 +26,20 @@ struct Binding {
   double weight_b;
 };
 
-// Share of the distal segment across a joint, from the position along the distal bone.
+// Share of the distal segment across a joint, from the position along the distal bone. At a knuckle the blend is wide,
+// and the palm's skin reaches farther along the finger's palm side than along its back.
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
-  const double along = -(pose[distal].inverse() * p).z();
+  constexpr double kReach = 0.82, kKnuckleReach = 1.79;           // of the joint's size, to either side
+  constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;  // of the joint's size, towards the tip; at the skin
+  const Vector3d q = pose[distal].inverse() * p;
   const SegmentProfile& s = profile.segments[distal];
-  const double reach = 0.79 * std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
+  const double size = std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
+  double along = -q.z(), reach = kReach * size;
+  if (parent_of(distal) == kPalm && finger_of(distal) != 0) {
+    const double towards_back = std::clamp((q.y() - s.flesh_offset_y[0]) / s.half_thickness[0], -1.2, 1.2);
+    along -= (kKnuckleShift - kKnuckleSlant * towards_back) * size;
+    reach = kKnuckleReach * size;
+  }
   return smoothstep(0.5 + along / (2 * reach));
 }
 
@@ -42,7 +51,7 @@ Binding blended(int parent, int child, double share_child) {
 
 // Thumb and palm melt over a wide fold: bind by the relative depth inside both.
 Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
-  constexpr double kRange = 0.0147;
+  constexpr double kRange = 0.0104;
   const int thumb = segment_of(0, 0);
   const double difference = hand.segment_distance(kPalm, p) - hand.segment_distance(thumb, p);
   return blended(kPalm, thumb, smoothstep(0.5 + difference / (2 * kRange)));
