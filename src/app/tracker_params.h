@@ -28,7 +28,7 @@ struct TrackerParams {
   int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
-  int search_attempts = 4;
+  int search_attempts = 8;
   double search_convincing = 0.002;
   double doubt = 0.15;
   int doubt_every = 6;

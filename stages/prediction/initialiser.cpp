@@ -18,6 +18,7 @@ constexpr double kMaxPitch = 0.9;    // [rad]
 constexpr double kSkinCell = 0.004;  // [m]
 constexpr int kSkinPoints = 600;     // per segment: dense enough for the palm at the fine cell
 constexpr int kLastGoodTurns = 8;
+constexpr double kPalmCentre = 0.6, kHeel = 0.3;  // of the palm's bone
 constexpr int kPlacedTogether = 24, kChangedTogether = 6;
 constexpr double kNearDistinct = 0.25;  // of the distance between results: one finger is a fifth of a hand
 
@@ -178,23 +179,27 @@ Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, dou
   return trials;
 }
 
-/// Lays a hand over the data in two ways: visible skin on the centroid; palm on the widest place of the hand, which
-/// holds when fingers are hidden. The better one is kept.
+/// Lays a hand over the data in three ways: visible skin on the centroid; palm on the widest place of the hand, which
+/// holds when fingers are hidden; its heel there, if half the palm is hidden, too. The best one is kept.
 void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const {
-  const ArticulatedPose& shape = trial.scored.articulated;
+  const ArticulatedPose shape = trial.scored.articulated;
   if (trial.stays) {
     trial.scored.cost = cost(shape);
     return;
   }
-  ArticulatedPose by_centroid = shape, by_palm = shape;
-  const Vector3d view = grid.centroid.normalized();
   const HandPose pose = posed(*profile_, shape);
-  by_centroid.T_camera_palm.t += grid.centroid - visible_mean(coarse_skin_, pose, view);
+  const Vector3d view = grid.centroid.normalized();
   const SegmentProfile& palm = profile_->segments[kPalm];
-  const Vector3d skin_at_palm = pose[kPalm] * (0.6 * palm.distal) - 0.5 * palm.half_thickness[1] * view;
-  by_palm.T_camera_palm.t += grid.palm_centre - skin_at_palm;
-  const ScoredPose first{by_centroid, cost(by_centroid)}, second{by_palm, cost(by_palm)};
-  trial.scored = first.cost <= second.cost ? first : second;
+  const Vector3d skin_on_bone = -0.5 * palm.half_thickness[1] * view;
+  const std::array<Vector3d, 3> steps = {grid.centroid - visible_mean(coarse_skin_, pose, view),
+                                         grid.palm_centre - (pose[kPalm] * (kPalmCentre * palm.distal) + skin_on_bone),
+                                         grid.palm_centre - (pose[kPalm] * (kHeel * palm.distal) + skin_on_bone)};
+  for (const Vector3d& step : steps) {
+    ScoredPose placed{shape, 0};
+    placed.articulated.T_camera_palm.t += step;
+    placed.cost = cost(placed.articulated);
+    if (&step == &steps[0] || placed.cost < trial.scored.cost) trial.scored = placed;
+  }
 }
 
 /// The pose as it is, and in several in-plane rotations.
