@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/clearly_better.h"
+#include "stages/prediction/crossed_fingers.h"
 
 namespace barehand {
 namespace {
@@ -130,6 +131,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (motion_.has_pose()) fit = follow(observation);
   if (fit && fit->refined.score < bad_score) {
     search_frames_ = 0;
+    uncross(observation, *fit);
     if (!doubtful(fit->refined.score)) return fit;
     found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
@@ -139,6 +141,17 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
     return found;
   return fit;
+}
+
+void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
+  constexpr double kMeasure = 0.05;  // fingers side by side may explain a frame so much worse and are still more likely
+  if (!params_.refinement.enabled) return;
+  const auto other = uncrossed(*model_->profile, fit.refined.pose, params_.initialiser.widening);
+  if (!other) return;
+  const RefinedPose refined = model_->refinement.refine(observation, *other, *other, params_.doubt_iterations);
+  if (refined.score >= fit.refined.score * (1 + kMeasure)) return;
+  fit.refined = refined;
+  fit.prediction.reset();  // fingers changed places: no motion from frame to frame
 }
 
 std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,

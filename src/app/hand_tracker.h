@@ -66,6 +66,7 @@ class HandTracker {
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search(const HandObservation& observation, Effort effort);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
+  void uncross(const HandObservation& observation, Fit& fit);
   std::optional<Fit> search_doubtful(const HandObservation& observation, const HandPose& followed);
   std::optional<Fit> search_near(const HandObservation& observation, const HandPose& followed);
   std::optional<Fit> best_of(const HandObservation& observation, const std::vector<StartCandidate>& starts,
