@@ -148,10 +148,8 @@ void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
   if (!params_.refinement.enabled) return;
   const auto other = uncrossed(*model_->profile, fit.refined.pose, params_.initialiser.widening);
   if (!other) return;
-  const RefinedPose refined = model_->refinement.refine(observation, *other, *other, params_.doubt_iterations);
-  if (refined.score >= fit.refined.score * (1 + kMeasure)) return;
-  fit.refined = refined;
-  fit.prediction.reset();  // fingers changed places: no motion from frame to frame
+  const auto apart = best_of(observation, {{"uncrossed", *other}}, params_.doubt_iterations);
+  if (apart->refined.score < fit.refined.score * (1 + kMeasure)) fit = *apart;
 }
 
 std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "hand/skin.h"
@@ -194,11 +195,12 @@ void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) con
   const std::array<Vector3d, 3> steps = {grid.centroid - visible_mean(coarse_skin_, pose, view),
                                          grid.palm_centre - (pose[kPalm] * (kPalmCentre * palm.distal) + skin_on_bone),
                                          grid.palm_centre - (pose[kPalm] * (kHeel * palm.distal) + skin_on_bone)};
+  trial.scored.cost = std::numeric_limits<double>::infinity();
   for (const Vector3d& step : steps) {
     ScoredPose placed{shape, 0};
     placed.articulated.T_camera_palm.t += step;
     placed.cost = cost(placed.articulated);
-    if (&step == &steps[0] || placed.cost < trial.scored.cost) trial.scored = placed;
+    if (placed.cost < trial.scored.cost) trial.scored = placed;
   }
 }
 
