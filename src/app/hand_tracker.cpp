@@ -12,6 +12,7 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
+constexpr double kHidden = 0.15;                 // a segment of which less is visible is held by no data
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -306,16 +307,29 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
   return best;
 }
 
+/// The root of the finger nearest to that of the hidden root `s` which is seen, not the thumb; the palm if none is.
+int HandTracker::seen_neighbour(const RefinedPose& found, int s) {
+  if (finger_of(s) == 0) return kPalm;
+  for (int away = 1; away < kFingerCount; ++away)
+    for (const int finger : {finger_of(s) - away, finger_of(s) + away})
+      if (finger > 0 && finger < kFingerCount && found.visible[segment_of(finger, 0)] > kHidden)
+        return segment_of(finger, 0);
+  return kPalm;
+}
+
 void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
-  // A search bends what no data holds at random; a hidden joint most likely bends like the one before it.
-  constexpr double kHidden = 0.15, kDistalShare = 2.0 / 3;
+  // A search bends what no data holds at random; a hidden finger most likely bends like the next one that is seen, and
+  // a hidden joint of one that is seen like the joint before it.
+  constexpr double kDistalShare = 2.0 / 3;
   HandPose pose = found.pose;
   for (int s = 1; s < kSegmentCount; ++s) {
     if (found.visible[s] > kHidden) continue;
     const bool root = parent_of(s) == kPalm;
-    const double before = root ? 0.0 : std::max(0.0, joint_angles(*model_->profile, pose, parent_of(s)).flexion);
+    const int model = root ? seen_neighbour(found, s) : parent_of(s);
+    double flexion = 0;
+    if (model != kPalm) flexion = std::max(0.0, joint_angles(*model_->profile, pose, model).flexion);
     pose[s] = pose[parent_of(s)] * model_->profile->rest_relative(s);
-    pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * before : before, 0, 0});
+    pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * flexion : flexion, 0, 0});
   }
   const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
   if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;

@@ -33,7 +33,8 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
       profile_(std::move(profile)),
       skin_(std::move(skin)),
       coarse_skin_(coarsened(*skin_, kCoarseCell)),
-      limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)) {}
+      limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)),
+      contact_(*profile_) {}
 
 Refinement::Detail Refinement::fine() const { return {*skin_, params_.comparison.stride}; }
 
@@ -66,6 +67,7 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   add_data_terms(skin, pose, work.comparison, params_.energy, widening, tangential, refined.evidence);
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
+  contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s].diagonal() *= 1 + params_.damping;
@@ -145,6 +147,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   moments.reset(pose, skin_->vertices.size());
   add_data_terms(*skin_, pose, work->comparison, energy, 1, 0, tree, &moments);
   add_joint_terms(*profile_, limits_, pose, energy, tree);
+  contact_.add_terms(pose, energy.sigma_overlap, tree);
   add_prior_terms(*profile_, pose, freedom(judged), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
   moments.add_to(*skin_, basis, equations);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/pool.h"
+#include "stages/refinement/hand_contact.h"
 #include "stages/refinement/hand_energy.h"
 #include "stages/refinement/shape_moments.h"
 
@@ -86,6 +87,7 @@ class Refinement {
   std::shared_ptr<const Skin> skin_;
   Skin coarse_skin_;  // for all but the last steps
   std::array<JointLimits, kSegmentCount> limits_;
+  HandContact contact_;
   mutable Pool<Workspace> workspaces_;
 };
 

@@ -1,0 +1,104 @@
+#include "stages/refinement/hand_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Axis = std::array<Vector3d, 2>;
+
+constexpr double kCarpus = 0.3;     // where a finger's rod in the palm begins, between wrist and knuckle
+constexpr double kTiny = 1e-12;     // m^2
+constexpr double kPalmShare = 0.9;  // radius of a rod in the palm, relative to the finger's root
+
+/// The closest points of two line segments of some length (Ericson, Real-Time Collision Detection, 5.1.9).
+std::array<Vector3d, 2> closest_points(const Axis& a, const Axis& b) {
+  const Vector3d d_a = a[1] - a[0], d_b = b[1] - b[0], r = a[0] - b[0];
+  const double aa = d_a.squaredNorm(), bb = d_b.squaredNorm(), ab = d_a.dot(d_b);
+  const double ar = d_a.dot(r), br = d_b.dot(r), parallel = aa * bb - ab * ab;
+  double s = parallel > kTiny * kTiny ? std::clamp((ab * br - ar * bb) / parallel, 0.0, 1.0) : 0.0;
+  const double t = std::clamp((ab * s + br) / bb, 0.0, 1.0);
+  s = std::clamp((ab * t - ar) / aa, 0.0, 1.0);
+  return {a[0] + s * d_a, b[0] + t * d_b};
+}
+
+double least_radius(const SegmentProfile& s) {
+  return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});
+}
+
+bool may_overlap_by_nature(int a, int b) {
+  const bool roots = a == segment_of(finger_of(a), 0) && b == segment_of(finger_of(b), 0);
+  return finger_of(a) == finger_of(b) || (roots && std::abs(finger_of(a) - finger_of(b)) == 1);
+}
+
+}  // namespace
+
+HandContact::HandContact(const HandProfile& profile) {
+  // The first segment of the thumb lies within the palm's flesh.
+  for (int s = segment_of(0, 1); s < kSegmentCount; ++s) {
+    const SegmentProfile& phalanx = profile.segments[s];
+    Rod rod{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
+    for (int end = 0; end < 2; ++end)
+      rod.ends[end] += Vector3d(phalanx.flesh_offset_x[end], phalanx.flesh_offset_y[end], 0);
+    rods_.push_back(rod);
+  }
+  const int phalanges = static_cast<int>(rods_.size());
+  for (int finger = 1; finger < kFingerCount; ++finger) {
+    const int root = segment_of(finger, 0);
+    const SegmentProfile& s = profile.segments[root];
+    const Vector3d knuckle = profile.rest_relative(root).t;
+    rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, kPalmShare * std::min(s.half_width[0], s.half_thickness[0])});
+  }
+  const int rods = static_cast<int>(rods_.size());
+  for (int a = 0; a < phalanges; ++a) {
+    const int s = rods_[a].segment;
+    for (int b = a + 1; b < phalanges; ++b)
+      if (!may_overlap_by_nature(s, rods_[b].segment)) pairs_.push_back({a, b});
+    if (parent_of(s) != kPalm)
+      for (int b = phalanges; b < rods; ++b) pairs_.push_back({a, b});
+  }
+}
+
+template <class Use>
+void HandContact::for_each_overlap(const HandPose& pose, const Use& use) const {
+  constexpr int kMostRods = 2 * kSegmentCount;
+  std::array<Axis, kMostRods> axes;
+  for (std::size_t i = 0; i < rods_.size(); ++i)
+    for (int end = 0; end < 2; ++end) axes[i][end] = pose[rods_[i].segment] * rods_[i].ends[end];
+  for (const auto& [a, b] : pairs_) {
+    const auto [p_a, p_b] = closest_points(axes[a], axes[b]);
+    const double reach = rods_[a].radius + rods_[b].radius;
+    if ((p_a - p_b).squaredNorm() < reach * reach) use(rods_[a], rods_[b], p_a, p_b, reach - (p_a - p_b).norm());
+  }
+}
+
+double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& tree) const {
+  const double information = 1 / (sigma * sigma);
+  double total = 0;
+  for_each_overlap(pose, [&](const Rod& a, const Rod& b, const Vector3d& p_a, const Vector3d& p_b, double overlap) {
+    total += information * overlap * overlap;
+    const Vector3d between = p_a - p_b;
+    if (between.squaredNorm() < kTiny) return;  // axes that meet: no side to move to
+    const Vector3d away = between.normalized();
+    const auto push = [&](int s, const Vector3d& p, const Vector3d& direction) {
+      const Vector6d row = -(point_jacobian(p - pose[s].t).transpose() * direction);
+      tree.H_self[s] += 2 * information * row * row.transpose();
+      tree.g[s] -= information * overlap * row;
+    };
+    push(a.segment, p_a, away);
+    push(b.segment, p_b, -away);
+  });
+  return total;
+}
+
+double HandContact::deepest(const HandPose& pose) const {
+  double deepest = 0;
+  for_each_overlap(pose, [&](const Rod&, const Rod&, const Vector3d&, const Vector3d&, double overlap) {
+    deepest = std::max(deepest, overlap);
+  });
+  return deepest;
+}
+
+}  // namespace barehand

@@ -1,0 +1,120 @@
+#include "stages/refinement/hand_contact.h"
+
+#include <gtest/gtest.h>
+
+#include "math/angles.h"
+#include "stages/prediction/start_templates.h"
+#include "stages/refinement/hand_energy.h"
+#include "support/adult_hand.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kSigma = 0.001;
+
+class Contact : public testing::TestWithParam<Handedness> {
+ protected:
+  void SetUp() override {
+    const auto right = test::adult_hand();
+    ASSERT_TRUE(right);
+    profile_ = GetParam() == Handedness::right ? *right : mirrored(*right);
+    limits_ = widened_limits(profile_, 10 * kDegree);
+  }
+  HandPose pose_of(const std::array<JointAngles, kSegmentCount>& angles) const {
+    return posed(profile_, {{palm_orientation(0.3, 0.2, 0.5), {0.02, -0.01, 0.5}}, angles});
+  }
+  /// Fingers bent alike, from the thumb's side to the little finger's; the thumb is straight.
+  std::array<JointAngles, kSegmentCount> bent(double first, double second, double third) const {
+    std::array<JointAngles, kSegmentCount> angles{};
+    for (int finger = 1; finger < kFingerCount; ++finger) {
+      angles[segment_of(finger, 0)].flexion = first * kDegree;
+      angles[segment_of(finger, 1)].flexion = second * kDegree;
+      angles[segment_of(finger, 2)].flexion = third * kDegree;
+    }
+    return angles;
+  }
+  /// Three fingers meet.
+  HandPose tangled() const {
+    auto angles = bent(20, 25, 15);
+    const double side = side_sign(profile_.handedness);
+    angles[segment_of(1, 0)].abduction = -25 * side * kDegree;
+    angles[segment_of(3, 0)].abduction = 20 * side * kDegree;
+    return pose_of(angles);
+  }
+  double energy(const HandContact& contact, const HandPose& pose) const {
+    GaussianTree unused;
+    unused.set_zero();
+    return contact.add_terms(pose, kSigma, unused);
+  }
+
+  HandProfile profile_;
+  std::array<JointLimits, kSegmentCount> limits_{};
+};
+
+TEST_P(Contact, GradientMatchesCentralDifferences) {
+  const HandContact contact(profile_);
+  const HandPose pose = tangled();
+  ASSERT_GT(contact.deepest(pose), 0.003);
+  GaussianTree tree;
+  tree.set_zero();
+  contact.add_terms(pose, kSigma, tree);
+  const auto error = [&] {
+    constexpr double kStep = 1e-6, kArm = 0.03;  // of a turn [m]
+    double worst = 0, scale = 0;
+    for (int s = 0; s < kSegmentCount; ++s)
+      for (int i = 0; i < 6; ++i) {
+        const auto at = [&](double h) {
+          HandPose moved = pose;
+          moved[s] = boxplus(moved[s], h * Vector6d::Unit(i));
+          return energy(contact, moved);
+        };
+        const double unit = i < 3 ? 1 : kArm;
+        const double numeric = 0.5 * (at(kStep) - at(-kStep)) / (2 * kStep);
+        worst = std::max(worst, std::abs(numeric + tree.g[s][i]) / unit);
+        scale = std::max(scale, std::abs(numeric) / unit);
+      }
+    return worst / scale;
+  };
+  EXPECT_LT(error(), 1e-5);
+  for (Vector6d& g : tree.g) g.tail<3>() *= 0.5;
+  EXPECT_GT(error(), 0.01) << "the check must notice a wrong gradient";
+}
+
+// As in the refinement, without data: soft joints hold the hand together, its last pose is where it goes on from.
+TEST_P(Contact, MovesSegmentsApartAndKeepsThemApart) {
+  const HandContact contact(profile_);
+  HandPose pose = tangled();
+  const EnergyParams params;
+  std::array<double, kSegmentCount> seen;
+  seen.fill(0);
+  const double tangled_energy = energy(contact, pose);
+  for (int step = 0; step < 8; ++step) {
+    GaussianTree tree;
+    tree.set_zero();
+    contact.add_terms(pose, kSigma, tree);
+    add_joint_terms(profile_, limits_, pose, params, tree);
+    add_prior_terms(profile_, pose, seen, pose, params, tree);
+    std::array<Vector6d, kSegmentCount> x;
+    ASSERT_TRUE(tree.solve(x));
+    for (int s = 0; s < kSegmentCount; ++s) pose[s] = boxplus(pose[s], x[s]);
+    EXPECT_LT(energy(contact, pose), tangled_energy / 4) << step;
+  }
+  EXPECT_LT(contact.deepest(pose), 0.001);
+}
+
+TEST_P(Contact, FingersSideBySideDoNotOverlapHoweverTheyAreBent) {
+  const HandContact contact(profile_);
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+    EXPECT_LT(contact.deepest(pose_of(bent(80 * share, 100 * share, 60 * share))), 0.0005) << share;
+}
+
+TEST_P(Contact, FingertipsDoNotPassThroughThePalm) {
+  const HandContact contact(profile_);
+  EXPECT_GT(contact.deepest(pose_of(bent(100, 125, 40))), 0.003);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothHands, Contact, testing::Values(Handedness::right, Handedness::left),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
+
+}  // namespace
+}  // namespace barehand
