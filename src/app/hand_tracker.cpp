@@ -5,6 +5,7 @@
 
 #include "app/clearly_better.h"
 #include "stages/prediction/crossed_fingers.h"
+#include "stages/prediction/hidden_fingers.h"
 
 namespace barehand {
 namespace {
@@ -175,7 +176,9 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   }
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
-  motion_.update(fit.refined.pose, seen, *fit.prediction);
+  const auto limits = widened_limits(*model_->profile, params_.initialiser.widening);
+  const HandPose& pose = fit.refined.pose;
+  motion_.update(with_hidden_following(*model_->profile, limits, motion_.pose(), pose, seen), seen, *fit.prediction);
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
@@ -307,30 +310,11 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
   return best;
 }
 
-/// The root of the finger nearest to that of the hidden root `s` which is seen, not the thumb; the palm if none is.
-int HandTracker::seen_neighbour(const RefinedPose& found, int s) {
-  if (finger_of(s) == 0) return kPalm;
-  for (int away = 1; away < kFingerCount; ++away)
-    for (const int finger : {finger_of(s) - away, finger_of(s) + away})
-      if (finger > 0 && finger < kFingerCount && found.visible[segment_of(finger, 0)] > kHidden)
-        return segment_of(finger, 0);
-  return kPalm;
-}
-
 void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
-  // A search bends what no data holds at random; a hidden finger most likely bends like the next one that is seen, and
-  // a hidden joint of one that is seen like the joint before it.
-  constexpr double kDistalShare = 2.0 / 3;
-  HandPose pose = found.pose;
-  for (int s = 1; s < kSegmentCount; ++s) {
-    if (found.visible[s] > kHidden) continue;
-    const bool root = parent_of(s) == kPalm;
-    const int model = root ? seen_neighbour(found, s) : parent_of(s);
-    double flexion = 0;
-    if (model != kPalm) flexion = std::max(0.0, joint_angles(*model_->profile, pose, model).flexion);
-    pose[s] = pose[parent_of(s)] * model_->profile->rest_relative(s);
-    pose[s].R *= joint_rotation({is_tip(s) ? kDistalShare * flexion : flexion, 0, 0});
-  }
+  // A search bends what no data holds at random.
+  std::array<bool, kSegmentCount> seen;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHidden;
+  const HandPose pose = with_hidden_at_ease(*model_->profile, found.pose, seen);
   const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
   if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;
 }

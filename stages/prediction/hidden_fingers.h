@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "hand/joint_angles.h"
+
+namespace barehand {
+
+/// What is known of fingers that no data shows: they mostly bend with their neighbours, as a grasp closes all of them
+/// and one finger's tendons pull at the next (enslaving: Zatsiorsky, Li and Latash, Exp. Brain Res. 131, 2000).
+
+/// A pose that was found by a search, with its hidden joints at ease: a hidden finger is bent at its root like the
+/// nearest ones that are seen, a hidden joint of a finger like the joint before it, at the tip by two thirds of that.
+HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose,
+                             const std::array<bool, kSegmentCount>& seen);
+
+/// `now` with every finger that is hidden, or hidden from some joint on, bent on there by as much as the nearest ones
+/// that are seen have bent since `before`, within the limits. The thumb and what is seen stay.
+HandPose with_hidden_following(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
+                               const HandPose& before, const HandPose& now,
+                               const std::array<bool, kSegmentCount>& seen);
+
+}  // namespace barehand
