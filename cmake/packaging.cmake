@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, and the Debian package made of it: cpack --preset package.
-include(GNUInstallDirs)
 set(data share/barehand)  # src/app/data_files.cpp looks beside the program
+barehand_more_instruction_sets()
 install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json")
 install(DIRECTORY lcmtypes DESTINATION ${data} FILES_MATCHING PATTERN "*.lcm" PATTERN foreign EXCLUDE)
 install(PROGRAMS deploy/fetch_hand_mesh.sh DESTINATION ${data}/deploy)
@@ -40,8 +40,8 @@ set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Barehand is a daemon beside a depth sensor
 and moves things and says on LCM, frame by frame, what an instrumented glove
 would say: where the palm and the phalanges are, how every joint is bent, what
 is seen and what is inferred, and how sure it is.")
-if(BAREHAND_ARCH STREQUAL "x86-64-v3")
-  string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "\n.\nThis build needs a processor with AVX2 (x86-64-v3).")
+if(BAREHAND_ARCH MATCHES "^x86-64-v")
+  string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "\n.\nThis build needs an ${BAREHAND_ARCH} processor or better.")
 endif()
 include(CPack)
 

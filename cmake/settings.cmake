@@ -16,10 +16,7 @@ add_library(barehand_settings INTERFACE)
 target_include_directories(barehand_settings INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 # Never -ffast-math: small SVDs returned NaN under it. These two alone let the compiler vectorise.
 target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math)
-# One instruction set for every translation unit: Eigen's alignment depends on it.
-if(BAREHAND_ARCH)
-  target_compile_options(barehand_settings INTERFACE -march=${BAREHAND_ARCH})
-endif()
+barehand_instruction_set(barehand_settings)
 set(BAREHAND_TEST_TIMEOUT 300)  # seconds
 if(BAREHAND_SANITIZE)
   set(BAREHAND_TEST_TIMEOUT 1800)  # ten to thirty times as slow

@@ -1,3 +1,5 @@
+#include "app/program.h"
+
 #include <CLI/CLI.hpp>
 
 #include "app/bench_command.h"
@@ -12,28 +14,32 @@
 #include "app/sim_command.h"
 #include "app/track_command.h"
 
-int main(int argc, char** argv) {
+namespace barehand {
+
+int run_program(int argc, char** argv) {
   CLI::App app("Tracks a bare hand that holds things and publishes glove-like hand states over LCM.", "barehand");
   app.set_version_flag("--version", BAREHAND_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 failed while running, 2 wrong arguments or configuration, 130 interrupted.\n"
       "barehand COMMAND --help says more.");
-  int exit_code = barehand::kExitOk;
-  barehand::add_track_command(app, exit_code);
-  barehand::add_sim_command(app, exit_code);
-  barehand::add_record_command(app, exit_code);
-  barehand::add_convert_command(app, exit_code);
-  barehand::add_eval_command(app, exit_code);
-  barehand::add_calibrate_command(app, exit_code);
-  barehand::add_experiment_command(app, exit_code);
-  barehand::add_listen_command(app, exit_code);
-  barehand::add_bench_command(app, exit_code);
-  barehand::add_doctor_command(app, exit_code);
+  int exit_code = kExitOk;
+  add_track_command(app, exit_code);
+  add_sim_command(app, exit_code);
+  add_record_command(app, exit_code);
+  add_convert_command(app, exit_code);
+  add_eval_command(app, exit_code);
+  add_calibrate_command(app, exit_code);
+  add_experiment_command(app, exit_code);
+  add_listen_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  add_doctor_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? barehand::kExitOk : barehand::kExitUsage;
+    return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }
   return exit_code;
 }
+
+}  // namespace barehand

@@ -50,6 +50,19 @@ grep -q "): 10 published" "$work/track" || die "not 10 frames published"
 [ -s "$root/tmp/fist.csv" ] && [ -s "$root/tmp/fist.lcmlog" ] || die "nothing is written"
 inside barehand track --config paper --print-config >/dev/null || die "it does not find paper.yaml"
 
+# The loader takes the program for AVX2 unless the processor has none: as if it had none, the other one runs.
+say "the program for processors without AVX2"
+older=(env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2)
+inside "${older[@]}" barehand doctor >"$work/doctor_older" || die "it does not run"
+grep -q 'the program does without' "$work/doctor_older" || die "the loader took the program for AVX2"
+inside "${older[@]}" barehand track --source sim:fist,frames=10 --no-publish --result /tmp/older.csv >/dev/null
+if grep -q 'the program uses AVX2' "$work/doctor"; then
+  paste -d, "$root/tmp/fist.csv" "$root/tmp/older.csv" | awk -F, 'NR > 1 {
+    for (i = 4; i <= 9; ++i) { apart = $i - $(i + 10); sum += apart < 0 ? -apart : apart; ++n } }
+    END { printf "%.3f mm apart in the mean\n", 1e3 * sum / n; exit !(n > 0 && sum / n < 0.0005) }' ||
+    die "its hand poses differ"
+fi
+
 for file in share/barehand/lcmtypes/hand_state_t.lcm share/barehand/configs/hands/adult_right.json \
             share/doc/barehand/copyright share/doc/barehand/docs/lcm.md lib/udev/rules.d/60-barehand-sensors.rules \
             share/barehand/deploy/batch/one_log.sh; do
