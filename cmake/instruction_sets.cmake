@@ -34,6 +34,6 @@ function(barehand_more_instruction_sets)
       INSTALL_COMMAND ""
       BUILD_ALWAYS ON
       USES_TERMINAL_BUILD ON)
-    install(PROGRAMS ${build}/src/app/libbarehand.so DESTINATION ${CMAKE_INSTALL_LIBDIR}/barehand/glibc-hwcaps/${arch})
+    install(FILES ${build}/src/app/libbarehand.so DESTINATION ${CMAKE_INSTALL_LIBDIR}/barehand/glibc-hwcaps/${arch})
   endforeach()
 endfunction()

@@ -85,9 +85,9 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
   return judge(observation, found, seen);
 }
 
-std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort) {
+std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
-  return search(observation, effort);
+  return search(observation, effort, attempts);
 }
 
 Effort HandTracker::effort() const {
@@ -137,7 +137,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     if (!doubtful(fit->refined.score)) return fit;
     found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
-    found = search(observation, effort());
+    found = search(observation, effort(), attempts(effort()));
     ++search_frames_;
   }
   if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
@@ -268,9 +268,7 @@ void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
   if (!best || other.refined.score < best->refined.score) best = other;
 }
 
-std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation, Effort effort) {
-  // A hand that was tracked before is near its last pose; only a first start is worth several attempts.
-  const int attempts = effort == Effort::full && !last_good_ ? params_.search_attempts : 1;
+std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation, Effort effort, int attempts) {
   std::optional<Fit> best;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto found = search_once(observation, effort, attempt)) keep_better(best, *found);

@@ -39,10 +39,14 @@ class HandTracker {
   HandEstimatePtr process(const HandObservation& observation);
   /// The same where somebody else decides whether it is this hand: `found` by look(), or nothing.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Fit> found);
-  /// The best pose that a search finds in the next observation, if that shows this hand.
-  std::optional<Fit> look(const HandObservation& observation, Effort effort);
+  /// The best pose that up to `attempts` searches find in the next observation, if that shows this hand; the first one
+  /// that convinces is the last.
+  std::optional<Fit> look(const HandObservation& observation, Effort effort, int attempts);
   /// Of the next search: most are quick ones.
   Effort effort() const;
+  /// What a search with this effort is worth: a hand that was tracked before is near its last pose, a first start is
+  /// worth several.
+  int attempts(Effort effort) const { return effort == Effort::full && !last_good_ ? params_.search_attempts : 1; }
   /// As of the last observation.
   TrackStatus status() const { return loss_.status(); }
   /// As fitted to the person so far.
@@ -64,7 +68,7 @@ class HandTracker {
   bool doubtful(double score);
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);
-  std::optional<Fit> search(const HandObservation& observation, Effort effort);
+  std::optional<Fit> search(const HandObservation& observation, Effort effort, int attempts);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
   void uncross(const HandObservation& observation, Fit& fit);
   std::optional<Fit> search_doubtful(const HandObservation& observation, const HandPose& followed);

@@ -59,11 +59,13 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) return hand.process(observation);
   const Effort effort = hand.effort();
-  std::optional<Fit> found = hand.look(observation, effort);
+  const int attempts = hand.attempts(effort);
+  std::optional<Fit> found = hand.look(observation, effort, attempts);
   const double score = found ? found->refined.score : INFINITY;
+  const bool convincing = score < params_.search_convincing;
   if (score > params_.loss.lost_score)
     check_->nothing_found(observation, score);
-  else if (check_->is_other_side(observation, effort, score))
+  else if (check_->is_other_side(observation, effort, convincing ? 1 : attempts, score))
     found.reset();
   return hand.process(observation, std::move(found));
 }
@@ -75,17 +77,25 @@ bool HandsTracker::searched(int k, const HandObservation& observation) const {
 
 void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Fit> found;
-  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k], hands_[k]->effort());
+  const Effort effort = hands_[k]->effort();
+  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
-  const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
-  for (int k = 0; k < 2; ++k)
-    for (int j = 0; j < 2; ++j)
-      found[k][j] = hands_[k]->look(*observations[j], full ? Effort::full : Effort::quick);  // equal chances
   const auto score = [&](int k, int j) { return found[k][j] ? found[k][j]->refined.score : INFINITY; };
+  const auto convincing = [&](int j) {
+    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;
+  };
+  const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
+  const Effort effort = full ? Effort::full : Effort::quick;  // equal chances
+  const int most = std::max(hands_[0]->attempts(effort), hands_[1]->attempts(effort));
+  for (const int attempts : {1, most}) {
+    for (int k = 0; k < 2; ++k)
+      for (int j = 0; j < 2; ++j) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
+    if (attempts == most || (convincing(0) && convincing(1))) break;
+  }
   std::array<int, 2> owned = {-1, -1};  // by hand: observation
   if (observations[0]->hand_present && observations[1]->hand_present) {
     const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);

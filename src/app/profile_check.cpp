@@ -22,9 +22,9 @@ HandTracker ProfileCheck::tracker_of(const HandProfile& profile) const {
   return HandTracker(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
-bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, double score) {
+bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
-  const auto other = mirrored_->look(observation, effort);
+  const auto other = mirrored_->look(observation, effort, attempts);
   if (!other || !clearly_better(other->refined.score, score)) return false;
   if (!said_side_) {
     const auto seen = to_string(mirrored_->profile().handedness);
@@ -39,7 +39,7 @@ void ProfileCheck::nothing_found(const HandObservation& observation, double scor
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
   const double size = kSizes[tries_++ % kSizes.size()];
-  const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick);
+  const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick, 1);
   if (!other || other->refined.score > params_.loss.lost_score || !clearly_better(other->refined.score, score)) return;
   log_->warn("{}", other_size(size, profile_));
   said_size_ = true;

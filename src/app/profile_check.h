@@ -15,8 +15,9 @@ class ProfileCheck {
   ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
                std::shared_ptr<spdlog::logger> log);
 
-  /// A search with `effort` found the hand with `score`: whether the mirrored profile explains it clearly better.
-  bool is_other_side(const HandObservation& observation, Effort effort, double score);
+  /// A search found the hand with `score`: whether the mirrored profile, looked for in the same way, explains it
+  /// clearly better.
+  bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
   /// A search found no hand, at best with `score` (infinite: nothing at all). Now and then another size is tried.
   void nothing_found(const HandObservation& observation, double score);
 

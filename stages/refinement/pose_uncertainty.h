@@ -6,7 +6,7 @@ namespace barehand {
 
 /// What keeps a pose from the truth although the energy is at its minimum.
 struct UncertaintyParams {
-  double skin_deviation = 0.0008;   ///< m, of the person's skin from the model's, common to a patch
+  double skin_deviation = 0.0007;   ///< m, of the person's skin from the model's, common to a patch
   double skin_patch = 0.010;        ///< m, side of such a patch: more pixels within it say no more
   double joint_deviation = 0.0005;  ///< m, per axis, of a joint's place within the skin, which no picture shows
   double mean_hand_factor = 3;      ///< on both, where the profile is a mean hand, fitted or not
