@@ -176,9 +176,12 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   }
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
-  const auto limits = widened_limits(*model_->profile, params_.initialiser.widening);
-  const HandPose& pose = fit.refined.pose;
-  motion_.update(with_hidden_following(*model_->profile, limits, motion_.pose(), pose, seen), seen, *fit.prediction);
+  HandPose pose = fit.refined.pose;
+  if (params_.refinement.enabled) {  // the paper knows nothing of hidden fingers
+    const auto limits = widened_limits(*model_->profile, params_.initialiser.widening);
+    pose = with_hidden_following(*model_->profile, limits, motion_.pose(), pose, seen);
+  }
+  motion_.update(pose, seen, *fit.prediction);
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
