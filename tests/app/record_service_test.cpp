@@ -143,6 +143,7 @@ TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
 
 TEST_F(RecordOnSmallDisk, TheOldestOfASetMakeRoomForTheNewest) {
   ChildProcess child(on_small_disk({"--max-size", "40kB", "--quota", "1GB"}));
+  ASSERT_TRUE(child.wait_for("\n"));  // its first line: the disk is there
   const auto newest = [&] { return disk_.beside(child, "ls " + folder_.path() + " | grep take | tail -n 1"); };
   for (std::string name = newest(); name < "take-000012"; name = newest())
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
