@@ -6,6 +6,7 @@ endif()
 set(BAREHAND_ARCH "${default_arch}" CACHE STRING "Value of -march; empty leaves it to the compiler")
 set(BAREHAND_MORE_ARCHS "" CACHE STRING
     "Further values of -march (x86-64-v3, x86-64-v4) that the package carries the program for; the loader takes the best")
+set(BAREHAND_LIBRARIES lib/${CMAKE_LIBRARY_ARCHITECTURE}/barehand)  # the program's own; nobody else links them
 
 # One instruction set for every translation unit: Eigen's alignment depends on it. On another processor the loader says
 # so and stops, instead of an illegal instruction somewhere.
@@ -34,6 +35,6 @@ function(barehand_more_instruction_sets)
       INSTALL_COMMAND ""
       BUILD_ALWAYS ON
       USES_TERMINAL_BUILD ON)
-    install(FILES ${build}/src/app/libbarehand.so DESTINATION ${CMAKE_INSTALL_LIBDIR}/barehand/glibc-hwcaps/${arch})
+    install(FILES ${build}/src/app/libbarehand.so DESTINATION ${BAREHAND_LIBRARIES}/glibc-hwcaps/${arch})
   endforeach()
 endfunction()

@@ -1,4 +1,5 @@
 # What `cmake --install` puts where, and the Debian package made of it: cpack --preset package.
+include(GNUInstallDirs)
 set(data share/barehand)  # src/app/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
 install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json")
