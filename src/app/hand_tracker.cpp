@@ -13,7 +13,6 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
-constexpr double kHidden = 0.15;                 // a segment of which less is visible is held by no data
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -85,11 +84,6 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
   return judge(observation, found, seen);
 }
 
-std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
-  if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
-  return search(observation, effort, attempts);
-}
-
 Effort HandTracker::effort() const {
   // A hand that was followed until now is most likely near: a full search would only hold up its next frames.
   const int first_full = last_good_ ? std::min(kQuickFirst, params_.full_search_every - 1) : 0;
@@ -137,7 +131,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     if (!doubtful(fit->refined.score)) return fit;
     found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
-    found = search(observation, effort(), attempts(effort()));
+    found = look(observation, effort(), attempts(effort()));
     ++search_frames_;
   }
   if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
@@ -178,8 +172,7 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
   HandPose pose = fit.refined.pose;
   if (params_.refinement.enabled) {  // the paper knows nothing of hidden fingers
-    const auto limits = widened_limits(*model_->profile, params_.initialiser.widening);
-    pose = with_hidden_following(*model_->profile, limits, motion_.pose(), pose, seen);
+    pose = with_hidden_following(*model_->profile, motion_.pose(), pose, seen, params_.initialiser.widening);
   }
   motion_.update(pose, seen, *fit.prediction);
 }
@@ -271,7 +264,8 @@ void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
   if (!best || other.refined.score < best->refined.score) best = other;
 }
 
-std::optional<HandTracker::Fit> HandTracker::search(const HandObservation& observation, Effort effort, int attempts) {
+std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
+  if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
   std::optional<Fit> best;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto found = search_once(observation, effort, attempt)) keep_better(best, *found);
@@ -313,6 +307,7 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
 
 void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
   // A search bends what no data holds at random.
+  constexpr double kHidden = 0.15;
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHidden;
   const HandPose pose = with_hidden_at_ease(*model_->profile, found.pose, seen);

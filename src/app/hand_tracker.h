@@ -68,7 +68,6 @@ class HandTracker {
   bool doubtful(double score);
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);
-  std::optional<Fit> search(const HandObservation& observation, Effort effort, int attempts);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
   void uncross(const HandObservation& observation, Fit& fit);
   std::optional<Fit> search_doubtful(const HandObservation& observation, const HandPose& followed);

@@ -51,8 +51,9 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, c
   return result;
 }
 
-HandPose with_hidden_following(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
-                               const HandPose& before, const HandPose& now, const Seen& seen) {
+HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now,
+                               const Seen& seen, double widening) {
+  const auto limits = widened_limits(profile, widening);
   const auto bent = [&](int s) {
     return joint_angles(profile, now, s).flexion - joint_angles(profile, before, s).flexion;
   };

@@ -14,9 +14,7 @@ constexpr double kWidening = 10 * kDegree;
 class CrossedFingers : public testing::TestWithParam<Handedness> {
  protected:
   void SetUp() override {
-    const auto right = test::adult_hand();
-    ASSERT_TRUE(right);
-    profile_ = GetParam() == Handedness::right ? *right : mirrored(*right);
+    profile_ = *test::adult_hand(GetParam());
     limits_ = widened_limits(profile_, kWidening);
     pose_.T_camera_palm = {palm_orientation(0.3, 0.2, 0.5), {0.02, -0.01, 0.5}};
     for (int finger = 1; finger < kFingerCount; ++finger)

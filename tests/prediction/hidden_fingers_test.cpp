@@ -9,15 +9,14 @@
 namespace barehand {
 namespace {
 
+constexpr double kWidening = 10 * kDegree;
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2, kRing = 3, kLittle = 4;
 
 class HiddenFingers : public testing::TestWithParam<Handedness> {
  protected:
   void SetUp() override {
-    const auto right = test::adult_hand();
-    ASSERT_TRUE(right);
-    profile_ = GetParam() == Handedness::right ? *right : mirrored(*right);
-    limits_ = widened_limits(profile_, 10 * kDegree);
+    profile_ = *test::adult_hand(GetParam());
+    limits_ = widened_limits(profile_, kWidening);
     seen_.fill(true);
   }
   static void hide(std::array<bool, kSegmentCount>& seen, int finger, int from = 0) {
@@ -72,7 +71,7 @@ TEST_P(HiddenFingers, FollowWhatTheirNeighboursAreSeenToBend) {
   for (const int finger : {kIndex, kLittle}) now = with_finger_of(now, before, finger);  // held where they vanished
   hide(seen_, kLittle);
   hide(seen_, kIndex, 1);
-  const HandPose followed = with_hidden_following(profile_, limits_, before, now, seen_);
+  const HandPose followed = with_hidden_following(profile_, before, now, seen_, kWidening);
   EXPECT_NEAR(flexion(followed, kLittle, 0), 28, 1e-6);  // the ring finger is next to it
   EXPECT_NEAR(flexion(followed, kLittle, 1), 42, 1e-6);
   EXPECT_NEAR(flexion(followed, kLittle, 2), 16, 1e-6);
@@ -90,7 +89,7 @@ TEST_P(HiddenFingers, BetweenTwoThatAreSeenFollowBoth) {
   HandPose now = with_finger_of(bent(30, 30, 10), bent(26, 30, 10), kLittle);
   now = with_finger_of(now, before, kRing);
   hide(seen_, kRing);
-  EXPECT_NEAR(flexion(with_hidden_following(profile_, limits_, before, now, seen_), kRing, 0), 28, 1e-6);
+  EXPECT_NEAR(flexion(with_hidden_following(profile_, before, now, seen_, kWidening), kRing, 0), 28, 1e-6);
 }
 
 TEST_P(HiddenFingers, StayWithinTheirLimits) {
@@ -102,7 +101,7 @@ TEST_P(HiddenFingers, StayWithinTheirLimits) {
     HandPose further = now;
     for (const int finger : {kIndex, kMiddle, kRing})
       further = with_finger_of(further, bent(20, most - 8 + step, 10), finger);
-    return flexion(with_hidden_following(profile_, limits_, before, further, seen_), kLittle, 1);
+    return flexion(with_hidden_following(profile_, before, further, seen_, kWidening), kLittle, 1);
   };
   EXPECT_NEAR(aside(5), most - 3, 1e-6);
   EXPECT_NEAR(aside(20), most, 1e-6);
@@ -111,7 +110,7 @@ TEST_P(HiddenFingers, StayWithinTheirLimits) {
 TEST_P(HiddenFingers, DoNotMoveWithTheThumbNorTheThumbWithThem) {
   const HandPose before = bent(20, 30, 10, 0), now = bent(30, 40, 20, 25);
   const auto stays = [&] {
-    const HandPose followed = with_hidden_following(profile_, limits_, before, now, seen_);
+    const HandPose followed = with_hidden_following(profile_, before, now, seen_, kWidening);
     for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(followed[s], now[s]).norm(), 1e-9) << kSegmentNames[s];
   };
   hide(seen_, kThumb);

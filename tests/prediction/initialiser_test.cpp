@@ -62,7 +62,7 @@ TEST_F(InitialiserTest, FindsAnOpenHandAtAnyInPlaneRotation) {
 TEST_F(InitialiserTest, FindsAHalfOpenHand) { EXPECT_LT(error_of_best(shape(2, 0.0, 1.0)), 0.025); }
 
 TEST_F(InitialiserTest, FindsALeftHand) {
-  use(test::adult_hand("left"));
+  use(test::adult_hand(Handedness::left));
   EXPECT_LT(error_of_best(shape(1, 0.0, 0.5)), 0.02);
 }
 

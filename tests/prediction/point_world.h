@@ -3,19 +3,13 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <string>
 
 #include "hand/joint_angles.h"
 #include "hand/surface.h"
-#include "io/hand_json.h"
 #include "observe/observation.h"
+#include "support/adult_hand.h"
 
 namespace barehand::test {
-
-inline std::shared_ptr<const HandProfile> adult_hand(const std::string& side = "right") {
-  const auto profile = load_profile(std::string(BAREHAND_CONFIGS) + "/hands/adult_" + side + ".json");
-  return profile ? std::make_shared<const HandProfile>(*profile) : nullptr;
-}
 
 /// Small camera that sees a hand at 0.4 m with 1.7 mm per pixel.
 inline Intrinsics small_camera() { return {320, 240, 240, 240, 159.5, 119.5}; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gradient_error.h"
 #include "math/angles.h"
 #include "stages/prediction/start_templates.h"
 #include "stages/refinement/hand_energy.h"
@@ -15,9 +16,7 @@ constexpr double kSigma = 0.001;
 class Contact : public testing::TestWithParam<Handedness> {
  protected:
   void SetUp() override {
-    const auto right = test::adult_hand();
-    ASSERT_TRUE(right);
-    profile_ = GetParam() == Handedness::right ? *right : mirrored(*right);
+    profile_ = *test::adult_hand(GetParam());
     limits_ = widened_limits(profile_, 10 * kDegree);
   }
   HandPose pose_of(const std::array<JointAngles, kSegmentCount>& angles) const {
@@ -59,21 +58,8 @@ TEST_P(Contact, GradientMatchesCentralDifferences) {
   tree.set_zero();
   contact.add_terms(pose, kSigma, tree);
   const auto error = [&] {
-    constexpr double kStep = 1e-6, kArm = 0.03;  // of a turn [m]
-    double worst = 0, scale = 0;
-    for (int s = 0; s < kSegmentCount; ++s)
-      for (int i = 0; i < 6; ++i) {
-        const auto at = [&](double h) {
-          HandPose moved = pose;
-          moved[s] = boxplus(moved[s], h * Vector6d::Unit(i));
-          return energy(contact, moved);
-        };
-        const double unit = i < 3 ? 1 : kArm;
-        const double numeric = 0.5 * (at(kStep) - at(-kStep)) / (2 * kStep);
-        worst = std::max(worst, std::abs(numeric + tree.g[s][i]) / unit);
-        scale = std::max(scale, std::abs(numeric) / unit);
-      }
-    return worst / scale;
+    constexpr double kStep = 1e-6, kArm = 0.03;
+    return test::gradient_error([&](const HandPose& at) { return energy(contact, at); }, pose, tree, kStep, kArm);
   };
   EXPECT_LT(error(), 1e-5);
   for (Vector6d& g : tree.g) g.tail<3>() *= 0.5;

@@ -1,5 +1,6 @@
 #include "stages/refinement/hand_energy.h"
 
+#include "gradient_error.h"
 #include "math/angles.h"
 #include "math/random.h"
 #include "support/painted_hand.h"
@@ -59,22 +60,9 @@ class EnergyTest : public ::testing::Test {
     return add_data_terms(skin_, pose, comparison, params_, 1, tangential, unused);
   }
 
-  // Largest relative deviation of -g from half the numeric gradient of `energy`.
   template <class Energy>
   double gradient_error(const Energy& energy, const GaussianTree& tree, double step) const {
-    double worst = 0, scale = 0;
-    for (int s = 0; s < kSegmentCount; ++s)
-      for (int i = 0; i < 6; ++i) {
-        const auto at = [&](double h) {
-          HandPose moved = pose_;
-          moved[s] = boxplus(moved[s], h * Vector6d::Unit(i));
-          return energy(moved);
-        };
-        const double numeric = 0.5 * (at(step) - at(-step)) / (2 * step);
-        worst = std::max(worst, std::abs(numeric + tree.g[s][i]));
-        scale = std::max(scale, std::abs(numeric));
-      }
-    return worst / scale;
+    return test::gradient_error(energy, pose_, tree, step);
   }
 
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();

@@ -10,11 +10,11 @@
 
 namespace barehand::test {
 
-/// The shipped default hand.
-inline std::shared_ptr<const HandProfile> adult_hand() {
-  Result<HandProfile> profile = load_profile(BAREHAND_CONFIGS "/hands/adult_right.json");
-  EXPECT_TRUE(profile) << profile.error().message();
-  return std::make_shared<const HandProfile>(*profile);
+/// The shipped default hand of either side.
+inline std::shared_ptr<const HandProfile> adult_hand(Handedness side = Handedness::right) {
+  const Result<HandProfile> right = load_profile(BAREHAND_CONFIGS "/hands/adult_right.json");
+  EXPECT_TRUE(right) << right.error().message();
+  return std::make_shared<const HandProfile>(side == Handedness::right ? *right : mirrored(*right));
 }
 
 /// Fingers up, palm towards a camera at `distance` [m], every finger joint flexed by `flexion` [rad].
