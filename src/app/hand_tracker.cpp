@@ -68,7 +68,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   if (requested_start_) {
     motion_.restart(*requested_start_, observation.frame->utime);
     loss_.start_tracking();
-    give_new_id();
+    greet_new_hand();
     requested_start_.reset();
   }
   const TrackEvidence seen = evidence(observation);
@@ -151,6 +151,8 @@ void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
 std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,
                                                              const HandPose& followed) {
   ++doubtful_frames_;
+  // A hand that is taken for something else looks wrong from its start on; later doubts are mostly about fingers.
+  if (doubtful_frames_ == params_.doubt_every) return search_once(observation, Effort::full, 1);
   if (doubtful_frames_ % params_.doubt_every == 0) return search_once(observation, Effort::quick, 0);
   if (doubtful_frames_ % params_.doubt_near_every == 0) return search_near(observation, followed);
   return std::nullopt;
@@ -164,7 +166,7 @@ bool HandTracker::doubtful(double score) {
 
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   if (!fit.prediction) {
-    if (!motion_.has_pose()) give_new_id();
+    if (!motion_.has_pose()) greet_new_hand();
     motion_.restart(fit.refined.pose, observation.frame->utime);
     return;
   }
@@ -175,6 +177,11 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
     pose = with_hidden_following(*model_->profile, motion_.pose(), pose, seen, params_.initialiser.widening);
   }
   motion_.update(pose, seen, *fit.prediction);
+}
+
+void HandTracker::greet_new_hand() {
+  hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first;
+  doubtful_frames_ = 0;
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {

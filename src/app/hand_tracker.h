@@ -76,7 +76,7 @@ class HandTracker {
                              int iterations) const;
   TrackEvidence evidence(const HandObservation& observation);
   HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
-  void give_new_id() { hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first; }
+  void greet_new_hand();
   void relax_hidden(const HandObservation& observation, RefinedPose& found);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);

@@ -69,7 +69,7 @@ void visit(V& v, TrackerParams& p) {
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
-  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched anew");
+  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched anew, the first thoroughly");
   v("doubt_near_every", p.doubt_near_every, 1, 100000,
     "of so many doubtful frames one is searched near the followed pose, if not anew");
   v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");

@@ -1,0 +1,56 @@
+#include "app/hand_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "hand/skin.h"
+#include "math/angles.h"
+#include "quick_tracker.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+/// Never lost and never convinced, with quick searches that look for an upright palm only.
+TrackerParams stubborn_tracker() {
+  TrackerParams params = test::quick_tracker();
+  params.loss.lost_score = 0.1;
+  params.search_convincing = 0;
+  SearchEffort& quick = params.initialiser.quick;
+  quick.in_plane = quick.rolls = quick.pitches = quick.shapes = 1;
+  return params;
+}
+
+/// A hand that hangs down, tracked from an upright start.
+class UpsideDown : public testing::Test {
+ protected:
+  double error_of_next() {
+    auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
+    frame->utime = utime_ += 33'000;
+    auto observation = std::make_shared<HandObservation>(*hand_);
+    observation->frame = frame;
+    const HandEstimatePtr estimate = tracker_.process(*observation);
+    const SE3& palm = estimate->segments[kPalm].T_camera_segment;
+    return estimate->status == TrackStatus::tracking ? (palm.t - pose_[kPalm].t).norm() : 1;
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose upright_ = test::facing_pose(*profile_, 0.5);
+  const HandPose pose_ = test::turned(upright_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  Workers workers_{1};
+  const TrackerParams params_ = stubborn_tracker();
+  HandTracker tracker_{params_, profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
+  for (int start = 0; start < 3; ++start) {  // a count of all doubts would make the third one's search a quick one
+    tracker_.reset();
+    tracker_.start_at(upright_);
+    for (int i = 1; i < params_.doubt_every; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
+    EXPECT_LT(error_of_next(), 0.005) << start;
+  }
+}
+
+}  // namespace
+}  // namespace barehand
