@@ -98,7 +98,8 @@ std::unique_ptr<Sequence> make_wave(std::uint64_t seed) {
                                                 seed));
 }
 
-/// A hand leaves the view and comes back elsewhere, ten times and more: on another side, at another distance, turned otherwise.
+/// A hand leaves the view and comes back elsewhere, ten times and more: on another side, at another distance, turned
+/// otherwise.
 std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
   struct Visit {
     Vector3d from, here, turn;

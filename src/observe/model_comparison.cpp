@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 
-constexpr float kWristMargin = 0.010f;   // data this far behind the wrist belongs to the forearm [m]
+constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
 
 class Comparer {
  public:

@@ -21,13 +21,7 @@ using ::testing::Not;
 /// A tracker before an open hand that faces the camera, and the commands it will find.
 class CommandedTrackerTest : public ::testing::Test {
  protected:
-  HandObservationPtr seen(const HandObservation& what) {
-    auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
-    frame->utime = utime_ += 33'000;
-    auto observation = std::make_shared<HandObservation>(what);
-    observation->frame = frame;
-    return observation;
-  }
+  HandObservationPtr seen(const HandObservation& what) { return test::stamped(what, utime_ += 33'000); }
   HandEstimatePtr next() { return tracker_.process({seen(*hand_)}).front(); }
   void send(Command command) { waiting_.push_back(std::move(command)); }
 

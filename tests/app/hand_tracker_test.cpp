@@ -24,11 +24,7 @@ TrackerParams stubborn_tracker() {
 class UpsideDown : public testing::Test {
  protected:
   double error_of_next() {
-    auto frame = std::make_shared<RgbdFrame>(*hand_->frame);
-    frame->utime = utime_ += 33'000;
-    auto observation = std::make_shared<HandObservation>(*hand_);
-    observation->frame = frame;
-    const HandEstimatePtr estimate = tracker_.process(*observation);
+    const HandEstimatePtr estimate = tracker_.process(*test::stamped(*hand_, utime_ += 33'000));
     const SE3& palm = estimate->segments[kPalm].T_camera_segment;
     return estimate->status == TrackStatus::tracking ? (palm.t - pose_[kPalm].t).norm() : 1;
   }

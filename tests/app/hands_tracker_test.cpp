@@ -26,11 +26,7 @@ class HandsTrackerTest : public ::testing::Test {
   }
   static HandObservationPtr nothing() { return std::make_shared<HandObservation>(); }
   static HandObservationPtr at(std::int64_t utime, const HandObservation& observation, bool followed) {
-    auto copy = std::make_shared<HandObservation>(observation);
-    auto frame = std::make_shared<RgbdFrame>();
-    if (observation.frame) *frame = *observation.frame;
-    frame->utime = utime;
-    copy->frame = frame;
+    const auto copy = test::stamped(observation, utime);
     copy->followed = followed;
     return copy;
   }
@@ -54,7 +50,7 @@ class HandsTrackerTest : public ::testing::Test {
   }
 
   const std::shared_ptr<const HandProfile> right_ = test::adult_hand();
-  const std::shared_ptr<const HandProfile> left_ = std::make_shared<const HandProfile>(mirrored(*right_));
+  const std::shared_ptr<const HandProfile> left_ = test::adult_hand(Handedness::left);
   const HandObservationPtr right_hand_ = seen(*right_, 0.2, kRightX), left_hand_ = seen(*left_, 0.5, kLeftX);
   Workers workers_{1};
   HandsTracker tracker_{test::quick_tracker(), {right_, left_}, 1, workers_};

@@ -21,7 +21,7 @@ class Glove : public testing::TestWithParam<Handedness> {
     const auto at = std::find(kGloveJointNames.begin(), kGloveJointNames.end(), name);
     return glove.joint.at(static_cast<std::size_t>(at - kGloveJointNames.begin()));
   }
-  HandProfile profile_ = adult_hand(GetParam());
+  HandProfile profile_ = *test::adult_hand(GetParam());
 };
 
 TEST_P(Glove, NamedJointsAreZeroAtRest) {

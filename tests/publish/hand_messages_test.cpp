@@ -27,7 +27,7 @@ class HandMessagesTest : public testing::Test {
     if (status == TrackStatus::searching || status == TrackStatus::lost) e.segments = {};
     return e;
   }
-  HandProfile profile_ = adult_hand(Handedness::right);
+  HandProfile profile_ = *test::adult_hand(Handedness::right);
   HandMessageMaker maker_{{}};
 };
 
@@ -50,7 +50,7 @@ TEST_F(HandMessagesTest, EveryMessageNamesItsFrameAndHand) {
 }
 
 TEST_F(HandMessagesTest, ALeftHandSaysSo) {
-  profile_ = adult_hand(Handedness::left);
+  profile_ = *test::adult_hand(Handedness::left);
   EXPECT_EQ(maker_.process(estimate(0)).joints.handedness, hand_state_t::LEFT);
 }
 

@@ -10,7 +10,7 @@ constexpr int xr_metacarpal(int finger) { return kXrIndexMetacarpal + 5 * (finge
 
 class OpenXr : public testing::TestWithParam<Handedness> {
  protected:
-  HandProfile profile_ = adult_hand(GetParam());
+  HandProfile profile_ = *test::adult_hand(GetParam());
   HandPose pose_ = [this] {
     Angles angles{};
     for (int s = 1; s < kSegmentCount; ++s) angles[s].flexion = 3 * s * kDegree;

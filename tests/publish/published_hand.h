@@ -3,18 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <string>
 
 #include "hand/joint_angles.h"
-#include "io/hand_json.h"
 #include "math/angles.h"
+#include "support/adult_hand.h"
 
 namespace barehand {
-
-inline HandProfile adult_hand(Handedness side) {
-  const std::string directory = BAREHAND_SOURCE_DIR "/configs/hands/";
-  return load_profile(directory + (side == Handedness::left ? "adult_left.json" : "adult_right.json")).value();
-}
 
 /// Half a metre in front of the camera, turned about every axis.
 inline SE3 somewhere() { return {exp_so3({0.4, -0.9, 2.0}), {0.05, -0.1, 0.5}}; }

@@ -19,7 +19,7 @@ constexpr std::int64_t kStart = 1'700'000'000'000'000;
 
 HandMessages messages(std::int64_t utime = kStart) {
   HandMessageMaker maker{{}};
-  return maker.process(estimate_of(adult_hand(Handedness::right), {}, utime));
+  return maker.process(estimate_of(*test::adult_hand(Handedness::right), {}, utime));
 }
 
 /// Keeps what it is given, or refuses everything.

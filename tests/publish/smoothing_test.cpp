@@ -57,7 +57,7 @@ HandPose bent(const HandProfile& profile, double flexion) {
 }
 
 TEST(PoseSmoother, KeepsJointsClosed) {
-  const HandProfile profile = adult_hand(Handedness::right);
+  const HandProfile profile = *test::adult_hand(Handedness::right);
   PoseSmoother smoother;
   HandPose smoothed;
   for (int i = 0; i < 10; ++i) smoothed = smoother.smooth(bent(profile, 0.1 * i), i * kFrame_us, {});
@@ -68,7 +68,7 @@ TEST(PoseSmoother, KeepsJointsClosed) {
 }
 
 TEST(PoseSmoother, SwitchedOffReturnsTheRawPose) {
-  const HandProfile profile = adult_hand(Handedness::right);
+  const HandProfile profile = *test::adult_hand(Handedness::right);
   PoseSmoother smoother;
   for (int i = 0; i < 3; ++i) {
     const HandPose raw = bent(profile, 0.3 * i);
@@ -77,7 +77,7 @@ TEST(PoseSmoother, SwitchedOffReturnsTheRawPose) {
 }
 
 TEST(PoseSmoother, StartsAnewAfterAGapAndAReset) {
-  const HandProfile profile = adult_hand(Handedness::right);
+  const HandProfile profile = *test::adult_hand(Handedness::right);
   const HandPose raw = bent(profile, 0.8);
   PoseSmoother smoother;
   smoother.smooth(bent(profile, 0), 0, {});
@@ -88,7 +88,7 @@ TEST(PoseSmoother, StartsAnewAfterAGapAndAReset) {
 }
 
 TEST(PoseSmoother, WorksBackwardsInTimeToo) {
-  const HandProfile profile = adult_hand(Handedness::right);
+  const HandProfile profile = *test::adult_hand(Handedness::right);
   PoseSmoother forwards, backwards;
   HandPose a, b;
   for (int i = 0; i < 5; ++i) {

@@ -42,4 +42,13 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
   return observation;
 }
 
+/// The same observation at another time.
+inline std::shared_ptr<HandObservation> stamped(const HandObservation& observation, std::int64_t utime) {
+  auto frame = observation.frame ? std::make_shared<RgbdFrame>(*observation.frame) : std::make_shared<RgbdFrame>();
+  frame->utime = utime;
+  auto copy = std::make_shared<HandObservation>(observation);
+  copy->frame = frame;
+  return copy;
+}
+
 }  // namespace barehand::test
