@@ -19,38 +19,54 @@ constexpr std::size_t kLanes = 8;
 // by a third add to the data. Points are pulled inwards by this fraction of a cell to make up for it.
 constexpr double kShrink = 0.8;
 
-/// One row of a rigid transform; points are first pulled inwards along their normals by `shrink` [m].
-struct Row {
-  float x, y, z, offset, shrink;
+/// Rigid transform from a segment to the camera, in single precision.
+struct Transform {
+  explicit Transform(const SE3& T) : R(T.R.cast<float>()), t(T.t.cast<float>()) {}
+  Eigen::Matrix3f R;
+  Eigen::Vector3f t;
 };
-void affine(const CoarseSkin::Part& part, const Row& row, float* __restrict out) {
+
+// Plain arrays that are said not to overlap, and sums written out: the compiler vectorises both loops.
+
+/// Depth, and a value that is negative where the skin faces the camera.
+void depth_and_facing(const CoarseSkin::Part& part, const Transform& T, float* __restrict depth,
+                      float* __restrict facing) {
   const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
   const float *nx = part.nx.data(), *ny = part.ny.data(), *nz = part.nz.data();
-  const Row r = row;
+  const Eigen::Vector3f eye = T.R.transpose() * -T.t;
+  const float rx = T.R(2, 0), ry = T.R(2, 1), rz = T.R(2, 2), tz = T.t.z(), ex = eye.x(), ey = eye.y(), ez = eye.z();
   const std::size_t count = part.size();
   for (std::size_t i = 0; i < count; ++i) {
-    out[i] =
-        r.x * (x[i] - r.shrink * nx[i]) + r.y * (y[i] - r.shrink * ny[i]) + r.z * (z[i] - r.shrink * nz[i]) + r.offset;
+    depth[i] = rx * x[i] + ry * y[i] + rz * z[i] + tz;
+    facing[i] = nx[i] * (x[i] - ex) + ny[i] * (y[i] - ey) + nz[i] * (z[i] - ez);
   }
 }
 
-void divide(std::size_t count, const float* __restrict z, float focal, float centre, float* __restrict out) {
-  for (std::size_t i = 0; i < count; ++i) out[i] = focal * out[i] / z[i] + centre;
-}
-
-/// Negative where the skin faces an eye at `eye` (segment frame).
-void face(const CoarseSkin::Part& part, const Eigen::Vector3f& eye, float* __restrict out) {
+/// Pixels of the points, which are first pulled inwards along their normals by `shrink` [m].
+void pixels(const CoarseSkin::Part& part, const Transform& T, const Intrinsics& camera, float shrink,
+            const float* __restrict depth, float* __restrict u, float* __restrict v) {
   const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
   const float *nx = part.nx.data(), *ny = part.ny.data(), *nz = part.nz.data();
-  const float ex = eye.x(), ey = eye.y(), ez = eye.z();
+  const float ux = T.R(0, 0), uy = T.R(0, 1), uz = T.R(0, 2), tu = T.t.x();
+  const float vx = T.R(1, 0), vy = T.R(1, 1), vz = T.R(1, 2), tv = T.t.y();
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
   const std::size_t count = part.size();
-  for (std::size_t i = 0; i < count; ++i) out[i] = nx[i] * (x[i] - ex) + ny[i] * (y[i] - ey) + nz[i] * (z[i] - ez);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float px = x[i] - shrink * nx[i], py = y[i] - shrink * ny[i], pz = z[i] - shrink * nz[i];
+    u[i] = fx * (ux * px + uy * py + uz * pz + tu) / depth[i] + cx;
+    v[i] = fy * (vx * px + vy * py + vz * pz + tv) / depth[i] + cy;
+  }
 }
 
 }  // namespace
 
 CoarseScorer::CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params)
-    : skin_(skin), params_(params), camera_(grid.camera), shrink_(kShrink * grid.cell), hand_cells_(grid.hand_cells) {
+    : skin_(skin),
+      params_(params),
+      camera_(grid.camera),
+      shrink_(static_cast<float>(kShrink * grid.cell)),
+      hand_cells_(grid.hand_cells) {
   camera_.width += 2 * kBorder, camera_.height += 2 * kBorder;
   camera_.cx += kBorder, camera_.cy += kBorder;
   image_lo_u_ = static_cast<float>(grid.i_lo), image_hi_u_ = static_cast<float>(grid.i_hi + 2 * kBorder);
@@ -59,8 +75,7 @@ CoarseScorer::CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const 
   std::size_t largest = skin.forearm.size();
   for (const CoarseSkin::Part& part : skin.parts) largest = std::max(largest, part.size());
   for (auto* buffer : {&u_, &v_, &z_, &facing_}) buffer->resize(largest);
-  visible_.resize(largest);
-  drawn_.resize(largest);
+  for (auto* buffer : {&visible_, &drawn_, &cell_}) buffer->resize(largest);
 }
 
 void CoarseScorer::prepare(const ScoreGrid& grid) {
@@ -69,8 +84,7 @@ void CoarseScorer::prepare(const ScoreGrid& grid) {
   for (auto* values :
        {&costs_.data, &costs_.slope, &costs_.front, &costs_.behind, &costs_.empty, &costs_.forearm, &costs_.bare})
     values->assign(padded, 0.0f);
-  hand_z_.assign(padded, kInfinity);
-  forearm_z_.assign(padded, kInfinity);
+  for (auto* z_buffer : {&hand_z_, &forearm_z_}) z_buffer->assign(before_grid() + padded, kInfinity);
   for (int j = 0; j < grid.depth.height(); ++j) {
     for (int i = 0; i < grid.depth.width(); ++i) {
       prepare_cell(grid, grid.depth.index(i, j), static_cast<std::size_t>(j + kBorder) * camera_.width + i + kBorder);
@@ -110,8 +124,7 @@ void CoarseScorer::prepare_cell(const ScoreGrid& grid, std::size_t from, std::si
 double CoarseScorer::operator()(const HandPose& pose) {
   const bool finite = std::all_of(pose.begin(), pose.end(), [](const SE3& T) { return T.all_finite(); });
   if (hand_cells_ == 0 || !finite) return std::numeric_limits<double>::infinity();
-  std::fill(hand_z_.begin(), hand_z_.end(), kInfinity);
-  std::fill(forearm_z_.begin(), forearm_z_.end(), kInfinity);
+  for (auto* z_buffer : {&hand_z_, &forearm_z_}) std::ranges::fill(*z_buffer, kInfinity);
   double outside = 0;
   for (const CoarseSkin::Part& part : skin_.parts) {
     splat(part, pose[part.segment], hand_z_);
@@ -124,15 +137,21 @@ double CoarseScorer::operator()(const HandPose& pose) {
 /// Fixed order of summation: lanes first, then across, whatever the compiler makes of it.
 double CoarseScorer::sum_of_costs() const {
   const float cap = static_cast<float>(params_.depth_cap), sleeve = static_cast<float>(params_.sleeve_depth);
-  const float *hand_z = hand_z_.data(), *forearm_z = forearm_z_.data(), *data = costs_.data.data();
+  const float *hand_z = hand_z_.data() + before_grid(), *forearm_z = forearm_z_.data() + before_grid();
+  // A point covers 2 x 2 cells, of which the z-buffers hold the first.
+  const std::size_t above = camera_.width;
+  const auto covering = [above](const float* z) {
+    return std::min(std::min(*z, *(z - 1)), std::min(*(z - above), *(z - above - 1)));
+  };
+  const float* data = costs_.data.data();
   const float *slope = costs_.slope.data(), *front = costs_.front.data(), *behind = costs_.behind.data();
   const float *empty = costs_.empty.data(), *forearm = costs_.forearm.data(), *bare = costs_.bare.data();
   std::array<float, kLanes> sum{};
-  for (std::size_t block = 0; block < hand_z_.size(); block += kLanes) {
+  for (std::size_t block = 0; block < costs_.data.size(); block += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       // Everything is loaded before it is chosen from: the loop stays free of branches.
       const std::size_t i = block + lane;
-      const float z = hand_z[i], f = forearm_z[i], d = data[i], per_metre = slope[i];
+      const float z = covering(hand_z + i), f = covering(forearm_z + i), d = data[i], per_metre = slope[i];
       const float in_front = front[i], hidden = behind[i], no_model = empty[i], arm = forearm[i], no_sleeve = bare[i];
       const float side = z < d ? in_front : hidden;
       const float model = per_metre * std::min(std::abs(z - d), cap) + side;
@@ -145,19 +164,6 @@ double CoarseScorer::sum_of_costs() const {
   double total = 0;
   for (const float s : sum) total += s;
   return total;
-}
-
-void CoarseScorer::project(const CoarseSkin::Part& part, const SE3& T) {
-  const Eigen::Matrix3f R = T.R.cast<float>();
-  const Eigen::Vector3f t = T.t.cast<float>(), eye = R.transpose() * -t;
-  const float shrink = static_cast<float>(shrink_);
-  // One output at a time: the compiler vectorises what it can prove not to overlap.
-  affine(part, {R(2, 0), R(2, 1), R(2, 2), t.z(), 0}, z_.data());
-  affine(part, {R(0, 0), R(0, 1), R(0, 2), t.x(), shrink}, u_.data());
-  affine(part, {R(1, 0), R(1, 1), R(1, 2), t.y(), shrink}, v_.data());
-  divide(part.size(), z_.data(), static_cast<float>(camera_.fx), static_cast<float>(camera_.cx), u_.data());
-  divide(part.size(), z_.data(), static_cast<float>(camera_.fy), static_cast<float>(camera_.cy), v_.data());
-  face(part, eye, facing_.data());
 }
 
 double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
@@ -185,36 +191,39 @@ double CoarseScorer::border_cost(float u, float v, float z) const {
   return z < costs_.data[cell] ? costs_.front[cell] : costs_.behind[cell];
 }
 
-/// Which points are drawn; true if any that faces the camera comes off the grid. Apart from what follows: it
-/// vectorises.
-bool CoarseScorer::judge(std::size_t count, float w, float h) {
+/// Which points are drawn, and where; true if any that faces the camera comes off the grid. Apart from what follows:
+/// it vectorises.
+bool CoarseScorer::judge(std::size_t count) {
+  const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
+  const std::int32_t stride = camera_.width, start = static_cast<std::int32_t>(before_grid());
   const float *u = u_.data(), *v = v_.data(), *z = z_.data(), *facing = facing_.data();
-  std::int32_t* drawn = drawn_.data();
+  std::int32_t *drawn = drawn_.data(), *cell = cell_.data();
   std::int32_t off_grid = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool front = facing[i] < 0;
-    drawn[i] = front & (z[i] > kNearest) & (u[i] >= 0) & (v[i] >= 0) & (u[i] < w) & (v[i] < h);
+    const bool within = front & (z[i] > kNearest) & (u[i] >= 0) & (v[i] >= 0) & (u[i] < w) & (v[i] < h);
+    drawn[i] = within;
+    cell[i] = start + static_cast<std::int32_t>(within ? v[i] : 0.0f) * stride +
+              static_cast<std::int32_t>(within ? u[i] : 0.0f);
     off_grid |= front & ((u[i] < 0.5f) | (v[i] < 0.5f) | (u[i] > w - 0.5f) | (v[i] > h - 0.5f));
   }
   return off_grid != 0;
 }
 
 void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer) {
-  project(part, T);
-  const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
-  leaves_grid_ = judge(part.size(), w, h);
+  const Transform to_camera(T);
+  depth_and_facing(part, to_camera, z_.data(), facing_.data());
+  pixels(part, to_camera, camera_, shrink_, z_.data(), u_.data(), v_.data());
+  leaves_grid_ = judge(part.size());
+  float* nearest = z_buffer.data();
   int visible = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
     visible_[visible] = static_cast<std::int32_t>(i);
     visible += drawn_[i];
   }
-  const std::size_t stride = camera_.width;
   for (int k = 0; k < visible; ++k) {
-    const std::int32_t i = visible_[k];
-    float* cell = z_buffer.data() + static_cast<std::size_t>(v_[i]) * stride + static_cast<std::size_t>(u_[i]);
-    const float z = z_[i];
-    cell[0] = std::min(cell[0], z), cell[1] = std::min(cell[1], z);
-    cell[stride] = std::min(cell[stride], z), cell[stride + 1] = std::min(cell[stride + 1], z);
+    float& z = nearest[cell_[visible_[k]]];
+    z = std::min(z, z_[visible_[k]]);
   }
 }
 

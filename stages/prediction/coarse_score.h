@@ -52,23 +52,25 @@ class CoarseScorer {
   };
   void prepare(const ScoreGrid& grid);
   void prepare_cell(const ScoreGrid& grid, std::size_t from, std::size_t to);
-  void project(const CoarseSkin::Part& part, const SE3& T);
-  bool judge(std::size_t count, float w, float h);
+  bool judge(std::size_t count);
   void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
   double outside_cost(const CoarseSkin::Part& part) const;
   double border_cost(float u, float v, float z) const;
   double sum_of_costs() const;
+  /// Empty cells in front of the z-buffers' first, so that each has three neighbours.
+  std::size_t before_grid() const { return static_cast<std::size_t>(camera_.width) + 1; }
 
   const CoarseSkin& skin_;
   CoarseScoreParams params_;
   Intrinsics camera_;  // of the bordered cells
-  double shrink_ = 0;  // [m]
+  float shrink_ = 0;   // [m]
   float image_lo_u_ = 0, image_lo_v_ = 0, image_hi_u_ = 0, image_hi_v_ = 0;
   int hand_cells_ = 0;
   CellCosts costs_;
-  std::vector<float> hand_z_, forearm_z_;      // z-buffers; infinite where nothing was drawn
-  std::vector<float> u_, v_, z_, facing_;      // of the part being splatted; facing < 0: towards the camera
-  std::vector<std::int32_t> drawn_, visible_;  // of that part: 1 where it is drawn; indices of those
+  /// z-buffers of the first of the 2 x 2 cells that a point covers; infinite where nothing was drawn.
+  std::vector<float> hand_z_, forearm_z_;
+  std::vector<float> u_, v_, z_, facing_;             // of the part being splatted; facing < 0: towards the camera
+  std::vector<std::int32_t> drawn_, visible_, cell_;  // of that part: 1 where it is drawn; indices of those; where
   bool leaves_grid_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include "benchmarks/world.h"
 #include "drivers/lcm/wire.h"
+#include "stages/prediction/coarse_score.h"
 #include "stages/prediction/motion_prediction.h"
 #include "stages/publish/hand_messages.h"
 
@@ -16,6 +17,16 @@ void prediction(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(motion.predict(*w.observation, *w.surface));
 }
 BENCHMARK(prediction)->Unit(benchmark::kMicrosecond);
+
+/// One trial of a search from templates.
+void coarse_score(benchmark::State& state) {
+  const World& w = world();
+  const CoarseSkin skin = make_coarse_skin(*w.profile, make_cylinder_surface(*w.profile, 600), w.tracker.initialiser.fine_cell);
+  const ScoreGrid grid = make_score_grid(*w.observation, w.tracker.initialiser.fine_cell);
+  CoarseScorer score(grid, skin, w.tracker.initialiser.score);
+  for (auto _ : state) benchmark::DoNotOptimize(score(w.predicted));
+}
+BENCHMARK(coarse_score)->Unit(benchmark::kMicrosecond);
 
 void lcm_encode(benchmark::State& state) {
   const HandEstimate estimate = hint(world());
