@@ -119,6 +119,16 @@ bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
   return (a * pivot - b * pivot).norm() < 0.002 && log_so3(a.R.transpose() * b.R).norm() < 0.03;
 }
 
+/// Of motions that are nearly equal the first one stays.
+void leave_one_of_each(std::vector<SE3>& motions, const Vector3d& pivot) {
+  auto kept = motions.begin();
+  for (const SE3& motion : motions) {
+    if (std::none_of(motions.begin(), kept, [&](const SE3& other) { return nearly_equal(motion, other, pivot); }))
+      *kept++ = motion;
+  }
+  motions.erase(kept, motions.end());
+}
+
 bool believable(const SE3& motion, const Vector3d& pivot, double dt, const IcpParams& params) {
   const double shift = (motion * pivot - pivot).norm();
   const double angle = log_so3(motion.R).norm();
@@ -144,16 +154,14 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   if (!params.enabled || static_cast<int>(cloud.size()) < params.min_points || model.size() < 20) return {};
   Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
-  const std::array<SE3, 3> starts = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
-  // Far from the goal few points suffice; starts that met by then go on as one.
-  const int coarse = params.iterations / 2;
-  std::vector<SE3> motions;
-  motions.reserve(starts.size());
-  for (const SE3& start : starts) {
-    const SE3 motion = registration.run(start, 0, coarse, kCoarseStride);
-    const bool met = std::any_of(motions.begin(), motions.end(),
-                                 [&](const SE3& other) { return nearly_equal(motion, other, pivot); });
-    if (!met) motions.push_back(motion);
+  std::vector<SE3> motions = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
+  // Far from the goal few points suffice; starts that have met go on as one.
+  const int coarse = params.iterations / 2, first = params.iterations / 6;
+  int begin = 0;
+  for (const int end : {first, coarse}) {
+    for (SE3& motion : motions) motion = registration.run(motion, begin, end, kCoarseStride);
+    leave_one_of_each(motions, pivot);
+    begin = end;
   }
   IcpResult best;
   double best_cost = std::numeric_limits<double>::infinity();
