@@ -14,6 +14,8 @@ constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
+constexpr double kAgree = 0.005;                 // poses found closer than this are the same [m]
+constexpr int kAgreeing = 3;  // further searches that find the best pose again: there is no better one
 
 }  // namespace
 
@@ -267,16 +269,20 @@ bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sam
   return false;
 }
 
-void HandTracker::keep_better(std::optional<Fit>& best, const Fit& other) {
-  if (!best || other.refined.score < best->refined.score) best = other;
-}
-
 std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
   std::optional<Fit> best;
+  int agreeing = 0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (const auto found = search_once(observation, effort, attempt)) keep_better(best, *found);
-    if (best && best->refined.score < params_.search_convincing) break;
+    const auto found = search_once(observation, effort, attempt);
+    if (!found) continue;
+    const bool better = !best || found->refined.score < best->refined.score;
+    if (best && pose_distance(*model_->profile, best->refined.pose, found->refined.pose) < kAgree)
+      ++agreeing;
+    else if (better)
+      agreeing = 0;
+    if (better) best = found;
+    if (best->refined.score < params_.search_convincing || agreeing == kAgreeing) break;
   }
   return best;
 }
@@ -307,7 +313,7 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
   std::optional<Fit> best;
   for (Fit& fit : fits) {
     fit.joint_gap = raw_gap(fit.refined.pose);
-    keep_better(best, fit);
+    if (!best || fit.refined.score < best->refined.score) best = fit;
   }
   return best;
 }

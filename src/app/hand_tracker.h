@@ -39,8 +39,8 @@ class HandTracker {
   HandEstimatePtr process(const HandObservation& observation);
   /// The same where somebody else decides whether it is this hand: `found` by look(), or nothing.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Fit> found);
-  /// The best pose that up to `attempts` searches find in the next observation, if that shows this hand; the first one
-  /// that convinces is the last.
+  /// The best pose that up to `attempts` searches find in the next observation, if that shows this hand; fewer do if
+  /// one convinces or several agree.
   std::optional<Fit> look(const HandObservation& observation, Effort effort, int attempts);
   /// Of the next search: most are quick ones.
   Effort effort() const;
@@ -61,8 +61,6 @@ class HandTracker {
   void reset();
 
  private:
-  /// `best` becomes `other` if it is none or scores worse.
-  static void keep_better(std::optional<Fit>& best, const Fit& other);
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   bool doubtful(double score);

@@ -11,6 +11,9 @@ namespace {
 
 // A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
 constexpr int kSearchEvery = 3;
+// Attempts of the mirrored profile where its own does not convince. A hand of the other side is found by the first or
+// second one in most cases; one of its own side must not be taken for the other's by the luck of many.
+constexpr int kMirrored = 2;
 
 }  // namespace
 
@@ -57,7 +60,16 @@ HandEstimates HandsTracker::process(const HandObservations& observations) {
 
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
-  if (hand.status() != TrackStatus::searching || hand.start_is_given()) return hand.process(observation);
+  if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
+    if (!check_->on_trial()) return hand.process(observation);
+    HandEstimatePtr estimate;
+    workers_.for_each_index(2, [&](int i) {
+      if (i == 0) estimate = hand.process(observation);
+      if (i == 1) check_->track_mirrored(observation);
+    });
+    if (check_->turns_out_other_side(*estimate)) hand.reset();
+    return estimate;
+  }
   const Effort effort = hand.effort();
   const int attempts = hand.attempts(effort);
   std::optional<Fit> found = hand.look(observation, effort, attempts);
@@ -65,7 +77,7 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   const bool convincing = score < params_.search_convincing;
   if (score > params_.loss.lost_score)
     check_->nothing_found(observation, score);
-  else if (check_->is_other_side(observation, effort, convincing ? 1 : attempts, score))
+  else if (check_->is_other_side(observation, effort, convincing ? 1 : std::min(attempts, kMirrored), score))
     found.reset();
   return hand.process(observation, std::move(found));
 }

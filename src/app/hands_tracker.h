@@ -11,8 +11,8 @@ namespace barehand {
 /// Tracks a person's hands, one or a left and a right one, each with a HandTracker of its own. A hand that is not
 /// tracked yet, or no more, is searched in what no tracked hand explains. Two that are searched at once compete for
 /// what is seen: each side looks at everything, and what one explains clearly better is its hand; as long as neither
-/// does, nobody's. A hand that is tracked alone is not started on a hand of the other side; that is said in the log. As
-/// deterministic as HandTracker.
+/// does, nobody's. A hand that is tracked alone is not started on a hand of the other side, and given up where that
+/// turns out in its first frames; that is said in the log. As deterministic as HandTracker.
 class HandsTracker {
  public:
   using Profiles = std::vector<std::shared_ptr<const HandProfile>>;

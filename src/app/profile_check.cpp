@@ -1,6 +1,7 @@
 #include "app/profile_check.h"
 
 #include <array>
+#include <cmath>
 
 #include "app/clearly_better.h"
 #include "app/size_check.h"
@@ -12,6 +13,12 @@ constexpr std::array<double, 4> kSizes = {0.8, 1.25, 0.65, 1.5};  // a search br
 // Searches that fail between two tries. What is in view for long without being found is most likely no hand.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 
+// Of a trial: frames in which both are tracked before it may end, frames after which it does, those between two
+// searches while the mirrored profile is not tracked, and the advantage of one side that ends it.
+constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
+constexpr double kTrialAdvantage = 0.2;
+constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
+
 }  // namespace
 
 ProfileCheck::ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
@@ -22,16 +29,55 @@ HandTracker ProfileCheck::tracker_of(const HandProfile& profile) const {
   return HandTracker(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
+void ProfileCheck::say_side() {
+  if (said_side_) return;
+  said_side_ = true;
+  const auto seen = to_string(mirrored_->profile().handedness);
+  log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
+             seen, to_string(profile_.handedness), seen);
+}
+
 bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
-  const auto other = mirrored_->look(observation, effort, attempts);
-  if (!other || !clearly_better(other->refined.score, score)) return false;
-  if (!said_side_) {
-    const auto seen = to_string(mirrored_->profile().handedness);
-    log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
-               seen, to_string(profile_.handedness), seen);
+  trial_.reset();
+  auto other = mirrored_->look(observation, effort, attempts);
+  const double other_score = other ? other->refined.score : INFINITY;
+  const bool worse = clearly_better(other_score, score);
+  if (worse) say_side();
+  if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
+  if (worse || suspected_ > 0) return true;
+  if (score >= params_.search_convincing) {
+    mirrored_->reset();
+    mirrored_->process(observation, std::move(other));
+    trial_.emplace();
   }
-  return said_side_ = true;
+  return false;
+}
+
+void ProfileCheck::track_mirrored(const HandObservation& observation) {
+  Trial& trial = *trial_;
+  const bool followed = mirrored_->status() != TrackStatus::searching;
+  if (!followed && trial.frames % kSearchAgain != 0) return;
+  trial.mirrored = followed ? mirrored_->process(observation)
+                            : mirrored_->process(observation, mirrored_->look(observation, Effort::quick, 1));
+}
+
+bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
+  Trial& trial = *trial_;
+  const bool lost = own.status != TrackStatus::tracking;  // it is searched anew then
+  if (!lost && mirrored_->status() == TrackStatus::tracking) {
+    ++trial.compared;
+    trial.own_sum += own.score;
+    trial.mirrored_sum += trial.mirrored->score;
+  }
+  const bool enough = trial.compared >= kFewestFrames;
+  const bool other = enough && clearly_better(trial.mirrored_sum, trial.own_sum, kTrialAdvantage);
+  const bool same = enough && clearly_better(trial.own_sum, trial.mirrored_sum, kTrialAdvantage);
+  if (++trial.frames == kMostFrames || lost || other || same) trial_.reset();
+  if (!other) return false;
+  suspected_ = kSuspected;
+  say_side();
+  return true;
 }
 
 void ProfileCheck::nothing_found(const HandObservation& observation, double score) {

@@ -65,7 +65,7 @@ void visit(V& v, TrackerParams& p) {
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
   v("search_attempts", p.search_attempts, 1, 100,
-    "full searches of one frame until one convinces, while no hand was tracked before");
+    "full searches of one frame until one convinces or four agree, while no hand was tracked before");
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");

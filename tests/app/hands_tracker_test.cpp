@@ -91,6 +91,23 @@ TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
   EXPECT_EQ(taken[0]->status, TrackStatus::tracking);
 }
 
+TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
+  TrackerParams params = test::quick_tracker();
+  params.search_convincing = 0;  // every start is on trial
+  std::ostringstream said;
+  HandsTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
+  HandEstimates last;
+  for (int i = 0; i < 4; ++i) last = next(only_right, right_hand_);
+  ASSERT_EQ(last[0]->status, TrackStatus::tracking);
+  // The same place, palm for palm: a right hand that is bent to it explains it badly, but is tracked.
+  const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
+  int frames = 0;
+  while (++frames < 60 && last[0]->status == TrackStatus::tracking) last = next(only_right, left_hand);
+  EXPECT_NE(last[0]->status, TrackStatus::tracking);
+  EXPECT_NE(said.str().find("looks like a left hand"), std::string::npos) << said.str() << frames;
+  EXPECT_GT(frames, 10);
+}
+
 TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
   next_times(4, tracker_, right_hand_, nothing());
   const HandEstimates alone = next_times(2, tracker_, right_hand_, nothing(), {true, false});

@@ -1,0 +1,94 @@
+#include "app/profile_check.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "hand/skin.h"
+#include "quick_tracker.h"
+#include "support/painted_hand.h"
+#include "support/text_logger.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kBad = 0.01, kGood = 1e-5;  // scores, far above and below what a hand of the seen side gets [m]
+
+/// A left hand is seen, and the profile is a right hand's; what it makes of that is said by the test.
+class ProfileOnTrial : public ::testing::Test {
+ protected:
+  static TrackerParams params() {
+    TrackerParams params = test::quick_tracker();
+    params.search_convincing = 0;  // nothing does
+    return params;
+  }
+  HandObservationPtr seen() { return test::stamped(*left_hand_, utime_ += 33'000); }
+  bool refused(double score) { return check_.is_other_side(*seen(), Effort::quick, 1, score); }
+  /// Frames until the other side is found out, with the profile's own `score` and status; none if it is not.
+  std::optional<int> trial(double score, TrackStatus status = TrackStatus::tracking) {
+    HandEstimate own;
+    own.status = status;
+    own.score = score;
+    for (int frame = 1; check_.on_trial(); ++frame) {
+      check_.track_mirrored(*seen());
+      if (check_.turns_out_other_side(own)) return frame;
+    }
+    return std::nullopt;
+  }
+
+  const std::shared_ptr<const HandProfile> right_ = test::adult_hand(), left_ = test::adult_hand(Handedness::left);
+  const HandObservationPtr left_hand_ =
+      test::observe_skin(make_blended_skin(*left_, 0.004), test::facing_pose(*left_, 0.5, 0.5));
+  Workers workers_{1};
+  std::ostringstream said_;
+  ProfileCheck check_{params(), *right_, 1, workers_, test::text_logger(said_)};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(ProfileOnTrial, AStartIsRefusedWhereTheMirroredHandIsClearlyBetter) {
+  EXPECT_TRUE(refused(kBad));
+  EXPECT_FALSE(check_.on_trial());
+  EXPECT_NE(said_.str().find("looks like a left hand"), std::string::npos) << said_.str();
+}
+
+TEST_F(ProfileOnTrial, AHandOfTheOtherSideIsFoundOutWhileItIsTracked) {
+  ASSERT_FALSE(refused(kGood));  // the start looked well
+  ASSERT_TRUE(check_.on_trial());
+  const auto frames = trial(kBad);
+  ASSERT_TRUE(frames);
+  EXPECT_GE(*frames, 10);
+  EXPECT_LE(*frames, 40);
+  EXPECT_NE(said_.str().find("looks like a left hand"), std::string::npos) << said_.str();
+}
+
+TEST_F(ProfileOnTrial, AHandOfItsOwnSideIsLeftAlone) {
+  ASSERT_FALSE(refused(kGood));
+  EXPECT_FALSE(trial(kGood));
+  EXPECT_EQ(said_.str(), "");
+}
+
+TEST_F(ProfileOnTrial, EndsWithAHandThatIsLost) {
+  ASSERT_FALSE(refused(kGood));
+  EXPECT_FALSE(trial(kBad, TrackStatus::holding));
+}
+
+TEST_F(ProfileOnTrial, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
+  ASSERT_FALSE(refused(kGood));
+  ASSERT_TRUE(trial(kBad));
+  EXPECT_TRUE(refused(kGood));
+  EXPECT_TRUE(refused(kBad));  // begins anew
+  EXPECT_TRUE(refused(kGood));
+  EXPECT_TRUE(refused(kGood));
+  EXPECT_FALSE(refused(kGood));
+}
+
+TEST_F(ProfileOnTrial, NoneIsNeededWhereTheStartConvinces) {
+  TrackerParams convinced = params();
+  convinced.search_convincing = 1;
+  ProfileCheck check(convinced, *right_, 1, workers_, test::text_logger(said_));
+  EXPECT_FALSE(check.is_other_side(*seen(), Effort::quick, 1, kGood));
+  EXPECT_FALSE(check.on_trial());
+}
+
+}  // namespace
+}  // namespace barehand
