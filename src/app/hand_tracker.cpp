@@ -88,7 +88,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
 
 Effort HandTracker::effort() const {
   // A hand that was followed until now is most likely near: a full search would only hold up its next frames.
-  const int first_full = last_good_ ? std::min(kQuickFirst, params_.full_search_every - 1) : 0;
+  const int first_full = was_followed() ? std::min(kQuickFirst, params_.full_search_every - 1) : 0;
   return search_frames_ % params_.full_search_every == first_full ? Effort::full : Effort::quick;
 }
 

@@ -46,7 +46,7 @@ class HandTracker {
   Effort effort() const;
   /// What a search with this effort is worth: a hand that was tracked before is near its last pose, a first start is
   /// worth several.
-  int attempts(Effort effort) const { return effort == Effort::full && !last_good_ ? params_.search_attempts : 1; }
+  int attempts(Effort effort) const { return effort == Effort::full && !was_followed() ? params_.search_attempts : 1; }
   /// As of the last observation.
   TrackStatus status() const { return loss_.status(); }
   /// As fitted to the person so far.
@@ -63,6 +63,7 @@ class HandTracker {
  private:
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
+  bool was_followed() const { return last_good_ || motion_.has_pose(); }
   bool doubtful(double score);
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);

@@ -56,7 +56,7 @@ bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effo
 
 void ProfileCheck::track_mirrored(const HandObservation& observation) {
   Trial& trial = *trial_;
-  const bool followed = mirrored_->status() != TrackStatus::searching;
+  const bool followed = mirrored_->status() == TrackStatus::tracking;
   if (!followed && trial.frames % kSearchAgain != 0) return;
   trial.mirrored = followed ? mirrored_->process(observation)
                             : mirrored_->process(observation, mirrored_->look(observation, Effort::quick, 1));
