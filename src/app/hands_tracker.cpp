@@ -11,9 +11,6 @@ namespace {
 
 // A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
 constexpr int kSearchEvery = 3;
-// Attempts of the mirrored profile where its own does not convince. A hand of the other side is found by the first or
-// second one in most cases; one of its own side must not be taken for the other's by the luck of many.
-constexpr int kMirrored = 2;
 
 }  // namespace
 
@@ -74,10 +71,9 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   const int attempts = hand.attempts(effort);
   std::optional<Fit> found = hand.look(observation, effort, attempts);
   const double score = found ? found->refined.score : INFINITY;
-  const bool convincing = score < params_.search_convincing;
   if (score > params_.loss.lost_score)
     check_->nothing_found(observation, score);
-  else if (check_->is_other_side(observation, effort, convincing ? 1 : std::min(attempts, kMirrored), score))
+  else if (check_->is_other_side(observation, effort, attempts, score))
     found.reset();
   return hand.process(observation, std::move(found));
 }

@@ -1,5 +1,6 @@
 #include "app/profile_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,6 +13,10 @@ namespace {
 constexpr std::array<double, 4> kSizes = {0.8, 1.25, 0.65, 1.5};  // a search bridges a tenth by itself
 // Searches that fail between two tries. What is in view for long without being found is most likely no hand.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
+
+// Attempts of the mirrored profile where its own does not convince. A hand of the other side is found by the first or
+// second one in most cases; one of its own side must not be taken for the other's by the luck of many.
+constexpr int kMirroredAttempts = 2;
 
 // Of a trial: frames in which both are tracked before it may end, frames after which it does, those between two
 // searches while the mirrored profile is not tracked, and the advantage of one side that ends it.
@@ -40,13 +45,14 @@ void ProfileCheck::say_side() {
 bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
   trial_.reset();
-  auto other = mirrored_->look(observation, effort, attempts);
+  const bool convincing = score < params_.search_convincing;
+  auto other = mirrored_->look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->refined.score : INFINITY;
   const bool worse = clearly_better(other_score, score);
   if (worse) say_side();
   if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
   if (worse || suspected_ > 0) return true;
-  if (score >= params_.search_convincing) {
+  if (!convincing) {
     mirrored_->reset();
     mirrored_->process(observation, std::move(other));
     trial_.emplace();

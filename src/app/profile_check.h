@@ -16,8 +16,9 @@ class ProfileCheck {
   ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
                std::shared_ptr<spdlog::logger> log);
 
-  /// A search found the hand with `score`: whether the mirrored profile, looked for in the same way, explains it
-  /// clearly better. If that is not said and the score does not convince, a trial begins.
+  /// A search of up to `attempts` found the hand with `score`: whether the mirrored profile, looked for in the same way
+  /// if in fewer attempts, explains it clearly better. If that is not said and the score does not convince, a trial
+  /// begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
   /// A trial: the mirrored profile is tracked, too, in the frames after a start. A single frame seldom tells a hand

@@ -21,7 +21,8 @@ BENCHMARK(prediction)->Unit(benchmark::kMicrosecond);
 /// One trial of a search from templates.
 void coarse_score(benchmark::State& state) {
   const World& w = world();
-  const CoarseSkin skin = make_coarse_skin(*w.profile, make_cylinder_surface(*w.profile, 600), w.tracker.initialiser.fine_cell);
+  const CoarseSkin skin =
+      make_coarse_skin(*w.profile, make_cylinder_surface(*w.profile, 600), w.tracker.initialiser.fine_cell);
   const ScoreGrid grid = make_score_grid(*w.observation, w.tracker.initialiser.fine_cell);
   CoarseScorer score(grid, skin, w.tracker.initialiser.score);
   for (auto _ : state) benchmark::DoNotOptimize(score(w.predicted));
