@@ -21,7 +21,7 @@ double confidence(const HandProfile& profile, const SegmentState& state, int seg
 }  // namespace
 
 HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const std::optional<Fit>& fit) {
-  auto out = std::make_shared<HandEstimate>();
+  auto out = std::allocate_shared<HandEstimate>(FrameAllocator<HandEstimate>());
   out->utime = observation.frame->utime;
   out->number = observation.frame->number;
   out->sensor = observation.frame->sensor;

@@ -1,6 +1,7 @@
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "app/bench_command.h"
 #include "app/calibrate_command.h"
@@ -23,6 +24,7 @@ int run_program(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 1 failed while running, 2 wrong arguments or configuration, 130 interrupted.\n"
       "barehand COMMAND --help says more.");
+  cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
   int exit_code = kExitOk;
   add_track_command(app, exit_code);
   add_sim_command(app, exit_code);

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "core/frame_memory.h"
 #include "hand/profile.h"
 
 namespace barehand {
@@ -46,6 +46,6 @@ struct HandEstimate {
 };
 using HandEstimatePtr = std::shared_ptr<const HandEstimate>;
 /// One a hand that is looked for, always in the same order; of one frame.
-using HandEstimates = std::vector<HandEstimatePtr>;
+using HandEstimates = FrameVector<HandEstimatePtr>;
 
 }  // namespace barehand

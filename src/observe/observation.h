@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/frame_memory.h"
 #include "math/frame.h"
 
 namespace barehand {
@@ -36,6 +37,6 @@ struct HandObservation {
 };
 using HandObservationPtr = std::shared_ptr<const HandObservation>;
 /// One a hand that is looked for, always in the same order.
-using HandObservations = std::vector<HandObservationPtr>;
+using HandObservations = FrameVector<HandObservationPtr>;
 
 }  // namespace barehand

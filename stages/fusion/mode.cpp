@@ -10,7 +10,8 @@ namespace {
 /// Largest offset of b against a on any axis of a's own frame, in half widths.
 double box_distance(const SE3& a, const SE3& b, const Vector6d& half_width) {
   Vector6d offset;
-  offset << a.R.transpose() * (b.t - a.t), log_so3(a.R.transpose() * b.R);
+  offset.head<3>() = a.R.transpose() * (b.t - a.t);
+  offset.tail<3>() = log_so3(a.R.transpose() * b.R);
   return offset.cwiseQuotient(half_width).cwiseAbs().maxCoeff();
 }
 

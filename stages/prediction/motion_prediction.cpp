@@ -64,7 +64,8 @@ HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, 
   HandPose pose = carried;
   std::array<Vector6d, kSegmentCount> velocity;
   for (int s = 0; s < kSegmentCount; ++s) {
-    velocity[s] << motion.R * velocity_[s].head<3>(), motion.R * velocity_[s].tail<3>();  // turns with the hand
+    velocity[s].head<3>() = motion.R * velocity_[s].head<3>();  // turns with the hand
+    velocity[s].tail<3>() = motion.R * velocity_[s].tail<3>();
     if (s == kPalm || seen_[s]) {
       pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity[s]);
       continue;

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
+#include "core/frame_memory.h"
 #include "hand/samples.h"
 #include "stages/prediction/observed_cloud.h"
 #include "stages/prediction/rigid_icp.h"
@@ -46,7 +46,7 @@ struct StartPose {
 };
 
 struct Prediction {
-  std::vector<StartPose> candidates;  ///< [0] is the primary one, the centre of the level 0 proposals
+  FrameVector<StartPose> candidates;  ///< [0] is the primary one, the centre of the level 0 proposals
   IcpResult icp;
   std::int64_t utime = 0;  ///< of the observation [us]
   double dt = 0;           ///< [s] since the last pose

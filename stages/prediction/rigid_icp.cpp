@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+
+#include "core/frame_memory.h"
 
 namespace barehand {
 
@@ -111,7 +112,7 @@ class Registration {
   const ObservedCloud& cloud_;
   const IcpParams& params_;
   Vector3d pivot_;
-  std::vector<std::size_t> nearest_;  // of every model point when it was last matched: most likely still near
+  FrameVector<std::size_t> nearest_;  // of every model point when it was last matched: most likely still near
 };
 
 bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
@@ -119,7 +120,7 @@ bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
 }
 
 /// Of motions that are nearly equal the first one stays.
-void leave_one_of_each(std::vector<SE3>& motions, const Vector3d& pivot) {
+void leave_one_of_each(FrameVector<SE3>& motions, const Vector3d& pivot) {
   auto kept = motions.begin();
   for (const SE3& motion : motions) {
     if (std::none_of(motions.begin(), kept, [&](const SE3& other) { return nearly_equal(motion, other, pivot); }))
@@ -153,7 +154,7 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   if (!params.enabled || static_cast<int>(cloud.size()) < params.min_points || model.size() < 20) return {};
   Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
-  std::vector<SE3> motions = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
+  FrameVector<SE3> motions = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
   // Far from the goal few points suffice; starts that have met go on as one.
   const int coarse = params.iterations / 2, first = params.iterations / 6;
   int begin = 0;

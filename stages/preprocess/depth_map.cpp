@@ -44,7 +44,7 @@ void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params,
       companions[u] = count;
       out[u] = count < kFewestCompanions ? 0.f : z;
     }
-    for (int u = 0; u < region.width; ++u) border[u] = companions[u] < 8.f ? 255 : 0;
+    for (int u = 0; u < region.width; ++u) border[u] = companions[u] < 8.f;
   }
 }
 

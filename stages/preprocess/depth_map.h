@@ -14,7 +14,7 @@ struct Region {
 
 /// Depth of a region in metres without flying pixels: those between two surfaces, seen by hardly a neighbour at their
 /// own depth. They and what is nearer than the working range become 0.
-/// `edge`: 255 where one of the eight neighbours is not on the same surface or has no depth; same size.
+/// `edge`: 1 where one of the eight neighbours is not on the same surface or has no depth; same size.
 class DepthCleaner {
  public:
   void clean(const RgbdFrame& frame, const PreprocessParams& params, const Region& region, Image<float>& depth,

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace barehand {
 namespace {
 
-constexpr double kSpeckArea = 3e-5;  // m^2: less than half a fingertip
-constexpr float kInFront = 0.005f;   // m before the nearest hand pixel
+constexpr float kInFront = 0.005f;  // m before the nearest hand pixel
 
 bool joined(float a, float b, float fx) { return std::abs(a - b) < same_surface_step(std::min(a, b), fx); }
 
@@ -40,43 +38,23 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
 }
 
 void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
-  own_odds_.create(region.height, region.width, CV_32F);
-  present_.create(region.height, region.width, CV_32F);
+  own_odds_.reset(region.width, region.height);
+  says_.reset(region.width, region.height);
   colours_.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
     std::copy_n(colour, region.width, colours_.row(v));
     const float* nearest = lowest_.row(row_[v]);
-    float* odds = own_odds_.ptr<float>(v);
-    float* present = present_.ptr<float>(v);
+    float* odds = own_odds_.row(v);
+    std::uint8_t* says = says_.row(v);
     for (int u = 0; u < region.width; ++u) {
       const bool beside_hand = nearest[column_[u]] < INFINITY;
       odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
-      present[u] = odds[u] != 0.f ? 1.f : 0.f;
+      says[u] = odds[u] != 0.f;
     }
   }
-  const cv::Size window(2 * params_.skew_px + 1, 2 * params_.skew_px + 1);
-  cv::boxFilter(own_odds_, odds_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::boxFilter(present_, present_, -1, window, {-1, -1}, false, cv::BORDER_CONSTANT);
-}
-
-void HandMask::remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask) {
-  const cv::Mat view(mask.height(), mask.width(), CV_8U, mask.data());
-  const int parts = cv::connectedComponentsWithStats(view, labels_, stats_, centroids_, 8, CV_32S);
-  if (parts <= 1) return;
-  const double per_metre_sq = frame.camera.fx * frame.camera.fy;
-  keep_.assign(parts, 1);
-  for (int k = 1; k < parts; ++k) {
-    const double x = centroids_.at<double>(k, 0), y = centroids_.at<double>(k, 1);
-    const float z = depth.at(static_cast<int>(x), static_cast<int>(y));
-    const double pixels = kSpeckArea * per_metre_sq / (z > 0 ? z * z : 0.25);
-    keep_[k] = stats_.at<int>(k, cv::CC_STAT_AREA) >= pixels;
-  }
-  for (int v = 0; v < mask.height(); ++v) {
-    const int* label = labels_.ptr<int>(v);
-    std::uint8_t* own = mask.row(v);
-    for (int u = 0; u < mask.width(); ++u) own[u] &= keep_[label[u]];
-  }
+  sum_odds_.compute(own_odds_, params_.skew_px, odds_);
+  count_.compute(says_, params_.skew_px, saying_);
 }
 
 void HandMask::find_supported(const Image<float>& depth) {
@@ -108,20 +86,18 @@ void HandMask::judge_colour(const Image<float>& depth) {
   const int width = depth.width();
   judged_.resize(width);
   for (int v = 0; v < depth.height(); ++v) {
-    const float *z = depth.row(v), *sum = odds_.ptr<float>(v), *present = present_.ptr<float>(v),
-                *own = own_odds_.ptr<float>(v);
-    const std::uint8_t *edge = edges_.ptr<std::uint8_t>(v), *supported = supported_.row(v);
+    const float *z = depth.row(v), *sum = odds_.row(v), *own = own_odds_.row(v);
+    const std::uint16_t *saying = saying_.row(v), *edges = edges_.row(v);
+    const std::uint8_t* supported = supported_.row(v);
     std::int32_t* judged = judged_.data();
     for (int u = 0; u < width; ++u) {  // everything is computed before it is chosen from: it vectorises
-      const float mean = sum[u] / present[u];
-      const bool asked = (present[u] >= 0.5f) & (own[u] != 0.f);
+      const float mean = sum[u] / static_cast<float>(saying[u]);
       // Beside a colour border the mean alone would take a strip of one side for the other.
-      const bool skin = asked & (mean > least_skin) & (own[u] > 0),
-                 other = asked & (mean < most_other) & (own[u] < most_other);
+      const bool skin = (mean > least_skin) & (own[u] > 0), other = (mean < most_other) & (own[u] < most_other);
       std::int32_t e = other ? kOther : kOpen;
       e = skin ? kHand : e;
       e = supported[u] ? e : kOther;
-      e = edge[u] ? kOpen : e;
+      e = edges[u] > 0 ? kOpen : e;
       judged[u] = z[u] > 0 ? e : kNone;
     }
     Evidence* evidence = evidence_.row(v);
@@ -138,9 +114,7 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
   evidence_.reset(region.width, region.height, Evidence::none);
   if (grid.coloured) {
     colour_evidence(frame, skin, region);
-    const cv::Mat edges(region.height, region.width, CV_8U, const_cast<std::uint8_t*>(edge.data()));
-    const int side = 2 * params_.skew_px + 1;
-    cv::dilate(edges, edges_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+    count_.compute(edge, params_.skew_px, edges_);
     judge_colour(depth);
     const float fx = static_cast<float>(frame.camera.fx);
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
@@ -154,11 +128,11 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     for (int u = 0; u < region.width; ++u) {
       const bool open = evidence[u] == Evidence::open;
       if (!(supported[u] & (open | (evidence[u] == Evidence::hand)))) continue;
-      if (open && odds_.at<float>(v, u) < 0) continue;
+      if (open && odds_.at(u, v) < 0) continue;
       mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, depth.at(u, v))) <= 0;
     }
   }
-  remove_specks(frame, depth, mask);
+  specks_.remove(frame.camera, depth, mask);
 }
 
 void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, PixelRays& rays,

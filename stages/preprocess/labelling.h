@@ -1,11 +1,11 @@
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "observe/observation.h"
 #include "observe/pixel_rays.h"
 #include "stages/preprocess/depth_map.h"
 #include "stages/preprocess/hand_search.h"
+#include "stages/preprocess/specks.h"
+#include "stages/preprocess/window_sum.h"
 
 namespace barehand {
 
@@ -27,7 +27,6 @@ class HandMask {
   void find_supported(const Image<float>& depth);
   void judge_depth(const Image<float>& depth);
   void judge_colour(const Image<float>& depth);
-  void remove_specks(const RgbdFrame& frame, const Image<float>& depth, Image<std::uint8_t>& mask);
 
   PreprocessParams params_;
   PixelRays rays_;
@@ -36,11 +35,16 @@ class HandMask {
   std::vector<float> low_, high_;  // the same along a row of pixels
   std::vector<std::int32_t> judged_;
   Image<std::uint8_t> supported_;  // 1 = may be hand as far as depth says
-  cv::Mat own_odds_, odds_, present_, edges_, labels_, stats_, centroids_;
+  Image<float> own_odds_, odds_;   // of a pixel, and summed over the `skew_px` around it
+  Image<std::uint8_t> says_;       // 1 = its colour says anything
+  Image<std::uint16_t> saying_;    // the same, counted in its surroundings
+  Image<std::uint16_t> edges_;     // depth edges in its surroundings
+  WindowSum<float> sum_odds_;
+  WindowSum<std::uint16_t> count_;
   Image<Rgb> colours_;  // of the region
   Image<Evidence> evidence_;
   Flood flood_;
-  std::vector<std::uint8_t> keep_;
+  SpeckRemover specks_;
 };
 
 /// Names the remaining pixels: object = no hand but within `reach` [m] of the nearest hand pixel, or in front of it;

@@ -13,10 +13,12 @@ class ObservationPool {
  public:
   /// An observation with arbitrary content; not shared with anyone.
   std::shared_ptr<HandObservation> take() {
-    return {pool_->take().release(), [pool = pool_](HandObservation* used) {
+    return {pool_->take().release(),
+            [pool = pool_](HandObservation* used) {
               used->frame.reset();  // the frame's memory is not ours to keep
               Pool<HandObservation>::Return{pool.get()}(used);
-            }};
+            },
+            FrameAllocator<HandObservation>()};
   }
 
  private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core/utility.hpp>
 
 namespace barehand {
 namespace {
@@ -46,9 +45,7 @@ void thin_cloud(int most, HandObservation& out) {
 }  // namespace
 
 Preprocessor::Preprocessor(const PreprocessParams& params, int hands)
-    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {
-  cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
-}
+    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {}
 
 Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> hints) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());

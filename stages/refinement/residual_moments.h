@@ -45,7 +45,10 @@ class ResidualMoments {
 
   Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float share) const {
     const Eigen::Vector3f turn = (p - origin_[s]).cross(d);
-    return share * (Row() << d, turn, 0, 0).finished();
+    Row row = Row::Zero();
+    row.head<3>() = share * d;
+    row.segment<3>(3) = share * turn;
+    return row;
   }
   static void add_product(Square& sum, const Row& a, const Row& b, float w) {
     const Row wa = w * a;

@@ -33,9 +33,10 @@ TEST(ResidualMoments, EqualTheSumOfEveryPointsJacobian) {
     moments.add(v, p.cast<float>(), direction.cast<float>(), static_cast<float>(r), static_cast<float>(w));
 
     const auto row = [&](int s, double share) {
-      Vector6d j;
-      j << direction, (p - pose[s].t).cross(direction);  // d . d(R x + t)/d(v, w)
-      return Vector6d(share * j);
+      Vector6d j;  // d . d(R x + t)/d(v, w)
+      j.head<3>() = share * direction;
+      j.tail<3>() = share * (p - pose[s].t).cross(direction);
+      return j;
     };
     const Vector6d a = row(v.a, 1 - v.weight_b), b = row(v.b, v.weight_b);
     expected.H_self[v.a] += w * a * a.transpose();

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/image.h"
+
+namespace barehand {
+
+/// Sums over square windows; what lies outside the image counts nothing.
+template <typename T>
+class WindowSum {
+ public:
+  /// `out`, of the size of `in`: sum over the pixels at most `radius` columns and rows away, always added in the same
+  /// order (a running sum would keep rounding errors of what has left the window).
+  template <typename In>
+  void compute(const Image<In>& in, int radius, Image<T>& out) {
+    const int width = in.width(), height = in.height();
+    out.reset(width, height);
+    padded_.assign(width + 2 * radius, T{});
+    for (int v = 0; v < height; ++v) {
+      T* column_sum = padded_.data() + radius;
+      std::fill_n(column_sum, width, T{});
+      for (int y = std::max(0, v - radius); y <= std::min(height - 1, v + radius); ++y) {
+        const In* row = in.row(y);
+        for (int u = 0; u < width; ++u) column_sum[u] = static_cast<T>(column_sum[u] + row[u]);
+      }
+      T* sum = out.row(v);
+      for (int k = 0; k <= 2 * radius; ++k)
+        for (int u = 0; u < width; ++u) sum[u] = static_cast<T>(sum[u] + padded_[u + k]);
+    }
+  }
+
+ private:
+  std::vector<T> padded_;  // sums over the rows of a window, with a margin of nothing
+};
+
+}  // namespace barehand
