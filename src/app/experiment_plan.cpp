@@ -58,6 +58,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_refinement", [](TrackerParams& p) { p.refinement.enabled = false; });
   without("no_icp", [](TrackerParams& p) { p.icp.enabled = false; });
   without("no_velocity", [](TrackerParams& p) { p.prediction.velocity = false; });
+  without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
   without("no_doubt", [](TrackerParams& p) { p.doubt = 1000; });
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/clearly_better.h"
+#include "app/found_poses.h"
 #include "stages/prediction/crossed_fingers.h"
 #include "stages/prediction/hidden_fingers.h"
 
@@ -14,8 +15,6 @@ constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
-constexpr double kAgree = 0.005;                 // poses found closer than this are the same [m]
-constexpr int kAgreeing = 3;  // further searches that find the best pose again: there is no better one
 
 }  // namespace
 
@@ -153,9 +152,11 @@ void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
 std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,
                                                              const HandPose& followed) {
   ++doubtful_frames_;
+  const int first = (params_.doubt_every + 1) / 2;
   // A hand that is taken for something else looks wrong from its start on; later doubts are mostly about fingers.
-  if (doubtful_frames_ == params_.doubt_every) return search_once(observation, Effort::full, 1);
-  if (doubtful_frames_ % params_.doubt_every == 0) return search_once(observation, Effort::quick, 0);
+  if (doubtful_frames_ == first) return search_once(observation, Effort::full, 1);
+  if (doubtful_frames_ % params_.doubt_every == first % params_.doubt_every)
+    return search_once(observation, Effort::quick, 0);
   if (doubtful_frames_ % params_.doubt_near_every == 0) return search_near(observation, followed);
   return std::nullopt;
 }
@@ -175,9 +176,8 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
   HandPose pose = fit.refined.pose;
-  if (params_.refinement.enabled) {  // the paper knows nothing of hidden fingers
+  if (params_.hidden_follow)
     pose = with_hidden_following(*model_->profile, motion_.pose(), pose, seen, params_.initialiser.widening);
-  }
   motion_.update(pose, seen, *fit.prediction);
 }
 
@@ -272,17 +272,12 @@ bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sam
 std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
   std::optional<Fit> best;
-  int agreeing = 0;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    const auto found = search_once(observation, effort, attempt);
+  FoundPoses poses(*model_->profile, params_.search_settled);
+  for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
+    auto found = search_once(observation, effort, attempt);
     if (!found) continue;
-    const bool better = !best || found->refined.score < best->refined.score;
-    if (best && pose_distance(*model_->profile, best->refined.pose, found->refined.pose) < kAgree)
-      ++agreeing;
-    else if (better)
-      agreeing = 0;
-    if (better) best = found;
-    if (best->refined.score < params_.search_convincing || agreeing == kAgreeing) break;
+    poses.add(found->refined.pose, found->refined.score);
+    if (!best || found->refined.score < best->refined.score) best = std::move(found);
   }
   return best;
 }

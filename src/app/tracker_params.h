@@ -25,13 +25,15 @@ struct TrackerParams {
   double search_advantage = 0.1;
   double nominal_rate = 30;
   double seen_fraction = 0.15;
+  bool hidden_follow = true;
   int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
-  int search_attempts = 8;
+  int search_attempts = 16;
+  double search_settled = 0.0015;
   double search_convincing = 0.002;
   double doubt = 0.15;
-  int doubt_every = 6;
+  int doubt_every = 12;
   int doubt_near_every = 2;
   int doubt_iterations = 6;
   double hold_growth = 0.1;
@@ -61,15 +63,19 @@ void visit(V& v, TrackerParams& p) {
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
   v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
+  v("hidden_follow", p.hidden_follow, "fingers that are not seen go on bending as much as their neighbours");
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
   v("search_attempts", p.search_attempts, 1, 100,
-    "full searches of one frame until one convinces or four agree, while no hand was tracked before");
+    "full searches of one frame until one settles it, four agree or eight are alike, while no hand was tracked before");
+  v("search_settled", p.search_settled, 0.0, 0.1,
+    "m, a found pose with a lower global score ends the searches of a frame");
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
   v("doubt", p.doubt, 0.0, 1000.0,
     "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
-  v("doubt_every", p.doubt_every, 1, 100000, "of so many doubtful frames one is searched anew, the first thoroughly");
+  v("doubt_every", p.doubt_every, 1, 100000,
+    "of so many doubtful frames the middle one is searched anew, at first thoroughly");
   v("doubt_near_every", p.doubt_near_every, 1, 100000,
     "of so many doubtful frames one is searched near the followed pose, if not anew");
   v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");

@@ -19,7 +19,7 @@ inline std::string replaced(std::string text, const std::string& before, const s
 /// how a hand is found, which takes minutes under a sanitizer.
 inline std::string quick_config() {
   std::string text = read_text(BAREHAND_CONFIGS "/default.yaml");
-  for (const auto& [shipped, quick] : {std::pair(" search_attempts: 8\n", " search_attempts: 1\n"),
+  for (const auto& [shipped, quick] : {std::pair(" search_attempts: 16\n", " search_attempts: 1\n"),
                                        {" search_refined: 12\n", " search_refined: 4\n"},
                                        {" in_plane: 16\n", " in_plane: 8\n"},
                                        {" rolls: 8\n", " rolls: 4\n"},

@@ -1,0 +1,37 @@
+#include "app/found_poses.h"
+
+#include <algorithm>
+
+#include "stages/prediction/initialiser.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kSame = 0.005;   // poses closer than this are the same [m]
+constexpr int kFoundAgain = 4;    // times the best pose was found: there is no better one
+constexpr double kAlike = 0.040;  // poses closer than this differ in their fingers only [m]
+constexpr int kMany = 8;          // poses of which all but one are alike: the hand is hard to see, but it is there
+
+}  // namespace
+
+void FoundPoses::add(const HandPose& pose, double score) {
+  if (poses_.empty() || score < best_score_) {
+    best_ = poses_.size();
+    best_score_ = score;
+  }
+  poses_.push_back(pose);
+}
+
+int FoundPoses::like_best(double distance) const {
+  const auto like = [&](const HandPose& pose) { return pose_distance(profile_, poses_[best_], pose) < distance; };
+  return static_cast<int>(std::ranges::count_if(poses_, like));
+}
+
+bool FoundPoses::settled() const {
+  if (poses_.empty()) return false;
+  if (best_score_ < enough_ || like_best(kSame) >= kFoundAgain) return true;
+  const int count = static_cast<int>(poses_.size());
+  return count >= kMany && like_best(kAlike) >= count - 1;
+}
+
+}  // namespace barehand

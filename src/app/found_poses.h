@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "hand/hand_pose.h"
+
+namespace barehand {
+
+/// Poses that several searches of one frame found, and whether more searches may find a better one. A hand of which
+/// little is seen may be explained fairly well by several poses far apart; only chance finds the right one among them.
+class FoundPoses {
+ public:
+  /// A pose with a global score below `enough` [m] needs no other.
+  FoundPoses(const HandProfile& profile, double enough) : profile_(profile), enough_(enough) {}
+
+  /// `score`: global [m].
+  void add(const HandPose& pose, double score);
+  /// The best pose is good enough, or was found again often enough, or nearly all of many poses are like it.
+  bool settled() const;
+
+ private:
+  /// How many poses lie within `distance` [m] of the best one, itself included.
+  int like_best(double distance) const;
+
+  const HandProfile& profile_;
+  double enough_;
+  std::vector<HandPose> poses_;
+  std::size_t best_ = 0;
+  double best_score_ = 0;
+};
+
+}  // namespace barehand
