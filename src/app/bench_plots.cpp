@@ -3,6 +3,7 @@
 #include <map>
 
 #include "app/bench_report.h"
+#include "core/format.h"
 #include "io/chart.h"
 #include "io/json_fields.h"
 
@@ -25,7 +26,7 @@ Distribution box_of(const Json& time) {
 std::string label_of(const Json& row) {
   std::string label = row.at("config");
   if (row.at("sweep") != "")
-    label += " " + row.at("sweep").get<std::string>() + "=" + std::to_string(row.at("value").get<int>());
+    label += formatted(" %s=%d", row.at("sweep").get<std::string>().c_str(), row.at("value").get<int>());
   return label + ", " + std::to_string(row.at("threads").get<int>()) + " threads";
 }
 

@@ -29,7 +29,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
     while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
     if (!text.empty()) text += ", ";
     text += std::to_string(numbers[i]);
-    if (end > i) text += "-" + std::to_string(numbers[end]);
+    if (end > i) text += formatted("-%lld", static_cast<long long>(numbers[end]));
     i = end + 1;
   }
   return text;

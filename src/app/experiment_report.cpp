@@ -48,7 +48,7 @@ std::string csv_of(const ExperimentReport& report) {
   for (const Figure& figure : figures_of(report.rows.front())) text += std::string(",") + figure.name;
   for (const ExperimentRow& row : report.rows) {
     text += "\n" + row.sequence + "," + row.run.label;
-    for (const Figure& figure : figures_of(row)) text += "," + decimal(figure, "");
+    for (const Figure& figure : figures_of(row)) text.append(",").append(decimal(figure, ""));
   }
   return text + "\n";
 }
@@ -103,7 +103,7 @@ std::string experiment_table(const ExperimentReport& report) {
   std::string text = padded("sequence", sequence) + "  " + padded("variant", variant);
   for (const Figure& figure : figures_of(report.rows.front())) text += "  " + std::string(figure.name);
   for (const ExperimentRow& row : report.rows) {
-    text += "\n" + padded(row.sequence, sequence) + "  " + padded(row.run.label, variant);
+    text.append("\n").append(padded(row.sequence, sequence)).append("  ").append(padded(row.run.label, variant));
     for (const Figure& figure : figures_of(row))
       text += "  " + padded(decimal(figure, "-"), std::string(figure.name).size());
   }

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSame = 0.005;   // poses closer than this are the same [m]
 constexpr int kFoundAgain = 4;    // times the best pose was found: there is no better one
 constexpr double kAlike = 0.040;  // poses closer than this differ in their fingers only [m]
-constexpr int kMany = 8;          // poses of which all but one are alike: the hand is hard to see, but it is there
+constexpr int kMany = 8;          // poses; where all but one are alike, the hand is hard to see, but it is there
 
 }  // namespace
 
@@ -31,7 +31,7 @@ bool FoundPoses::settled() const {
   if (poses_.empty()) return false;
   if (best_score_ < enough_ || like_best(kSame) >= kFoundAgain) return true;
   const int count = static_cast<int>(poses_.size());
-  return count >= kMany && like_best(kAlike) >= count - 1;
+  return count >= kMany && (best_score_ > worst_ || like_best(kAlike) >= count - 1);
 }
 
 }  // namespace barehand

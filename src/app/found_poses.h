@@ -10,12 +10,14 @@ namespace barehand {
 /// little is seen may be explained fairly well by several poses far apart; only chance finds the right one among them.
 class FoundPoses {
  public:
-  /// A pose with a global score below `enough` [m] needs no other.
-  FoundPoses(const HandProfile& profile, double enough) : profile_(profile), enough_(enough) {}
+  /// Global scores [m]: a pose below `enough` needs no other; where the best one is above `worst`, there is no hand.
+  FoundPoses(const HandProfile& profile, double enough, double worst)
+      : profile_(profile), enough_(enough), worst_(worst) {}
 
   /// `score`: global [m].
   void add(const HandPose& pose, double score);
-  /// The best pose is good enough, or was found again often enough, or nearly all of many poses are like it.
+  /// The best pose is good enough, or was found again often enough, or of many poses nearly all are like it or none
+  /// explains anything.
   bool settled() const;
 
  private:
@@ -23,7 +25,7 @@ class FoundPoses {
   int like_best(double distance) const;
 
   const HandProfile& profile_;
-  double enough_;
+  double enough_, worst_;
   std::vector<HandPose> poses_;
   std::size_t best_ = 0;
   double best_score_ = 0;

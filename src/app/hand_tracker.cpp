@@ -272,7 +272,7 @@ bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sam
 std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
   std::optional<Fit> best;
-  FoundPoses poses(*model_->profile, params_.search_settled);
+  FoundPoses poses(*model_->profile, params_.search_settled, params_.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
     auto found = search_once(observation, effort, attempt);
     if (!found) continue;

@@ -99,10 +99,12 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
   const Effort effort = full ? Effort::full : Effort::quick;  // equal chances
   const int most = std::max(hands_[0]->attempts(effort), hands_[1]->attempts(effort));
-  for (const int attempts : {1, most}) {
-    for (int k = 0; k < 2; ++k)
-      for (int j = 0; j < 2; ++j) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
-    if (attempts == most || (convincing(0) && convincing(1))) break;
+  const auto look = [&](int j, int attempts) {
+    for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
+  };
+  for (int j = 0; j < 2; ++j) {
+    look(j, 1);
+    if (most > 1 && !convincing(j)) look(j, most);
   }
   std::array<int, 2> owned = {-1, -1};  // by hand: observation
   if (observations[0]->hand_present && observations[1]->hand_present) {

@@ -29,7 +29,7 @@ Result<void> ProgressSink::consume(const TrackedFrame& tracked) {
 
 void ProgressSink::print(const HandEstimates& estimates, std::int64_t now_us) {
   const double rate = (done_ - last_done_) * 1e6 / static_cast<double>(now_us - last_us_);
-  const std::string total = options_.frames ? "/" + std::to_string(*options_.frames) : "";
+  const std::string total = options_.frames ? formatted("/%lld", static_cast<long long>(*options_.frames)) : "";
   const std::string line =
       formatted("%lld%s frames, %.1f frames/s, frame %lld: %s", static_cast<long long>(done_), total.c_str(), rate,
                 static_cast<long long>(estimates[0]->number), status_list(estimates).c_str());

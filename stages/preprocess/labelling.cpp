@@ -39,22 +39,22 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
 
 void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
   own_odds_.reset(region.width, region.height);
-  says_.reset(region.width, region.height);
+  tells_.reset(region.width, region.height);
   colours_.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
     std::copy_n(colour, region.width, colours_.row(v));
     const float* nearest = lowest_.row(row_[v]);
     float* odds = own_odds_.row(v);
-    std::uint8_t* says = says_.row(v);
+    std::uint8_t* tells = tells_.row(v);
     for (int u = 0; u < region.width; ++u) {
       const bool beside_hand = nearest[column_[u]] < INFINITY;
       odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
-      says[u] = odds[u] != 0.f;
+      tells[u] = odds[u] != 0.f;
     }
   }
   sum_odds_.compute(own_odds_, params_.skew_px, odds_);
-  count_.compute(says_, params_.skew_px, saying_);
+  count_.compute(tells_, params_.skew_px, telling_);
 }
 
 void HandMask::find_supported(const Image<float>& depth) {
@@ -87,11 +87,11 @@ void HandMask::judge_colour(const Image<float>& depth) {
   judged_.resize(width);
   for (int v = 0; v < depth.height(); ++v) {
     const float *z = depth.row(v), *sum = odds_.row(v), *own = own_odds_.row(v);
-    const std::uint16_t *saying = saying_.row(v), *edges = edges_.row(v);
+    const std::uint16_t *telling = telling_.row(v), *edges = edges_.row(v);
     const std::uint8_t* supported = supported_.row(v);
     std::int32_t* judged = judged_.data();
     for (int u = 0; u < width; ++u) {  // everything is computed before it is chosen from: it vectorises
-      const float mean = sum[u] / static_cast<float>(saying[u]);
+      const float mean = sum[u] / static_cast<float>(telling[u]);
       // Beside a colour border the mean alone would take a strip of one side for the other.
       const bool skin = (mean > least_skin) & (own[u] > 0), other = (mean < most_other) & (own[u] < most_other);
       std::int32_t e = other ? kOther : kOpen;

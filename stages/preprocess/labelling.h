@@ -36,8 +36,8 @@ class HandMask {
   std::vector<std::int32_t> judged_;
   Image<std::uint8_t> supported_;  // 1 = may be hand as far as depth says
   Image<float> own_odds_, odds_;   // of a pixel, and summed over the `skew_px` around it
-  Image<std::uint8_t> says_;       // 1 = its colour says anything
-  Image<std::uint16_t> saying_;    // the same, counted in its surroundings
+  Image<std::uint8_t> tells_;      // 1 = its colour says anything
+  Image<std::uint16_t> telling_;   // the same, counted in its surroundings
   Image<std::uint16_t> edges_;     // depth edges in its surroundings
   WindowSum<float> sum_odds_;
   WindowSum<std::uint16_t> count_;

@@ -98,7 +98,9 @@ TEST_P(CommandFlood, DoesNotStopTheTracking) {
   else
     EXPECT_THAT(child.output(), Not(HasSubstr("command: ")));
   EXPECT_LT(child.output().size(), 100u * static_cast<std::size_t>(sent)) << "the log is flooded";
-  if (!kSlow) EXPECT_LT(child.peak_memory(), 512 << 20);
+  if (!kSlow) {
+    EXPECT_LT(child.peak_memory(), 512 << 20);
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class FoundPosesTest : public ::testing::Test {
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   const HandPose upright_ = test::facing_pose(*profile_, 0.5);
-  FoundPoses found_{*profile_, 0.0015};
+  FoundPoses found_{*profile_, 0.0015, 0.004};
 };
 
 TEST_F(FoundPosesTest, NothingIsNotSettled) { EXPECT_FALSE(found_.settled()); }
@@ -57,6 +57,12 @@ TEST_F(FoundPosesTest, EightOfWhichSevenDifferInFingersOnlyAreEnough) {
   add_unsettled(1, 0, 0.002);
   for (int i = 1; i < 6; ++i) add_unsettled(1, 0.006 * i, 0.003);
   add(0.036, 0.003);
+  EXPECT_TRUE(found_.settled());
+}
+
+TEST_F(FoundPosesTest, EightThatExplainNothingAreEnough) {
+  for (int i = 0; i < 7; ++i) add_unsettled(1, 0.1 * i, 0.005);
+  add(0.9, 0.005);
   EXPECT_TRUE(found_.settled());
 }
 
