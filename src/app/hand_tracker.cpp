@@ -14,6 +14,8 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
+constexpr double kElsewhere = 0.04;              // beyond it a pose is another hand's, not other fingers' [m]
+constexpr double kElsewhereAdvantage = 0.3;      // of such a pose, to replace the one that was followed until now
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -135,9 +137,10 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     found = look(observation, effort(), attempts(effort()));
     ++search_frames_;
   }
-  if (found && (!fit || clearly_better(found->refined.score, fit->refined.score, params_.search_advantage)))
-    return found;
-  return fit;
+  if (!fit || !found) return fit ? fit : found;
+  const bool elsewhere = pose_distance(*model_->profile, fit->refined.pose, found->refined.pose) > kElsewhere;
+  const double advantage = elsewhere ? kElsewhereAdvantage : params_.search_advantage;
+  return clearly_better(found->refined.score, fit->refined.score, advantage) ? found : fit;
 }
 
 void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
