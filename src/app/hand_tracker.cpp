@@ -16,6 +16,7 @@ constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers o
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
 constexpr double kElsewhere = 0.04;              // beyond it a pose is another hand's, not other fingers' [m]
 constexpr double kElsewhereAdvantage = 0.3;      // of such a pose, to replace the one that was followed until now
+constexpr double kUnlike = 2;                    // times the usual score
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -108,7 +109,7 @@ TrackEvidence HandTracker::evidence(const HandObservation& observation) {
 HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std::optional<Fit>& fit,
                                    TrackEvidence evidence) {
   ++frame_;
-  if (fit) evidence.score = fit->refined.score;
+  if (fit && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
@@ -162,6 +163,12 @@ std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservati
     return search_once(observation, Effort::quick, 0);
   if (doubtful_frames_ % params_.doubt_near_every == 0) return search_near(observation, followed);
   return std::nullopt;
+}
+
+// A hand that was lost a moment ago is known: what is explained so much worse is half of it, or something else.
+bool HandTracker::unlike_before(double score) const {
+  return loss_.status() == TrackStatus::lost &&
+         score > std::max(params_.search_convincing, kUnlike * usual_score_.level());
 }
 
 // Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.

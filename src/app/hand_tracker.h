@@ -65,6 +65,7 @@ class HandTracker {
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   bool was_followed() const { return last_good_ || motion_.has_pose(); }
   bool doubtful(double score);
+  bool unlike_before(double score) const;
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);

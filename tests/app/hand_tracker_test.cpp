@@ -48,5 +48,43 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
   }
 }
 
+/// A hand that is tracked, goes away and comes back, or a larger one in its place.
+class Return : public testing::Test {
+ protected:
+  static TrackerParams params() {
+    TrackerParams params = test::quick_tracker();
+    params.loss.hold_time = 0.1;
+    params.loss.forget_time = 1;
+    params.search_convincing = 0.001;
+    return params;
+  }
+  void SetUp() override {
+    tracker_.start_at(pose_);
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(status_at(*hand_), TrackStatus::tracking);
+    const HandObservationPtr nothing = std::make_shared<HandObservation>(HandObservation{.frame = hand_->frame});
+    while (status_at(*nothing) != TrackStatus::lost) ASSERT_LT(utime_, 2'000'000);
+  }
+  TrackStatus status_at(const HandObservation& observation) {
+    return tracker_.process(*test::stamped(observation, utime_ += 33'000))->status;
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5);
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  Workers workers_{1};
+  HandTracker tracker_{params(), profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(Return, IsTrackedAtOnce) { EXPECT_EQ(status_at(*hand_), TrackStatus::tracking); }
+
+TEST_F(Return, OfSomethingLessLikeTheHandIsNotBelievedUntilItIsForgotten) {
+  const HandProfile larger = scaled(*profile_, 1.1);
+  const HandObservationPtr other = test::observe_skin(make_blended_skin(larger, 0.004), test::facing_pose(larger, 0.5));
+  int frames = 0;
+  while (status_at(*other) != TrackStatus::tracking) ASSERT_LT(++frames, 60);
+  EXPECT_GT(frames, 20);
+}
+
 }  // namespace
 }  // namespace barehand
