@@ -7,19 +7,20 @@
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.005;   // poses closer than this are the same [m]
-constexpr int kFoundAgain = 4;    // times the best pose was found: there is no better one
-constexpr double kAlike = 0.040;  // poses closer than this differ in their fingers only [m]
-constexpr int kMany = 8;          // poses; where all but one are alike, the hand is hard to see, but it is there
+constexpr double kSame = 0.005;  // poses closer than this are the same [m]
+constexpr int kFoundAgain = 4;   // times the best pose was found: there is no better one
+constexpr int kMany = 8;         // poses; where all but one are alike, the hand is hard to see, but it is there
 
 }  // namespace
 
-void FoundPoses::add(const HandPose& pose, double score) {
-  if (poses_.empty() || score < best_score_) {
+bool FoundPoses::add(const HandPose& pose, double score) {
+  const bool best = poses_.empty() || score < best_score_;
+  if (best) {
     best_ = poses_.size();
     best_score_ = score;
   }
   poses_.push_back(pose);
+  return best;
 }
 
 int FoundPoses::like_best(double distance) const {

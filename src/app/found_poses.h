@@ -6,6 +6,8 @@
 
 namespace barehand {
 
+inline constexpr double kAlike = 0.040;  ///< poses closer than this differ in their fingers only [m]
+
 /// Poses that several searches of one frame found, and whether more searches may find a better one. A hand of which
 /// little is seen may be explained fairly well by several poses far apart; only chance finds the right one among them.
 class FoundPoses {
@@ -14,8 +16,8 @@ class FoundPoses {
   FoundPoses(const HandProfile& profile, double enough, double worst)
       : profile_(profile), enough_(enough), worst_(worst) {}
 
-  /// `score`: global [m].
-  void add(const HandPose& pose, double score);
+  /// Whether it is the best so far. `score`: global [m].
+  bool add(const HandPose& pose, double score);
   /// The best pose is good enough, or was found again often enough, or of many poses nearly all are like it or none
   /// explains anything.
   bool settled() const;

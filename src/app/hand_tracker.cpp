@@ -14,8 +14,7 @@ namespace {
 constexpr double kMicro = 1e-6;
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
-constexpr double kElsewhere = 0.04;              // beyond it a pose is another hand's, not other fingers' [m]
-constexpr double kElsewhereAdvantage = 0.3;      // of such a pose, to replace the one that was followed until now
+constexpr double kElsewhereAdvantage = 0.3;      // of a pose that is not alike, to replace the one followed until now
 constexpr double kUnlike = 2;                    // times the usual score
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
@@ -139,7 +138,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     ++search_frames_;
   }
   if (!fit || !found) return fit ? fit : found;
-  const bool elsewhere = pose_distance(*model_->profile, fit->refined.pose, found->refined.pose) > kElsewhere;
+  const bool elsewhere = pose_distance(*model_->profile, fit->refined.pose, found->refined.pose) > kAlike;
   const double advantage = elsewhere ? kElsewhereAdvantage : params_.search_advantage;
   return clearly_better(found->refined.score, fit->refined.score, advantage) ? found : fit;
 }
@@ -165,16 +164,19 @@ std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservati
   return std::nullopt;
 }
 
+bool HandTracker::worse_than_usual(double score, double factor) const {
+  return score >= std::max(params_.search_convincing, factor * usual_score_.level());
+}
+
 // A hand that was lost a moment ago is known: what is explained so much worse is half of it, or something else.
 bool HandTracker::unlike_before(double score) const {
-  return loss_.status() == TrackStatus::lost &&
-         score > std::max(params_.search_convincing, kUnlike * usual_score_.level());
+  return loss_.status() == TrackStatus::lost && worse_than_usual(score, kUnlike);
 }
 
 // Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.
 bool HandTracker::doubtful(double score) {
   usual_score_.update(score);
-  return score >= std::max(params_.search_convincing, usual_score_.level() * (1 + params_.doubt));
+  return worse_than_usual(score, 1 + params_.doubt);
 }
 
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
@@ -285,9 +287,7 @@ std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observa
   FoundPoses poses(*model_->profile, params_.search_settled, params_.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
     auto found = search_once(observation, effort, attempt);
-    if (!found) continue;
-    poses.add(found->refined.pose, found->refined.score);
-    if (!best || found->refined.score < best->refined.score) best = std::move(found);
+    if (found && poses.add(found->refined.pose, found->refined.score)) best = std::move(found);
   }
   return best;
 }

@@ -40,7 +40,7 @@ class HandTracker {
   /// The same where somebody else decides whether it is this hand: `found` by look(), or nothing.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Fit> found);
   /// The best pose that up to `attempts` searches find in the next observation, if that shows this hand; fewer do if
-  /// one convinces or several agree.
+  /// they settle it (FoundPoses).
   std::optional<Fit> look(const HandObservation& observation, Effort effort, int attempts);
   /// Of the next search: most are quick ones.
   Effort effort() const;
@@ -66,6 +66,8 @@ class HandTracker {
   bool was_followed() const { return last_good_ || motion_.has_pose(); }
   bool doubtful(double score);
   bool unlike_before(double score) const;
+  /// By `factor`, and not convincing.
+  bool worse_than_usual(double score, double factor) const;
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
   std::optional<Fit> follow(const HandObservation& observation);
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);

@@ -40,14 +40,14 @@ HandEstimates HandsTracker::process(const HandObservations& observations) {
   if (count() == 1) return {process_only(*observations[0])};
   ++frame_;
   HandEstimates out(hands_.size());
-  tracked_.clear();
+  FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
-    if (!searched(k, *observations[k])) tracked_.push_back(k);
-  workers_.for_each_index(static_cast<int>(tracked_.size()), [&](int i) {
-    const int k = tracked_[i];
+    if (!searched(k, *observations[k])) tracked.push_back(k);
+  workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
+    const int k = tracked[i];
     out[k] = hands_[k]->process(*observations[k]);
   });
-  if (tracked_.empty())
+  if (tracked.empty())
     search_both(observations, out);
   else
     for (int k = 0; k < count(); ++k)

@@ -45,7 +45,6 @@ class HandsTracker {
   std::vector<std::unique_ptr<HandTracker>> hands_;
   std::unique_ptr<ProfileCheck> check_;  // of a hand that is tracked alone
   std::int64_t frame_ = 0;
-  std::vector<int> tracked_;  // hands that are followed in this frame
 };
 
 }  // namespace barehand

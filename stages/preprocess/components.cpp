@@ -10,18 +10,12 @@ bool joined(const CoarseGrid& grid, float a, float b) {
   return std::abs(a - b) < same_surface_step(std::min(a, b), static_cast<float>(grid.camera.fx));
 }
 
-std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 }  // namespace
 
 void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Components& out) {
   const int width = mask.width(), height = mask.height();
   out.id.reset(width, height, -1);
-  std::vector<std::int32_t>& parent = out.parent;
-  parent.clear();
+  out.sets.clear();
   const int du[4] = {-1, -1, 0, 1}, dv[4] = {0, -1, -1, -1};
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
@@ -30,20 +24,18 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
       for (int k = 0; k < 4; ++k) {
         const int nu = u + du[k], nv = v + dv[k];
         if (!mask.contains(nu, nv) || !mask.at(nu, nv) || !joined(grid, grid.z.at(u, v), grid.z.at(nu, nv))) continue;
-        const std::int32_t other = root(parent, out.id.at(nu, nv));
-        if (own < 0) own = other;
-        const auto [low, high] = std::minmax(own, other);
-        parent[high] = own = low;
+        const std::int32_t other = out.id.at(nu, nv);
+        own = out.sets.join(own < 0 ? other : own, other);
       }
-      if (own < 0) parent.push_back(own = static_cast<std::int32_t>(parent.size()));
+      if (own < 0) own = out.sets.add();
       out.id.at(u, v) = own;
     }
-  out.part_of_root.assign(parent.size(), -1);
+  out.part_of_root.assign(out.sets.size(), -1);
   out.parts.clear();
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       if (out.id.at(u, v) < 0) continue;
-      std::int32_t& i = out.part_of_root[root(parent, out.id.at(u, v))];
+      std::int32_t& i = out.part_of_root[out.sets.root(out.id.at(u, v))];
       if (i < 0) {
         i = static_cast<std::int32_t>(out.parts.size());
         out.parts.push_back({.nearest = grid.z.at(u, v)});

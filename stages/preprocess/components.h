@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stages/preprocess/coarse_grid.h"
+#include "stages/preprocess/disjoint_sets.h"
 #include "stages/preprocess/flood.h"
 
 namespace barehand {
@@ -17,9 +18,10 @@ struct Components {
     float mean_z = 0;   ///< [m]
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();
   };
-  Image<std::int32_t> id;                          ///< index into parts; -1 where the mask is empty
-  std::vector<Part> parts;                         ///< in row-major order of their first cell
-  std::vector<std::int32_t> parent, part_of_root;  ///< scratch
+  Image<std::int32_t> id;                  ///< index into parts; -1 where the mask is empty
+  std::vector<Part> parts;                 ///< in row-major order of their first cell
+  DisjointSets sets;                       ///< scratch
+  std::vector<std::int32_t> part_of_root;  ///< scratch
 };
 
 /// Splits the cells of `mask` (non-zero, with depth) into components. Reuses the allocations of `out`.

@@ -9,13 +9,9 @@ constexpr double kSpeckArea = 3e-5;  // m^2: less than half a fingertip
 
 }  // namespace
 
-std::int32_t SpeckRemover::root(std::int32_t run) {
-  while (runs_[run].parent != run) run = runs_[run].parent = runs_[runs_[run].parent].parent;
-  return run;
-}
-
 void SpeckRemover::find_runs(const Image<std::uint8_t>& mask) {
   runs_.clear();
+  sets_.clear();
   std::int32_t above = 0;  // first run of the row above that may touch the next one
   for (int v = 0; v < mask.height(); ++v) {
     const std::uint8_t* own = mask.row(v);
@@ -27,13 +23,10 @@ void SpeckRemover::find_runs(const Image<std::uint8_t>& mask) {
       }
       const int begin = u;
       while (u < mask.width() && own[u]) ++u;
-      const auto run = static_cast<std::int32_t>(runs_.size());
-      runs_.push_back({v, begin, u, run});
+      runs_.push_back({v, begin, u});
+      const std::int32_t run = sets_.add();
       while (above < first && runs_[above].end < begin) ++above;
-      for (std::int32_t i = above; i < first && runs_[i].begin <= u; ++i) {
-        const auto [low, high] = std::minmax({root(i), root(run)});
-        runs_[high].parent = low;
-      }
+      for (std::int32_t i = above; i < first && runs_[i].begin <= u; ++i) sets_.join(i, run);
     }
     above = first;
   }
@@ -44,7 +37,7 @@ void SpeckRemover::remove(const Intrinsics& camera, const Image<float>& depth, I
   parts_.assign(runs_.size(), {});
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(runs_.size()); ++i) {
     const Run& run = runs_[i];
-    Part& part = parts_[root(i)];
+    Part& part = parts_[sets_.root(i)];
     const std::int64_t pixels = run.end - run.begin;
     part.pixels += pixels;
     part.sum_u += pixels * (run.begin + run.end - 1) / 2;
@@ -52,7 +45,7 @@ void SpeckRemover::remove(const Intrinsics& camera, const Image<float>& depth, I
   }
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(runs_.size()); ++i) {
     const Run& run = runs_[i];
-    const Part& part = parts_[root(i)];
+    const Part& part = parts_[sets_.root(i)];
     const float z = depth.at(static_cast<int>(part.sum_u / part.pixels), static_cast<int>(part.sum_v / part.pixels));
     const double least = kSpeckArea * camera.fx * camera.fy / (z > 0 ? z * z : 0.25);
     if (static_cast<double>(part.pixels) < least) std::fill(mask.row(run.v) + run.begin, mask.row(run.v) + run.end, 0);

@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "math/camera.h"
+#include "stages/preprocess/disjoint_sets.h"
 
 namespace barehand {
 
@@ -18,17 +19,16 @@ class SpeckRemover {
  private:
   /// Neighbouring pixels of a row.
   struct Run {
-    int v, begin, end;    // columns [begin, end)
-    std::int32_t parent;  // run of the same part; itself: the part's root
+    int v, begin, end;  // columns [begin, end)
   };
   struct Part {
     std::int64_t pixels = 0, sum_u = 0, sum_v = 0;
   };
 
   void find_runs(const Image<std::uint8_t>& mask);
-  std::int32_t root(std::int32_t run);
 
   std::vector<Run> runs_;
+  DisjointSets sets_;        // of runs: one a part
   std::vector<Part> parts_;  // at their roots
 };
 

@@ -14,6 +14,10 @@ class FoundPosesTest : public ::testing::Test {
     for (SE3& T : pose) T.t.x() += metres;
     found_.add(pose, score);
   }
+  void add_settling(double metres, double score) {
+    add(metres, score);
+    EXPECT_TRUE(found_.settled());
+  }
   void add_unsettled(int count, double metres, double score) {
     for (int i = 0; i < count; ++i) {
       add(metres, score);
@@ -30,14 +34,12 @@ TEST_F(FoundPosesTest, NothingIsNotSettled) { EXPECT_FALSE(found_.settled()); }
 
 TEST_F(FoundPosesTest, OneThatIsGoodEnoughSettlesIt) {
   add_unsettled(1, 0, 0.0016);
-  add(0.1, 0.0014);
-  EXPECT_TRUE(found_.settled());
+  add_settling(0.1, 0.0014);
 }
 
 TEST_F(FoundPosesTest, TheBestOneFoundFourTimesIsEnough) {
   add_unsettled(3, 0, 0.002);
-  add(0.004, 0.0021);
-  EXPECT_TRUE(found_.settled());
+  add_settling(0.004, 0.0021);
 }
 
 TEST_F(FoundPosesTest, AWorseOneFoundFourTimesIsNot) {
@@ -48,22 +50,19 @@ TEST_F(FoundPosesTest, AWorseOneFoundFourTimesIsNot) {
 TEST_F(FoundPosesTest, ABetterOneIsToBeFoundAgain) {
   add_unsettled(3, 0, 0.002);
   add_unsettled(3, 0.1, 0.0019);
-  add(0.1, 0.0019);
-  EXPECT_TRUE(found_.settled());
+  add_settling(0.1, 0.0019);
 }
 
 TEST_F(FoundPosesTest, EightOfWhichSevenDifferInFingersOnlyAreEnough) {
   add_unsettled(1, 0.5, 0.003);
   add_unsettled(1, 0, 0.002);
   for (int i = 1; i < 6; ++i) add_unsettled(1, 0.006 * i, 0.003);
-  add(0.036, 0.003);
-  EXPECT_TRUE(found_.settled());
+  add_settling(0.036, 0.003);
 }
 
 TEST_F(FoundPosesTest, EightThatExplainNothingAreEnough) {
   for (int i = 0; i < 7; ++i) add_unsettled(1, 0.1 * i, 0.005);
-  add(0.9, 0.005);
-  EXPECT_TRUE(found_.settled());
+  add_settling(0.9, 0.005);
 }
 
 TEST_F(FoundPosesTest, TwoElsewhereKeepTheSearchGoing) {
