@@ -1,5 +1,6 @@
 #include "stages/preprocess/alignment.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,8 +20,9 @@ constexpr float kMotionCost = 0.15f;  // of a perfect overlap, for the largest m
 struct Silhouette {
   int u0 = 0, v0 = 0;
   Image<float> weight;
-  Image<float> z;  ///< depth of the skin, where weight > 0
-  float total = 0;
+  Image<float> z;              ///< depth of the skin, where weight > 0
+  Eigen::AlignedBox2i inside;  ///< of the pixels where weight > 0
+  float total = 0;             ///< of their weights
 };
 
 /// A capsule in the image.
@@ -100,6 +102,7 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
   const int height = static_cast<int>(high.y() + border) - out.v0 + 1;
   out.weight.reset(width, height);
   out.z.reset(width, height);
+  out.inside.setEmpty();
   const Eigen::Vector2f wrist = project(camera, hand.wrist());
   const Eigen::Vector2f arm = project(camera, hand.wrist() + 0.02f * hand.arm_axis()) - wrist;
   for (int v = 0; v < height; ++v) {
@@ -113,7 +116,9 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
       const float weight = std::clamp(1.f - metres / kBlur * (1.f - kOutside), kOutside, 1.f);
       out.weight.at(u, v) = weight;
       out.z.at(u, v) = row_.z[u];
-      out.total += std::max(weight, 0.f);
+      if (weight <= 0) continue;
+      out.inside.extend(Eigen::Vector2i(u, v));
+      out.total += weight;
     }
   }
 }
@@ -122,6 +127,25 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
 struct Scene {
   Image<float> hand;      ///< share of a cell that may be hand
   Image<float> possible;  ///< the same, plus kHidden where something nearer could hide it
+  Image<float> table;     ///< sums of `possible` over what lies above and to the left of a cell (summed-area table)
+
+  void sum_up() {
+    table.reset(possible.width() + 1, possible.height() + 1);
+    for (int v = 0; v < possible.height(); ++v) {
+      float row = 0;
+      for (int u = 0; u < possible.width(); ++u) {
+        row += possible.at(u, v);
+        table.at(u + 1, v + 1) = table.at(u + 1, v) + row;
+      }
+    }
+  }
+  /// Sum of `possible` over a rectangle that may reach beyond the image.
+  float possible_in(const Eigen::AlignedBox2i& cells) const {
+    const auto clamped = [](int x, int size) { return std::clamp(x, 0, size - 1); };
+    const int u0 = clamped(cells.min().x(), table.width()), u1 = clamped(cells.max().x() + 1, table.width());
+    const int v0 = clamped(cells.min().y(), table.height()), v1 = clamped(cells.max().y() + 1, table.height());
+    return table.at(u1, v1) - table.at(u0, v1) - table.at(u1, v0) + table.at(u0, v0);
+  }
 };
 
 float overlap(const Silhouette& shape, const Scene& scene, int du, int dv) {
@@ -149,12 +173,21 @@ struct Shift {
 /// Best shift within +-range around (du, dv), in steps; short motions win ties.
 Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, int step, float free_range) {
   Shift best;
-  for (int y = dv - range; y <= dv + range; y += step)
+  const auto search_row = [&](int y) {
     for (int x = du - range; x <= du + range; x += step) {
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
-      const float score = overlap(shape, scene, x, y) / shape.total - kMotionCost * motion;
+      const float cost = kMotionCost * motion;
+      const Eigen::AlignedBox2i inside = shape.inside.translated(Eigen::Vector2i(shape.u0 + x, shape.v0 + y));
+      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // cannot be better
+      const float score = overlap(shape, scene, x, y) / shape.total - cost;
       if (score > best.score) best = {x, y, score};
     }
+  };
+  search_row(dv);  // most hands hardly move
+  for (int y = step; y <= range; y += step) {
+    search_row(dv - y);
+    search_row(dv + y);
+  }
   return best;
 }
 
@@ -194,6 +227,8 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
   }
   average_blocks(scene.hand, blocks.hand);
   average_blocks(scene.possible, blocks.possible);
+  scene.sum_up();
+  blocks.sum_up();
   const double s = kBlock, half = (s - 1) / 2;
   const Intrinsics block_camera{blocks.hand.width(), blocks.hand.height(),   camera.fx / s,
                                 camera.fy / s,       (camera.cx - half) / s, (camera.cy - half) / s};
