@@ -14,6 +14,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kCoarseStride = 2;  // of the model points in the first half of the iterations
+constexpr double kStill = 0.04;           // of the scale: after a shorter step kSkipped iterations are left out
+constexpr int kSkipped = 3;
+constexpr double kArm = 0.05;        // m, turns a rotation into a distance
 constexpr double kHiddenCost = 0.3;  // of a model point behind an object, relative to an outlier's: hiding does not pay
 
 /// Geman-McClure: rho(r) = r^2 / (1 + r^2 / s^2), bounded by s^2; its weight is rho' / (2 r).
@@ -36,14 +39,18 @@ class Registration {
   Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const IcpParams& params)
       : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)), nearest_(model.size(), 0) {}
 
-  /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point.
+  /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point. Where little moves,
+  /// some before the last one are left out.
   SE3 run(const SE3& motion, int begin, int end, std::size_t stride) {
     SE3 T_camera_pivot = motion * SE3{Eigen::Matrix3d::Identity(), pivot_};
     const double ratio = params_.scale_end / params_.scale_start;
     for (int i = begin; i < end; ++i) {
       const double progress = params_.iterations > 1 ? i / (params_.iterations - 1.0) : 1.0;
-      T_camera_pivot = step(T_camera_pivot, params_.scale_start * std::pow(ratio, progress),
-                            std::pow(params_.point_weight, progress), stride);
+      const double scale = params_.scale_start * std::pow(ratio, progress);
+      const Vector6d twist = step(T_camera_pivot, scale, std::pow(params_.point_weight, progress), stride);
+      T_camera_pivot = boxplus(T_camera_pivot, twist);
+      const bool still = twist.head<3>().norm() + kArm * twist.tail<3>().norm() < kStill * scale;
+      if (still && i + 1 < end) i = std::min(i + kSkipped, end - 2);
     }
     T_camera_pivot.R = orthonormalised(T_camera_pivot.R);
     return T_camera_pivot * SE3{Eigen::Matrix3d::Identity(), -pivot_};
@@ -87,7 +94,7 @@ class Registration {
     return {in_pivot, cloud_.point(i), data_normal.dot(model_normal) > 0.5 ? data_normal : model_normal};
   }
 
-  SE3 step(const SE3& T, double scale, double point_weight, std::size_t stride) {
+  Vector6d step(const SE3& T, double scale, double point_weight, std::size_t stride) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d b = Vector6d::Zero();
     for (std::size_t k = 0; k < model_.size(); k += stride) {
@@ -105,7 +112,7 @@ class Registration {
     H.diagonal().array() += 1e-9;
     H.diagonal() *= 1.001;
     const Vector6d twist = -H.ldlt().solve(b);
-    return twist.allFinite() ? boxplus(T, twist) : T;
+    return twist.allFinite() ? twist : Vector6d::Zero();
   }
 
   std::span<const OrientedPoint> model_;

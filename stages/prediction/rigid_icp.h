@@ -10,8 +10,8 @@ namespace barehand {
 /// Registration of the previous hand surface to the new frame: the large global motion (paper Sec. 4.4, its [2]).
 struct IcpParams {
   bool enabled = true;
-  int model_points = 300;         ///< visible surface points that take part
-  int iterations = 30;            ///< per start
+  int model_points = 200;         ///< visible surface points that take part
+  int iterations = 30;            ///< per start, at most
   double scale_start = 0.030;     ///< [m] Geman-McClure scale of the first iteration
   double scale_end = 0.004;       ///< [m] and of the last
   double point_weight = 0.03;     ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
@@ -26,7 +26,7 @@ template <class V>
 void visit(V& v, IcpParams& p) {
   v("enabled", p.enabled, "estimate the global motion of the hand by ICP (Sec. 4.4)");
   v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
-  v("iterations", p.iterations, 1, 200, "per start");
+  v("iterations", p.iterations, 1, 200, "per start, at most");
   v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
   v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
   v("point_weight", p.point_weight, 1e-6, 1.0,
