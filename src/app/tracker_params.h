@@ -63,7 +63,7 @@ void visit(V& v, TrackerParams& p) {
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
   v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
-  v("hidden_follow", p.hidden_follow, "fingers that are not seen go on bending as much as their neighbours");
+  v("hidden_follow", p.hidden_follow, "fingers that are not seen bend with their neighbours");
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");

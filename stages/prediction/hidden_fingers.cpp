@@ -1,6 +1,7 @@
 #include "stages/prediction/hidden_fingers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace barehand {
@@ -51,19 +52,21 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, c
   return result;
 }
 
-HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now,
+HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
                                const Seen& seen, double widening) {
+  constexpr double kMemory = 1.5;  // s, in which the difference from the neighbours falls to a third
+  const double forgotten = 1 - std::exp(-dt / kMemory);
   const auto limits = widened_limits(profile, widening);
-  const auto bent = [&](int s) {
-    return joint_angles(profile, now, s).flexion - joint_angles(profile, before, s).flexion;
-  };
+  const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
+  const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
     if (!hidden_to_its_tip(s, seen)) continue;
     const int parent = parent_of(s);
     result[s] = result[parent] * (now[parent].inverse() * now[s]);
-    const double flexion = joint_angles(profile, now, s).flexion;
-    const double aim = flexion + of_nearest_seen(s, seen, bent).value_or(0.0);
+    const double flexion = flexion_of(s);
+    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(0.0);
+    aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
     result[s].R *= joint_rotation({std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi) - flexion, 0, 0});
   }
   return result;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "math/angles.h"
 #include "stages/prediction/start_templates.h"
 #include "support/adult_hand.h"
@@ -10,6 +12,7 @@ namespace barehand {
 namespace {
 
 constexpr double kWidening = 10 * kDegree;
+constexpr double kAtOnce = 0;  // s, too short to forget anything
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2, kRing = 3, kLittle = 4;
 
 class HiddenFingers : public testing::TestWithParam<Handedness> {
@@ -71,7 +74,7 @@ TEST_P(HiddenFingers, FollowWhatTheirNeighboursAreSeenToBend) {
   for (const int finger : {kIndex, kLittle}) now = with_finger_of(now, before, finger);  // held where they vanished
   hide(seen_, kLittle);
   hide(seen_, kIndex, 1);
-  const HandPose followed = with_hidden_following(profile_, before, now, seen_, kWidening);
+  const HandPose followed = with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening);
   EXPECT_NEAR(flexion(followed, kLittle, 0), 28, 1e-6);  // the ring finger is next to it
   EXPECT_NEAR(flexion(followed, kLittle, 1), 42, 1e-6);
   EXPECT_NEAR(flexion(followed, kLittle, 2), 16, 1e-6);
@@ -89,7 +92,30 @@ TEST_P(HiddenFingers, BetweenTwoThatAreSeenFollowBoth) {
   HandPose now = with_finger_of(bent(30, 30, 10), bent(26, 30, 10), kLittle);
   now = with_finger_of(now, before, kRing);
   hide(seen_, kRing);
-  EXPECT_NEAR(flexion(with_hidden_following(profile_, before, now, seen_, kWidening), kRing, 0), 28, 1e-6);
+  EXPECT_NEAR(flexion(with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening), kRing, 0), 28, 1e-6);
+}
+
+TEST_P(HiddenFingers, ComeToBeBentLikeTheirNeighbours) {
+  HandPose pose = with_finger_of(bent(20, 30, 10), bent(60, 0, 40), kLittle);
+  hide(seen_, kLittle);
+  const auto wait = [&](double seconds) {
+    for (int i = 0; i < 30; ++i) pose = with_hidden_following(profile_, pose, pose, seconds / 30, seen_, kWidening);
+  };
+  wait(1.5);
+  EXPECT_NEAR(flexion(pose, kLittle, 0), 20 + 40 * std::exp(-1), 1e-6);
+  EXPECT_NEAR(flexion(pose, kLittle, 1), 30 - 30 * std::exp(-1), 1e-6);
+  EXPECT_NEAR(flexion(pose, kLittle, 2), 10 + 30 * std::exp(-1), 1e-6);
+  EXPECT_NEAR(flexion(pose, kRing, 0), 20, 1e-6);
+  wait(30);
+  EXPECT_NEAR(flexion(pose, kLittle, 0), 20, 1e-3);
+  EXPECT_NEAR(flexion(pose, kLittle, 1), 30, 1e-3);
+}
+
+TEST_P(HiddenFingers, StayAsTheyWereWhereNoneIsSeen) {
+  HandPose pose = with_finger_of(bent(20, 30, 10), bent(60, 0, 40), kLittle);
+  seen_.fill(false);
+  const HandPose later = with_hidden_following(profile_, pose, pose, 60, seen_, kWidening);
+  for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(later[s], pose[s]).norm(), 1e-9) << kSegmentNames[s];
 }
 
 TEST_P(HiddenFingers, StayWithinTheirLimits) {
@@ -101,7 +127,7 @@ TEST_P(HiddenFingers, StayWithinTheirLimits) {
     HandPose further = now;
     for (const int finger : {kIndex, kMiddle, kRing})
       further = with_finger_of(further, bent(20, most - 8 + step, 10), finger);
-    return flexion(with_hidden_following(profile_, before, further, seen_, kWidening), kLittle, 1);
+    return flexion(with_hidden_following(profile_, before, further, kAtOnce, seen_, kWidening), kLittle, 1);
   };
   EXPECT_NEAR(aside(5), most - 3, 1e-6);
   EXPECT_NEAR(aside(20), most, 1e-6);
@@ -110,7 +136,7 @@ TEST_P(HiddenFingers, StayWithinTheirLimits) {
 TEST_P(HiddenFingers, DoNotMoveWithTheThumbNorTheThumbWithThem) {
   const HandPose before = bent(20, 30, 10, 0), now = bent(30, 40, 20, 25);
   const auto stays = [&] {
-    const HandPose followed = with_hidden_following(profile_, before, now, seen_, kWidening);
+    const HandPose followed = with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening);
     for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(followed[s], now[s]).norm(), 1e-9) << kSegmentNames[s];
   };
   hide(seen_, kThumb);
