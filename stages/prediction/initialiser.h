@@ -41,7 +41,7 @@ struct InitialiserParams {
   int min_hand_pixels = 200;   ///< fewer: no start is proposed
   int results = 12;            ///< start poses returned at most
   double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
-  int near_survivors = 3;      ///< near a followed pose: templates improved on the fine grid
+  int near_survivors = 2;      ///< near a followed pose: templates improved on the fine grid
   int near_evaluations = 60;   ///< trials for each
   SearchEffort full;
   SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost
