@@ -16,6 +16,7 @@ constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers o
 constexpr int kQuickFirst = 2;                   // quick searches after a hand was followed, before a full one
 constexpr double kElsewhereAdvantage = 0.3;      // of a pose that is not alike, to replace the one followed until now
 constexpr double kUnlike = 2;                    // times the usual score
+constexpr double kUnsure = 1.25;                 // times the usual score: found again if the next frame confirms it
 constexpr double kDistinct = 0.001;              // start poses closer than this are the same [m]
 
 }  // namespace
@@ -41,6 +42,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
 void HandTracker::reset() {
   loss_.reset();
   motion_.forget();
+  unconfirmed_ = false;
   last_good_.reset();
   requested_start_.reset();
   search_frames_ = 0;
@@ -108,7 +110,8 @@ TrackEvidence HandTracker::evidence(const HandObservation& observation) {
 HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std::optional<Fit>& fit,
                                    TrackEvidence evidence) {
   ++frame_;
-  if (fit && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
+  unconfirmed_ = fit && needs_confirmation(*fit);
+  if (fit && !unconfirmed_ && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
@@ -117,10 +120,13 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
       last_good_ = fit->refined.pose;
       if (person_) fit_person(observation, fit->refined.pose);
     }
+  } else if (status == TrackStatus::lost && unconfirmed_) {
+    motion_.restart(fit->refined.pose, observation.frame->utime);
   } else if (status == TrackStatus::searching) {
     motion_.forget();
     usual_score_.reset();
     last_good_.reset();
+    unconfirmed_ = false;
   }
   return estimate(observation, fit);
 }
@@ -128,17 +134,21 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
 std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& observation, double bad_score) {
   std::optional<Fit> fit, found;
   if (motion_.has_pose()) fit = follow(observation);
-  if (fit && fit->refined.score < bad_score) {
+  if (fit && fit->refined.score < bad_score && !unlike_before(fit->refined.score)) {
     search_frames_ = 0;
     uncross(observation, *fit);
-    if (!doubtful(fit->refined.score)) return fit;
-    found = search_doubtful(observation, fit->refined.pose);
+    const bool doubt = doubtful(fit->refined.score);
+    if (unconfirmed_)
+      found = look(observation, Effort::quick, 1);
+    else if (doubt)
+      found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
     found = look(observation, effort(), attempts(effort()));
     ++search_frames_;
   }
   if (!fit || !found) return fit ? fit : found;
-  const bool elsewhere = pose_distance(*model_->profile, fit->refined.pose, found->refined.pose) > kAlike;
+  const bool elsewhere =
+      !unconfirmed_ && pose_distance(*model_->profile, fit->refined.pose, found->refined.pose) > kAlike;
   const double advantage = elsewhere ? kElsewhereAdvantage : params_.search_advantage;
   return clearly_better(found->refined.score, fit->refined.score, advantage) ? found : fit;
 }
@@ -171,6 +181,14 @@ bool HandTracker::worse_than_usual(double score, double factor) const {
 // A hand that was lost a moment ago is known: what is explained so much worse is half of it, or something else.
 bool HandTracker::unlike_before(double score) const {
   return loss_.status() == TrackStatus::lost && worse_than_usual(score, kUnlike);
+}
+
+// Found again, and explained somewhat worse than usual: the half of a hand that has come in fits many poses a little.
+bool HandTracker::needs_confirmation(const Fit& found) const {
+  const bool confirms = unconfirmed_ && found.prediction;
+  const double score = found.refined.score;
+  return loss_.status() == TrackStatus::lost && !confirms && score > kUnsure * usual_score_.level() &&
+         !unlike_before(score);
 }
 
 // Explained, but not as well as this hand usually is: some fingers may be where their neighbours are.

@@ -52,6 +52,8 @@ class HandTracker {
   /// As fitted to the person so far.
   const HandProfile& profile() const { return *model_->profile; }
   bool start_is_given() const { return requested_start_.has_value(); }
+  /// A lost hand may have been found in the last observation; it is tracked if following it explains the next one, too.
+  bool unconfirmed() const { return unconfirmed_; }
   /// The next observation is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
   /// Goes on with other parameters: the same hand from its last pose, as fitted to the person so far. What fits it
@@ -66,6 +68,7 @@ class HandTracker {
   bool was_followed() const { return last_good_ || motion_.has_pose(); }
   bool doubtful(double score);
   bool unlike_before(double score) const;
+  bool needs_confirmation(const Fit& found) const;
   /// By `factor`, and not convincing.
   bool worse_than_usual(double score, double factor) const;
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
@@ -110,6 +113,7 @@ class HandTracker {
   const HandIds ids_;
   std::int32_t hand_id_ = 0;
   std::optional<HandPose> requested_start_, last_good_;
+  bool unconfirmed_ = false;
   std::vector<HandPose> starts_;  // scratch: where the refinement of a frame may begin
   HandEstimatePtr last_tracked_;  // base of velocities and of holding
 };

@@ -80,7 +80,9 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
 
 /// Whether the observation may be anybody's.
 bool HandsTracker::searched(int k, const HandObservation& observation) const {
-  return !observation.followed && !hands_[k]->start_is_given() && hands_[k]->status() != TrackStatus::tracking;
+  const HandTracker& hand = *hands_[k];
+  return !observation.followed && !hand.start_is_given() && !hand.unconfirmed() &&
+         hand.status() != TrackStatus::tracking;
 }
 
 void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {

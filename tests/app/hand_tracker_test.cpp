@@ -67,10 +67,16 @@ class Return : public testing::Test {
   TrackStatus status_at(const HandObservation& observation) {
     return tracker_.process(*test::stamped(observation, utime_ += 33'000))->status;
   }
+  /// `turn`: in the image plane [rad].
+  HandObservationPtr larger(double size, double turn = 0) const {
+    const HandProfile profile = scaled(*profile_, size);
+    const HandPose pose = test::turned(test::facing_pose(profile, 0.5), {0, 0, turn}, {0, 0, 0.5});
+    return test::observe_skin(make_blended_skin(profile, 0.004), pose);
+  }
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   const HandPose pose_ = test::facing_pose(*profile_, 0.5);
-  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  const HandObservationPtr hand_ = larger(1.01);  // no skin is quite the hand's
   Workers workers_{1};
   HandTracker tracker_{params(), profile_, 1, workers_};
   std::int64_t utime_ = 1'000'000;
@@ -78,9 +84,17 @@ class Return : public testing::Test {
 
 TEST_F(Return, IsTrackedAtOnce) { EXPECT_EQ(status_at(*hand_), TrackStatus::tracking); }
 
+TEST_F(Return, OfAHandExplainedSomewhatWorseIsTrackedIfTheNextFrameConfirmsIt) {
+  EXPECT_EQ(status_at(*larger(1.03)), TrackStatus::lost);
+  EXPECT_EQ(status_at(*larger(1.03)), TrackStatus::tracking);
+}
+
+TEST_F(Return, OfAHandExplainedSomewhatWorseIsNotBelievedWhileNoFrameConfirmsIt) {
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(status_at(*larger(1.03, (i % 2 ? 90 : -90) * kDegree)), TrackStatus::lost) << i;
+}
+
 TEST_F(Return, OfSomethingLessLikeTheHandIsNotBelievedUntilItIsForgotten) {
-  const HandProfile larger = scaled(*profile_, 1.1);
-  const HandObservationPtr other = test::observe_skin(make_blended_skin(larger, 0.004), test::facing_pose(larger, 0.5));
+  const HandObservationPtr other = larger(1.1);
   int frames = 0;
   while (status_at(*other) != TrackStatus::tracking) ASSERT_LT(++frames, 60);
   EXPECT_GT(frames, 20);
