@@ -11,7 +11,7 @@ namespace {
 std::vector<std::string> sequences_of(const std::string& experiment) {
   if (experiment == "fist") return {"fist"};
   if (experiment == "grasp") return {"grasp_mug", "grasp_ball", "grasp_pliers"};
-  if (experiment == "ablation") return {"fist", "occlusion_3", "grasp_ball"};
+  if (experiment == "ablation") return {"fist", "occlusion_3", "grasp_ball", "grasp_mug"};
   std::vector<std::string> levels;
   for (int degree = 0; degree <= 6; ++degree) levels.push_back("occlusion_" + std::to_string(degree));
   return levels;

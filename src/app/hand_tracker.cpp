@@ -74,6 +74,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
     motion_.restart(*requested_start_, observation.frame->utime);
     loss_.start_tracking();
     greet_new_hand();
+    unconfirmed_ = false;
     requested_start_.reset();
   }
   const TrackEvidence seen = evidence(observation);
