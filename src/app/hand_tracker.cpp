@@ -111,9 +111,10 @@ TrackEvidence HandTracker::evidence(const HandObservation& observation) {
 HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std::optional<Fit>& fit,
                                    TrackEvidence evidence) {
   ++frame_;
-  unconfirmed_ = fit && needs_confirmation(*fit);
-  if (fit && !unconfirmed_ && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
+  const bool unconfirmed = fit && needs_confirmation(*fit);
+  if (fit && !unconfirmed && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
+  unconfirmed_ = unconfirmed && status == TrackStatus::lost;
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
     if (size_check_) check_size(observation, fit->refined);
@@ -121,13 +122,12 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
       last_good_ = fit->refined.pose;
       if (person_) fit_person(observation, fit->refined.pose);
     }
-  } else if (status == TrackStatus::lost && unconfirmed_) {
+  } else if (unconfirmed_) {
     motion_.restart(fit->refined.pose, observation.frame->utime);
   } else if (status == TrackStatus::searching) {
     motion_.forget();
     usual_score_.reset();
     last_good_.reset();
-    unconfirmed_ = false;
   }
   return estimate(observation, fit);
 }
@@ -138,9 +138,9 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
   if (fit && fit->refined.score < bad_score && !unlike_before(fit->refined.score)) {
     search_frames_ = 0;
     uncross(observation, *fit);
-    const bool doubt = doubtful(fit->refined.score);
+    const bool doubt = doubtful(fit->refined.score);  // asked always: it learns what is usual
     if (unconfirmed_)
-      found = look(observation, Effort::quick, 1);
+      found = search_once(observation, Effort::quick, 0);
     else if (doubt)
       found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
@@ -184,7 +184,7 @@ bool HandTracker::unlike_before(double score) const {
   return loss_.status() == TrackStatus::lost && worse_than_usual(score, kUnlike);
 }
 
-// Found again, and explained somewhat worse than usual: the half of a hand that has come in fits many poses a little.
+// Found again, and explained somewhat worse than usual, even if convincing: half of a hand fits many poses a little.
 bool HandTracker::needs_confirmation(const Fit& found) const {
   const bool confirms = unconfirmed_ && found.prediction;
   const double score = found.refined.score;
