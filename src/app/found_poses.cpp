@@ -8,7 +8,7 @@ namespace barehand {
 namespace {
 
 constexpr double kSame = 0.005;  // poses closer than this are the same [m]
-constexpr int kFoundAgain = 4;   // times the best pose was found: there is no better one
+constexpr int kFoundAgain = 3;   // times the best pose was found: there is no better one
 constexpr int kMany = 8;         // poses; where all but one are alike, the hand is hard to see, but it is there
 
 }  // namespace

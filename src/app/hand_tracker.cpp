@@ -139,8 +139,8 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     search_frames_ = 0;
     uncross(observation, *fit);
     const bool doubt = doubtful(fit->refined.score);  // asked always: it learns what is usual
-    if (unconfirmed_)
-      found = search_once(observation, Effort::quick, 0);
+    if (unconfirmed_)  // thoroughly: a quick search may be wrong once more
+      found = search_once(observation, Effort::full, 0);
     else if (doubt)
       found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere

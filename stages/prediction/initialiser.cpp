@@ -85,12 +85,12 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   if (last_good) std::ranges::move(last_good_shapes(*last_good), std::back_inserter(trials));
   for_each_trial(trials, coarse_cost, kPlacedTogether, workers,
                  [&](Trial& trial, std::uint32_t, PoseCost& cost) { place(trial, coarse, cost); });
-  trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct);
+  trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct, work.elsewhere);
   for_each_trial(trials, coarse_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     const KeyedRandom random(seed, frame, 1, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.first_evaluations, random, params_.search);
   });
-  trials = most_promising(std::move(trials), work.second_survivors, params_.distinct);
+  trials = most_promising(std::move(trials), work.second_survivors, params_.distinct, work.elsewhere);
   const ObservedCloud cloud(observation);
   for_each_trial(trials, fine_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     trial.scored.cost = cost(trial.scored.articulated);
@@ -98,7 +98,7 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
     const KeyedRandom random(seed, frame, 2, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.second_evaluations, random, params_.search);
   });
-  return ranked(std::move(trials), params_.distinct);
+  return ranked(std::move(trials), params_.distinct, work.elsewhere);
 }
 
 std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& observation, const HandPose& followed,
@@ -113,17 +113,17 @@ std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& obs
   for_each_trial(trials, cost, kChangedTogether, workers,
                  [&](Trial& trial, std::uint32_t, PoseCost& own) { place(trial, grid, own); });
   const double distinct = kNearDistinct * params_.distinct;
-  trials = most_promising(std::move(trials), params_.near_survivors, distinct);
+  trials = most_promising(std::move(trials), params_.near_survivors, distinct, 0);
   for_each_trial(trials, cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& own) {
     const KeyedRandom random(seed, frame, 3, number);
     trial.scored = search_pose(trial.scored, own, limits_, params_.near_evaluations, random, params_.search);
   });
-  return ranked(std::move(trials), distinct);
+  return ranked(std::move(trials), distinct, 0);
 }
 
-std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct) const {
+std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct, double elsewhere) const {
   std::vector<StartCandidate> result;
-  for (Trial& trial : most_promising(std::move(trials), params_.results, distinct))
+  for (Trial& trial : most_promising(std::move(trials), params_.results, distinct, elsewhere))
     result.push_back({trial.name, posed(*profile_, trial.scored.articulated), trial.scored.cost});
   return result;
 }
@@ -217,21 +217,32 @@ Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) con
   return trials;
 }
 
-/// The best `count` trials of which no two are closer than `distinct`.
-Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct) const {
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; });
+/// The best `count` trials of which no two are closer than `distinct`, ranked. The last `elsewhere` of them, as a part
+/// of `count`, are the best far from all others, if there are such: variants of one pose leave room for another one.
+Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct, double elsewhere) const {
+  const auto by_cost = [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; };
+  std::ranges::stable_sort(trials, by_cost);
   Trials chosen;
   std::vector<HandPose> poses;
-  for (Trial& trial : trials) {
-    if (static_cast<int>(chosen.size()) >= count) break;
-    const HandPose pose = posed(*profile_, trial.scored.articulated);
-    const bool twin = std::any_of(poses.begin(), poses.end(), [&](const HandPose& other) {
-      return pose_distance(*profile_, pose, other) < distinct;
-    });
-    if (twin) continue;
-    poses.push_back(pose);
-    chosen.push_back(std::move(trial));
+  std::vector<bool> taken(trials.size());
+  const auto choose = [&](int up_to, double apart) {
+    for (std::size_t i = 0; i < trials.size() && static_cast<int>(chosen.size()) < up_to; ++i) {
+      if (taken[i]) continue;
+      const HandPose pose = posed(*profile_, trials[i].scored.articulated);
+      const bool twin = std::ranges::any_of(
+          poses, [&](const HandPose& other) { return pose_distance(*profile_, pose, other) < apart; });
+      if (twin) continue;
+      taken[i] = true;
+      poses.push_back(pose);
+      chosen.push_back(std::move(trials[i]));
+    }
+  };
+  const int far = static_cast<int>(elsewhere * count);
+  choose(count - far, distinct);
+  if (far > 0) {
+    choose(count, std::max(distinct, params_.apart));
+    choose(count, distinct);
+    std::ranges::stable_sort(chosen, by_cost);
   }
   return chosen;
 }

@@ -20,6 +20,7 @@ struct SearchEffort {
   int first_evaluations = 120;   ///< trials for each
   int second_survivors = 24;     ///< of these, improved by ICP and on the fine grid
   int second_evaluations = 400;  ///< trials for each
+  double elsewhere = 0.34;       ///< part of what is kept each time that lies elsewhere than the rest
 };
 
 template <class V>
@@ -32,6 +33,7 @@ void visit(V& v, SearchEffort& p) {
   v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of them");
   v("second_survivors", p.second_survivors, 1, 10000, "of these, improved by ICP and on the fine grid");
   v("second_evaluations", p.second_evaluations, 0, 100000, "trials for each of them");
+  v("elsewhere", p.elsewhere, 0.0, 1.0, "part of what is kept each time that lies elsewhere than the rest, by `apart`");
 }
 
 struct InitialiserParams {
@@ -41,10 +43,11 @@ struct InitialiserParams {
   int min_hand_pixels = 200;   ///< fewer: no start is proposed
   int results = 12;            ///< start poses returned at most
   double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
+  double apart = 0.06;         ///< [m] what lies elsewhere differs from the rest by more than this
   int near_survivors = 2;      ///< near a followed pose: templates improved on the fine grid
   int near_evaluations = 60;   ///< trials for each
   SearchEffort full;
-  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200};  ///< for every frame while the hand is lost
+  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200, 0};  ///< for every frame while the hand is lost
   CoarseScoreParams score;
   PoseSearchParams search;
   IcpParams icp;
@@ -58,6 +61,7 @@ void visit(V& v, InitialiserParams& p) {
   v("min_hand_pixels", p.min_hand_pixels, 1, 1000000, "fewer hand pixels: no start is proposed");
   v("results", p.results, 1, 1000, "start poses returned at most");
   v("distinct", p.distinct, 0.0, 1.0, "m, results differ by more than this (mean over the segment ends)");
+  v("apart", p.apart, 0.0, 1.0, "m, what lies elsewhere differs from the rest by more than this");
   v("near_survivors", p.near_survivors, 1, 10000, "near a followed pose: changed fingers improved on the fine grid");
   v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of them");
   v("full", p.full, "effort of a full search");
@@ -106,10 +110,10 @@ class Initialiser {
   static void for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers, const Visit& visit);
   Trials template_shapes(const SearchEffort& effort, double turn) const;
   Trials changed_fingers(const HandPose& pose) const;
-  std::vector<StartCandidate> ranked(Trials trials, double distinct) const;
+  std::vector<StartCandidate> ranked(Trials trials, double distinct, double elsewhere) const;
   Trials last_good_shapes(const HandPose& last_good) const;
   void place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const;
-  Trials most_promising(Trials trials, int count, double distinct) const;
+  Trials most_promising(Trials trials, int count, double distinct, double elsewhere) const;
   void align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud, PoseCost& cost) const;
 
   std::shared_ptr<const HandProfile> profile_;

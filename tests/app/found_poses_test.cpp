@@ -37,19 +37,19 @@ TEST_F(FoundPosesTest, OneThatIsGoodEnoughSettlesIt) {
   add_settling(0.1, 0.0014);
 }
 
-TEST_F(FoundPosesTest, TheBestOneFoundFourTimesIsEnough) {
-  add_unsettled(3, 0, 0.002);
+TEST_F(FoundPosesTest, TheBestOneFoundThreeTimesIsEnough) {
+  add_unsettled(2, 0, 0.002);
   add_settling(0.004, 0.0021);
 }
 
-TEST_F(FoundPosesTest, AWorseOneFoundFourTimesIsNot) {
+TEST_F(FoundPosesTest, AWorseOneFoundThreeTimesIsNot) {
   add_unsettled(1, 0, 0.002);
   add_unsettled(5, 0.1, 0.0021);
 }
 
 TEST_F(FoundPosesTest, ABetterOneIsToBeFoundAgain) {
-  add_unsettled(3, 0, 0.002);
-  add_unsettled(3, 0.1, 0.0019);
+  add_unsettled(2, 0, 0.002);
+  add_unsettled(2, 0.1, 0.0019);
   add_settling(0.1, 0.0019);
 }
 

@@ -26,7 +26,8 @@ inline std::string quick_config() {
                                        {" first_survivors: 72\n", " first_survivors: 8\n"},
                                        {" first_evaluations: 120\n", " first_evaluations: 60\n"},
                                        {" second_survivors: 24\n", " second_survivors: 3\n"},
-                                       {" second_evaluations: 400\n", " second_evaluations: 200\n"}})
+                                       {" second_evaluations: 400\n", " second_evaluations: 200\n"},
+                                       {" elsewhere: 0.34\n", " elsewhere: 0\n"}})
     text = replaced(std::move(text), shipped, quick);
   return text;
 }

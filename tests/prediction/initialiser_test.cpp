@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "point_world.h"
@@ -74,6 +75,23 @@ TEST_F(InitialiserTest, RanksByCostAndReturnsDistinctPoses) {
     EXPECT_LE(starts[i - 1].cost, starts[i].cost);
     for (std::size_t k = 0; k < i; ++k) EXPECT_GE(pose_distance(*profile_, starts[i].pose, starts[k].pose), 0.012);
   }
+}
+
+TEST_F(InitialiserTest, VariantsOfOnePoseLeaveRoomForPosesElsewhere) {
+  const auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0));
+  InitialiserParams params;
+  const auto alone = [&] {  // proposals that are no variant of another one
+    const auto starts = Initialiser(profile_, params).propose(*observation, Effort::full, kSeed, workers_);
+    EXPECT_EQ(starts.size(), static_cast<std::size_t>(params.results));
+    return std::ranges::count_if(starts, [&](const StartCandidate& a) {
+      return std::ranges::count_if(starts, [&](const StartCandidate& b) {
+               return pose_distance(*profile_, a.pose, b.pose) < params.apart;
+             }) == 1;  // itself
+    });
+  };
+  EXPECT_GE(alone(), 4);
+  params.full.elsewhere = 0;
+  EXPECT_LT(alone(), 4);
 }
 
 TEST_F(InitialiserTest, TheSameSeedGivesTheSamePosesOnAnyNumberOfCores) {
