@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "observe/egl/egl_functions.h"
+
 namespace barehand {
 namespace {
 
@@ -28,6 +30,18 @@ TEST(GraphicsDevice, AnyDeviceComesWithItsName) {
   ASSERT_TRUE(device) << device.error().message();
   EXPECT_FALSE(device->renderer.empty());
   EXPECT_THAT(device->version, ::testing::HasSubstr("OpenGL ES 3"));
+}
+
+// What EGL keeps for a thread is freed twice if the thread ends while the process does.
+TEST(GraphicsDevice, NothingOfEglStaysWithTheThreadThatLooked) {
+  const auto egl = load_egl(kEglLibrary);
+  ASSERT_TRUE(egl);
+  const auto bound = reinterpret_cast<PFNEGLQUERYAPIPROC>(egl->GetProcAddress("eglQueryAPI"));
+  for (const auto choice : {DeviceChoice::hardware, DeviceChoice::any}) {
+    ASSERT_TRUE(egl->BindAPI(EGL_OPENGL_API));
+    find_graphics_device(choice);
+    EXPECT_EQ(bound(), static_cast<EGLenum>(EGL_OPENGL_ES_API)) << "as on a new thread";
+  }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Result<Egl> load_egl(const std::string& library) {
       find(handle, "eglDestroyContext", egl.DestroyContext) && find(handle, "eglGetDisplay", egl.GetDisplay) &&
       find(handle, "eglGetError", egl.GetError) && find(handle, "eglGetProcAddress", egl.GetProcAddress) &&
       find(handle, "eglInitialize", egl.Initialize) && find(handle, "eglMakeCurrent", egl.MakeCurrent) &&
-      find(handle, "eglQueryString", egl.QueryString);
+      find(handle, "eglQueryString", egl.QueryString) && find(handle, "eglReleaseThread", egl.ReleaseThread);
   dlclose(handle);
   if (!complete) return fail("not an EGL library", library, remedy);
   const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

@@ -21,6 +21,7 @@ struct Egl {
   PFNEGLINITIALIZEPROC Initialize;
   PFNEGLMAKECURRENTPROC MakeCurrent;
   PFNEGLQUERYSTRINGPROC QueryString;
+  PFNEGLRELEASETHREADPROC ReleaseThread;
   /// Of EGL_EXT_platform_base, EGL_EXT_device_enumeration and EGL_EXT_device_query; null where one is missing.
   PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplayEXT = nullptr;
   PFNEGLQUERYDEVICESEXTPROC QueryDevicesEXT = nullptr;

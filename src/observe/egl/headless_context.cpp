@@ -7,6 +7,18 @@
 namespace barehand {
 namespace {
 
+/// Ends what EGL keeps for the calling thread.
+class ThreadRelease {
+ public:
+  explicit ThreadRelease(const Egl& egl) : egl_(egl) {}
+  ThreadRelease(const ThreadRelease&) = delete;
+  ThreadRelease& operator=(const ThreadRelease&) = delete;
+  ~ThreadRelease() { egl_.ReleaseThread(); }
+
+ private:
+  const Egl& egl_;
+};
+
 tl::unexpected<Error> egl_failure(const Egl& egl, const std::string& what) {
   return fail(formatted("%s (EGL error 0x%04x)", what.c_str(), egl.GetError()), "EGL");
 }
@@ -26,6 +38,7 @@ EGLContext create_context(const Egl& egl, EGLDisplay display) {
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open(DeviceChoice choice, const std::string& egl_library) {
   const auto egl = load_egl(egl_library);
   if (!egl) return tl::unexpected(egl.error());
+  const ThreadRelease at_end(*egl);
   const bool with_software = choice == DeviceChoice::any;
   Result<std::unique_ptr<HeadlessContext>> best =
       fail(with_software ? "no graphics device" : "no hardware graphics device", "EGL",
@@ -51,7 +64,10 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open_on(const Egl& egl
   return context;
 }
 
-HeadlessContext::~HeadlessContext() { egl_.DestroyContext(display_, context_); }
+HeadlessContext::~HeadlessContext() {
+  const ThreadRelease at_end(egl_);
+  egl_.DestroyContext(display_, context_);
+}
 
 Result<void> HeadlessContext::look_around() {
   const auto current = make_current();
@@ -68,13 +84,15 @@ Result<void> HeadlessContext::look_around() {
 }
 
 Result<HeadlessContext::Current> HeadlessContext::make_current() const {
-  if (!egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    return egl_failure(egl_, "the context cannot be used");
-  return Current(*this);
+  if (egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return Current(*this);
+  const ThreadRelease at_end(egl_);
+  return egl_failure(egl_, "the context cannot be used");
 }
 
 HeadlessContext::Current::~Current() {
-  if (context_) context_->egl_.MakeCurrent(context_->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  if (!context_) return;
+  const ThreadRelease at_end(context_->egl_);
+  context_->egl_.MakeCurrent(context_->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace barehand

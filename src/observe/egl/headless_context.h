@@ -12,7 +12,8 @@
 namespace barehand {
 
 /// An OpenGL ES 3.1 context without window or screen. It is current on a thread only while a Current lives there, so
-/// any thread may use it, one at a time.
+/// any thread may use it, one at a time. Leaves nothing of EGL behind on a thread: what one keeps that ends while the
+/// process does would be freed twice.
 class HeadlessContext {
  public:
   static Result<std::unique_ptr<HeadlessContext>> open(DeviceChoice choice, const std::string& egl_library);
