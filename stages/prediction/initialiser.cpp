@@ -225,8 +225,10 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
   Trials chosen;
   std::vector<HandPose> poses;
   std::vector<bool> taken(trials.size());
-  const auto choose = [&](int up_to, double apart) {
-    for (std::size_t i = 0; i < trials.size() && static_cast<int>(chosen.size()) < up_to; ++i) {
+  // Returns where it stopped: whatever lies before that is chosen, or closer than `apart` to what is.
+  const auto choose = [&](std::size_t from, int up_to, double apart) {
+    std::size_t i = from;
+    for (; i < trials.size() && static_cast<int>(chosen.size()) < up_to; ++i) {
       if (taken[i]) continue;
       const HandPose pose = posed(*profile_, trials[i].scored.articulated);
       const bool twin = std::ranges::any_of(
@@ -236,14 +238,12 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
       poses.push_back(pose);
       chosen.push_back(std::move(trials[i]));
     }
+    return i;
   };
-  const int far = static_cast<int>(elsewhere * count);
-  choose(count - far, distinct);
-  if (far > 0) {
-    choose(count, std::max(distinct, params_.apart));
-    choose(count, distinct);
-    std::ranges::stable_sort(chosen, by_cost);
-  }
+  const std::size_t rest = choose(0, count - static_cast<int>(elsewhere * count), distinct);
+  choose(rest, count, std::max(distinct, params_.apart));
+  choose(rest, count, distinct);
+  std::ranges::stable_sort(chosen, by_cost);
   return chosen;
 }
 
