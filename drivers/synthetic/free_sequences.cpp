@@ -50,33 +50,62 @@ std::unique_ptr<Sequence> make_open(std::uint64_t seed) {
                                                 seed));
 }
 
-/// A hand shown for `barehand calibrate`: from all sides, then every joint bent, palm and back towards the camera.
+/// A hand shown for `barehand calibrate`: from all sides, then the thumb circles and every joint bends apart from its
+/// neighbours (the tendon glides of hand therapy: hook, table top, straight and full fist), palm and back towards the
+/// camera.
 std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
-  const Vector3d here(0.0, 0.08, 0.55), still(0, 0, 0), back(0, 2.9, 0);
-  // The thumb bends while the fingers are out of its way.
-  HandAngles thumb_bent = open_relaxed();
-  thumb_bent[0] = {0.15, {0.1, 0.8, 1.15}};
-  const HandAngles half = blend(thumb_bent, fist(), 0.5);
-  return std::make_unique<FreeSequence>(setting(18.0,
-                                                {{0.0, here, still, open_spread()},
-                                                 {0.6, here, still, open_spread()},
-                                                 {1.8, here, {0, 1.1, 0}, open_spread()},
-                                                 {3.6, here, {0, -1.1, 0}, open_spread()},
-                                                 {4.6, here, {0.5, 0, 0}, open_joined()},
-                                                 {5.6, here, {-0.6, 0, 0.2}, open_relaxed()},
-                                                 {6.4, here, {0, -0.3, 0}, thumb_bent},
-                                                 {7.2, here, {0, 0.5, 0}, thumb_bent},
-                                                 {8.0, here, still, half},
-                                                 {8.8, here, {0, 0.5, 0}, fist()},
-                                                 {9.6, here, {0, -0.5, 0}, half},
-                                                 {10.6, here, still, open_spread()},
-                                                 {12.6, here, back, open_spread()},
-                                                 {13.4, here, {0, 2.5, 0}, thumb_bent},
-                                                 {14.2, here, {0, 3.2, 0}, half},
-                                                 {15.0, here, {0.3, 3.1, 0}, fist()},
-                                                 {16.0, here, back, open_joined()},
-                                                 {17.8, here, still, open_spread()}},
-                                                seed));
+  const Vector3d here(0.0, 0.08, 0.55), palm(0, 0, 0), back(0, 2.9, 0);
+  const HandAngles open = open_spread();
+  const auto with_thumb = [](const HandAngles& hand, const FingerAngles& thumb) {
+    HandAngles result = hand;
+    result[0] = thumb;
+    return result;
+  };
+  const auto with_fingers = [](double mcp, double pip, double dip) {
+    HandAngles result = open_relaxed();
+    for (int f = 1; f < kFingerCount; ++f) result[f].flexion = {mcp, pip, dip};
+    return result;
+  };
+  const HandAngles hook = with_fingers(0.05, 1.5, 0.95), table_top = with_fingers(1.25, 0.1, 0.05),
+                   straight_fist = with_fingers(1.25, 1.5, 0.05);
+
+  std::vector<HandKey> keys;
+  double time = 0;
+  const auto show = [&](double seconds, const Vector3d& turn, const HandAngles& angles) {
+    keys.push_back({time, here, turn, angles});
+    time += 0.8 * seconds;
+  };
+  const auto bend_all = [&](const Vector3d& side) {
+    // The thumb bends while the fingers are out of its way.
+    show(0.7, side, with_thumb(open, {0.5, {-0.25, 0, 0}}));
+    show(0.7, side + Vector3d(0, 0.4, 0), with_thumb(open, {0.5, {0.5, 0, 0}}));
+    show(0.7, side, with_thumb(open, {-0.3, {0.5, 0.1, 0.1}}));
+    show(0.7, side + Vector3d(0, -0.4, 0), with_thumb(open, {-0.3, {-0.25, 0, 0}}));
+    show(0.8, side, with_thumb(open, {0.15, {0, 0, 1.3}}));
+    show(0.8, side + Vector3d(0, -0.5, 0), with_thumb(open, {0.15, {0, 0.85, 1.2}}));
+    show(0.8, side + Vector3d(0, 0.5, 0), with_thumb(open, {0.15, {0.1, 0.85, 0}}));
+    show(1.0, side, open);
+    show(0.8, side + Vector3d(0, 0.5, 0), hook);
+    show(1.0, side + Vector3d(0, -0.5, 0), hook);
+    show(0.8, side + Vector3d(0, -0.5, 0), table_top);
+    show(1.0, side + Vector3d(0.3, 0.4, 0), table_top);
+    show(0.8, side + Vector3d(0, 0.4, 0), straight_fist);
+    show(0.8, side + Vector3d(0, -0.4, 0), fist());
+    show(1.0, side + Vector3d(0.2, 0.3, 0), fist());
+    show(1.0, side, open);
+  };
+  show(0.6, palm, open);
+  show(1.2, palm, open);
+  show(1.8, {0, 1.1, 0}, open);
+  show(1.2, {0, -1.1, 0}, open);
+  show(1.0, {0.5, 0, 0}, open_joined());
+  show(1.0, {-0.6, 0, 0.2}, open_relaxed());
+  bend_all(palm);
+  show(2.0, palm, open);
+  bend_all(back);
+  show(1.8, back, open_joined());
+  show(0.2, palm, open);
+  return std::make_unique<FreeSequence>(setting(time, std::move(keys), seed));
 }
 
 /// A hand that waves, leaves the view on the right and comes back.

@@ -22,7 +22,7 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
   list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
   list.push_back({"open", "an open hand turns slowly", 180, 30});
-  list.push_back({"scan", "a hand is shown from all sides and bent, for barehand calibrate", 540, 30});
+  list.push_back({"scan", "a hand is shown from all sides and bent, for barehand calibrate", 900, 30});
   list.push_back(
       {"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30, true});
   return list;
