@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/run_inputs.h"
+#include "app/scan_frames.h"
 #include "app/scan_report.h"
 #include "app/track_run.h"
 #include "core/parallel.h"
@@ -18,8 +19,10 @@ namespace barehand {
 namespace {
 
 constexpr const char* kHowTo =
-    "Open the hand, turn it slowly to show palm and back, bend and stretch thumb and fingers; ten to twenty seconds.\n"
-    "Ctrl-C ends a live scan; what was seen until then is used.";
+    "Open the hand and turn it slowly to show palm and back. Then circle the thumb and bend its joints one by one, "
+    "make\n"
+    "a hook (only the last two joints of the fingers bent), a table top (only the knuckles) and a fist, palm and back\n"
+    "towards the camera; half a minute. Ctrl-C ends a live scan; what was seen until then is used.";
 
 struct CalibrateOptions {
   TrackOptions track;
@@ -31,11 +34,12 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
-/// Keeps the hand as fitted last, and tells the person what to show next.
+/// Keeps the hand as fitted last and frames to scan its skin from, and tells the person what to show next.
 class ScanSink : public Sink {
  public:
   struct Scan {
     ScanReport report;
+    ScanFrames frames;
     std::shared_ptr<const HandProfile> profile;  ///< null: no hand was tracked
   };
   explicit ScanSink(Scan& scan) : scan_(scan) {}
@@ -43,6 +47,7 @@ class ScanSink : public Sink {
   Result<void> consume(const TrackedFrame& tracked) override {
     const HandEstimate& hand = *tracked.estimates[0];
     scan_.report.add(hand);
+    scan_.frames.add(tracked.observations[0], hand);
     if (hand.has_pose()) scan_.profile = hand.profile;
     advise();
     return {};
@@ -80,6 +85,26 @@ void print(const ScanReport& report, const HandProfile& start, const HandProfile
     std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
 }
 
+/// The hand with a skin of its own; as it was fitted if the scan says too little.
+HandProfile scanned(const ScanSink::Scan& scan, double cell, int threads) {
+  const int frames = static_cast<int>(scan.frames.frames().size());
+  if (frames < ScanFrames::kFewest) {
+    std::puts("too short a scan for a skin of its own: the mean hand was fitted");
+    return *scan.profile;
+  }
+  Workers workers(threads);
+  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
+    std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
+                 progress.mismatch * 1e3);
+  });
+  if (!hand) {
+    std::fputs("these frames tell no skin; the hand stays as it was fitted\n", stderr);
+    return *scan.profile;
+  }
+  std::printf("skin and joints from %d frames\n", frames);
+  return *hand;
+}
+
 int run(const CalibrateOptions& o) {
   auto config = read_configuration(o.track.config);
   if (!config) return tell(config.error(), kExitUsage);
@@ -105,8 +130,11 @@ int run(const CalibrateOptions& o) {
   if (!scan.profile)
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
+  // What is there is safe before what takes a while.
   if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
-  print(scan.report, *hands->front().profile, *scan.profile);
+  const HandProfile hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
+  if (const auto saved = save_profile(hand, o.out); !saved) return tell(saved.error(), kExitFailure);
+  print(scan.report, *hands->front().profile, hand);
   return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
 }
 

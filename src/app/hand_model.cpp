@@ -16,7 +16,7 @@ std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, con
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person, Workers& workers,
                      std::shared_ptr<spdlog::logger> log)
-    : HandModel(params, person, std::make_shared<const Skin>(make_blended_skin(*person, params.skin_cell)),
+    : HandModel(params, person, std::make_shared<const Skin>(make_skin(*person, params.skin_cell)),
                 std::make_shared<Initialiser>(person, params.initialiser), workers, std::move(log)) {}
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person,

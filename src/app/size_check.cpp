@@ -12,14 +12,6 @@ namespace {
 
 constexpr std::array<double, 4> kSizes = {0.78, 0.88, 1.14, 1.28};
 
-Skin scaled(Skin skin, double size) {
-  for (SkinVertex& v : skin.vertices) {
-    v.in_a *= static_cast<float>(size);
-    v.in_b *= static_cast<float>(size);
-  }
-  return skin;
-}
-
 /// Around the middle of the palm, which the data holds best.
 HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
   const Eigen::Vector3d centre = pose[kPalm] * (0.5 * hand.segments[kPalm].distal);

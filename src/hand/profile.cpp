@@ -1,5 +1,7 @@
 #include "hand/profile.h"
 
+#include "hand/skin.h"
+
 namespace barehand {
 
 SE3 HandProfile::rest_relative(int segment) const {
@@ -25,6 +27,7 @@ HandProfile mirrored(const HandProfile& profile) {
     // M R(a, angle) M = R(-M a, angle): a rotation axis is a pseudovector.
     for (JointDof& dof : segment.dofs) dof.axis = -dof.axis.cwiseProduct(flip);
   }
+  if (profile.scanned_skin) other.scanned_skin = std::make_shared<const Skin>(mirrored(*profile.scanned_skin));
   return other;
 }
 
@@ -37,6 +40,7 @@ HandProfile scaled(const HandProfile& profile, double size) {
     for (auto* at_ends : {&s.radius, &s.half_width, &s.half_thickness, &s.flesh_offset_x, &s.flesh_offset_y})
       for (double& value : *at_ends) value *= size;
   }
+  if (profile.scanned_skin) result.scanned_skin = std::make_shared<const Skin>(scaled(*profile.scanned_skin, size));
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,15 @@ struct SegmentProfile {
 /// average fitted to the skin that the tracker saw, within which the joints keep to the average.
 enum class ProfileOrigin { measured, mean, fitted };
 
+struct Skin;
+
 /// A person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of the hand.
 /// Posed frame = parent frame * rest_relative * R(dof 1) * R(dof 2). File form: hand.json.
 struct HandProfile {
   Handedness handedness = Handedness::right;
   ProfileOrigin origin = ProfileOrigin::measured;
   std::array<SegmentProfile, kSegmentCount> segments;
+  std::shared_ptr<const Skin> scanned_skin;  ///< of `barehand calibrate`; null: the sections of the segments say it
 
   /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.
   SE3 rest_relative(int segment) const;

@@ -16,6 +16,12 @@ using Eigen::Vector3f;
 
 constexpr double kWristCut = 0.012;  // skin ends this far behind the wrist joint [m]
 
+HandPose rest_pose(const HandProfile& profile) {
+  HandPose rest;
+  for (int s = 0; s < kSegmentCount; ++s) rest[s] = profile.segments[s].T_hand_segment;
+  return rest;
+}
+
 double smoothstep(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * (3 - 2 * x);
@@ -123,6 +129,41 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
   return skin;
 }
 
+Skin make_skin(const HandProfile& profile, double cell) {
+  return profile.scanned_skin ? *profile.scanned_skin : make_blended_skin(profile, cell);
+}
+
+void compute_normals(const HandProfile& profile, Skin& skin) {
+  std::vector<Vector3f> posed;
+  pose_skin(skin, rest_pose(profile), posed);
+  std::vector<Vector3f> normals(posed.size(), Vector3f::Zero());
+  for (const auto& t : skin.triangles) {
+    const Vector3f normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]);  // as long as the area
+    for (int corner : t) normals[corner] += normal;
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Eigen::Matrix3f R = profile.segments[skin.vertices[i].a].T_hand_segment.R.cast<float>();
+    if (normals[i] != Vector3f::Zero()) skin.vertices[i].normal_in_a = R.transpose() * normals[i].stableNormalized();
+  }
+}
+
+Skin mirrored(const Skin& skin) {
+  Skin other = skin;
+  for (SkinVertex& v : other.vertices)
+    for (Vector3f* x : {&v.in_a, &v.in_b, &v.normal_in_a}) x->x() = -x->x();
+  for (auto& t : other.triangles) std::swap(t[1], t[2]);
+  return other;
+}
+
+Skin scaled(const Skin& skin, double size) {
+  Skin other = skin;
+  for (SkinVertex& v : other.vertices) {
+    v.in_a *= static_cast<float>(size);
+    v.in_b *= static_cast<float>(size);
+  }
+  return other;
+}
+
 void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& posed) {
   std::array<Eigen::Matrix3f, kSegmentCount> R;
   std::array<Vector3f, kSegmentCount> t;
@@ -179,10 +220,8 @@ Skin coarsened(const Skin& skin, double cell) {
 
 HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment) {
   // A vertex stands for a third of each triangle around it.
-  HandPose rest;
-  for (int s = 0; s < kSegmentCount; ++s) rest[s] = profile.segments[s].T_hand_segment;
   std::vector<Vector3f> posed;
-  pose_skin(skin, rest, posed);
+  pose_skin(skin, rest_pose(profile), posed);
   std::vector<float> area(skin.vertices.size(), 0);
   for (const auto& t : skin.triangles) {
     const float third = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]).norm() / 6;

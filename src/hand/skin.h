@@ -28,6 +28,16 @@ struct Skin {
 /// The cut at the wrist stays open to the forearm side: triangles there are left out.
 Skin make_blended_skin(const HandProfile& profile, double cell = 0.003);
 
+/// The skin that a profile carries from a scan, or else the one derived from its sections with `cell` [m].
+Skin make_skin(const HandProfile& profile, double cell);
+
+/// Normals of all vertices with triangles around them, from these in the profile's rest pose.
+void compute_normals(const HandProfile& profile, Skin& skin);
+/// The skin of the other hand: reflected in the plane x = 0 of every segment.
+Skin mirrored(const Skin& skin);
+/// The skin of a hand that is `size` times as large.
+Skin scaled(const Skin& skin, double size);
+
 /// Vertex positions in the camera frame for a pose; `posed` keeps its allocation.
 void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Eigen::Vector3f>& posed);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/json_fields.h"
+#include "io/skin_json.h"
 #include "math/angles.h"
 
 namespace barehand {
@@ -207,6 +208,14 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
       return fail("segment " + std::string(name) + " is missing", path, "a hand has 16 segments, see docs/formats.md");
   const auto tree = check_parents(parents, path);
   if (!tree) return tl::unexpected(tree.error());
+  if (json.contains("skin")) {
+    if (profile.origin != ProfileOrigin::measured)
+      return fail("\"skin\" stands beside \"mean_hand\"", path, "a scanned hand is nobody else's: remove one");
+    auto skin = skin_from_json(json.at("skin"), path + ": skin");
+    if (!skin) return tl::unexpected(skin.error());
+    compute_normals(profile, *skin);
+    profile.scanned_skin = std::make_shared<const Skin>(*std::move(skin));
+  }
   return profile;
 }
 
@@ -229,6 +238,7 @@ Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   if (profile.origin == ProfileOrigin::mean) json["mean_hand"] = true;
   if (profile.origin == ProfileOrigin::fitted) json["mean_hand"] = "fitted";
   for (int s = 0; s < kSegmentCount; ++s) json["segments"].push_back(to_json(profile.segments[s], s));
+  if (profile.scanned_skin) json["skin"] = skin_to_json(*profile.scanned_skin);
   return json_fields::write_json(path, json);
 }
 

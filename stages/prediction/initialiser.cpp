@@ -60,7 +60,7 @@ double pose_distance(const HandProfile& profile, const HandPose& a, const HandPo
 
 Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params)
     : profile_(std::move(profile)),
-      surface_(surface_points(make_blended_skin(*profile_, kSkinCell), *profile_, kSkinPoints)),
+      surface_(surface_points(make_skin(*profile_, kSkinCell), *profile_, kSkinPoints)),
       params_(params),
       limits_(widened_limits(*profile_, params.widening)),
       shapes_(shape_templates(*profile_, limits_)),

@@ -4,6 +4,7 @@
 
 #include "child_process.h"
 #include "hand/profile.h"
+#include "hand/skin.h"
 #include "io/hand_json.h"
 #include "io/recording_writer.h"
 #include "quick_config.h"
@@ -37,6 +38,21 @@ TEST_F(Calibrate, MakesAProfileAndSaysWhatWasNotShown) {
   ASSERT_TRUE(hand) << hand.error().message();
   EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
   EXPECT_NE(hand->hand_length(), test::adult_hand()->hand_length());
+  EXPECT_FALSE(hand->scanned_skin);
+  EXPECT_THAT(child.output(), HasSubstr("too short a scan for a skin of its own"));
+}
+
+TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
+  const std::string coarse = test::replaced(test::quick_config(), " skin_cell: 0.004\n", " skin_cell: 0.01\n");
+  test::write_text(folder_ / "quick.yaml", coarse);
+  ChildProcess child(calibrate("sim:scan,frames=100,width=320,height=240"));
+  ASSERT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("skin and joints from 40 frames"));
+  const auto hand = load_profile(profile_);
+  ASSERT_TRUE(hand) << hand.error().message();
+  EXPECT_EQ(hand->origin, ProfileOrigin::measured);
+  ASSERT_TRUE(hand->scanned_skin);
+  EXPECT_GT(hand->scanned_skin->vertices.size(), 300u);
 }
 
 TEST_F(Calibrate, WithoutAHandNothingIsSaved) {

@@ -112,5 +112,35 @@ TEST_F(SkinTest, SurfacePointsCarryTheWholeArea) {
   }
 }
 
+TEST_F(SkinTest, AScannedSkinGoesBeforeTheSections) {
+  HandProfile scanned = *profile_;
+  scanned.scanned_skin = std::make_shared<const Skin>(scaled(skin_, 1.1));
+  EXPECT_EQ(make_skin(scanned, 0.004).vertices[7].in_a, scanned.scanned_skin->vertices[7].in_a);
+  EXPECT_EQ(make_skin(*profile_, 0.004).vertices[7].in_a, skin_.vertices[7].in_a);
+}
+
+TEST_F(SkinTest, AScannedSkinIsMirroredAndScaledWithItsHand) {
+  HandProfile hand = *profile_;
+  hand.scanned_skin = std::make_shared<const Skin>(skin_);
+  HandProfile other = scaled(mirrored(hand), 1.2);
+  std::vector<Vector3f> posed, posed_other;
+  HandPose rest, rest_other;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    rest[s] = hand.segments[s].T_hand_segment;
+    rest_other[s] = other.segments[s].T_hand_segment;
+  }
+  pose_skin(skin_, rest, posed);
+  pose_skin(*other.scanned_skin, rest_other, posed_other);
+  for (std::size_t i = 0; i < posed.size(); ++i)
+    ASSERT_LT((posed_other[i] - 1.2f * posed[i].cwiseProduct(Vector3f(-1, 1, 1))).norm(), 1e-5f) << i;
+  // Triangles still face outwards: normals made anew from them are those that were mirrored.
+  Skin anew = *other.scanned_skin;
+  compute_normals(other, anew);
+  double agree = 0;
+  for (std::size_t i = 0; i < anew.vertices.size(); ++i)
+    agree += anew.vertices[i].normal_in_a.dot(other.scanned_skin->vertices[i].normal_in_a);
+  EXPECT_GT(agree / static_cast<double>(anew.vertices.size()), 0.95);
+}
+
 }  // namespace
 }  // namespace barehand

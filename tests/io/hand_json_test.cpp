@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "hand/skin.h"
 #include "small_hand.h"
 #include "support/temp_folder.h"
 
@@ -188,6 +189,59 @@ TEST_F(HandJson, FullDiskIsReported) {
   const auto saved = save_profile(small_hand(), "/dev/full");
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message(), HasSubstr("/dev/full: cannot be written"));
+}
+
+/// A triangle across the index finger's knuckle.
+HandProfile with_skin(HandProfile hand) {
+  const auto palm = static_cast<std::int16_t>(kPalm), finger = static_cast<std::int16_t>(segment_of(1, 0));
+  Skin skin;
+  skin.vertices = {{palm, palm, 0, {0.01f, 0, -0.08f}, {0.01f, 0, -0.08f}, {0, 1, 0}},
+                   {palm, finger, 0.25f, {0, 0.002f, -0.09f}, {0, 0.001f, 0.005f}, {0, 1, 0}},
+                   {finger, finger, 0, {-0.004f, 0, -0.01f}, {-0.004f, 0, -0.01f}, {0, 1, 0}}};
+  skin.triangles = {{0, 1, 2}};
+  hand.scanned_skin = std::make_shared<const Skin>(skin);
+  return hand;
+}
+
+TEST_F(HandJson, KeepsAScannedSkin) {
+  const HandProfile hand = with_skin(small_hand());
+  ASSERT_TRUE(save_profile(hand, path_));
+  const auto loaded = load_profile(path_);
+  ASSERT_TRUE(loaded) << loaded.error().message();
+  ASSERT_TRUE(loaded->scanned_skin);
+  const Skin &saved = *hand.scanned_skin, &skin = *loaded->scanned_skin;
+  EXPECT_EQ(skin.triangles, saved.triangles);
+  ASSERT_EQ(skin.vertices.size(), saved.vertices.size());
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
+    EXPECT_EQ(skin.vertices[i].a, saved.vertices[i].a);
+    EXPECT_EQ(skin.vertices[i].b, saved.vertices[i].b);
+    EXPECT_FLOAT_EQ(skin.vertices[i].weight_b, saved.vertices[i].weight_b);
+    EXPECT_LT((skin.vertices[i].in_a - saved.vertices[i].in_a).norm(), 1e-6f);
+    EXPECT_LT((skin.vertices[i].in_b - saved.vertices[i].in_b).norm(), 1e-6f);
+    EXPECT_NEAR(skin.vertices[i].normal_in_a.norm(), 1, 1e-5);
+  }
+}
+
+TEST_F(HandJson, BadSkinIsNamed) {
+  const auto with = [this](const std::function<void(json&)>& change) {
+    EXPECT_TRUE(save_profile(with_skin(small_hand()), path_));
+    return error_after(change);
+  };
+  const auto vertex = [&](const json& row) { return with([&](json& j) { j["skin"]["vertices"][1] = row; }); };
+  const auto bad_vertex = AllOf(HasSubstr("skin"), HasSubstr("\"vertices\" 1 is no place"));
+  EXPECT_THAT(vertex({0, 0.1, 0.1}), bad_vertex);
+  EXPECT_THAT(vertex({16, 0, 0, 0}), bad_vertex);
+  EXPECT_THAT(vertex({0.5, 0, 0, 0}), bad_vertex);
+  EXPECT_THAT(vertex({0, 0, 0, 80}), bad_vertex);                  // millimetres
+  EXPECT_THAT(vertex({0, 0, 0, 0, 5, 0.2, 0, 0, 0}), bad_vertex);  // no neighbour
+  EXPECT_THAT(vertex({0, 0, 0, 0, 4, 0.7, 0, 0, 0}), bad_vertex);  // the second one's share is the smaller
+  EXPECT_THAT(vertex({0, 0, 0, nullptr}), bad_vertex);
+  for (const json& row : {json{0, 1, 3}, json{0, 1, -1}, json{0, 1}, json{0, 1, 1.5}})
+    EXPECT_THAT(with([&](json& j) { j["skin"]["triangles"][0] = row; }), HasSubstr("\"triangles\" 0 is no three"))
+        << row;
+  EXPECT_THAT(with([](json& j) { j["skin"].erase("vertices"); }), HasSubstr("\"vertices\" is missing"));
+  EXPECT_THAT(with([](json& j) { j["skin"] = 3; }), HasSubstr("\"vertices\" is missing"));
+  EXPECT_THAT(with([](json& j) { j["mean_hand"] = true; }), HasSubstr("beside \"mean_hand\""));
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "hand/gaussian_tree.h"
+#include "hand/joint_angles.h"
+#include "observe/model_comparison.h"
+#include "stages/refinement/scan_model.h"
+
+namespace barehand {
+
+/// One frame of a scan: what was seen, and the pose of the model's segments there.
+struct ScanFrame {
+  HandObservationPtr observation;
+  HandPose pose;  ///< T_camera_segment
+};
+
+/// Normal equations of a scan's shared unknowns; only the lower triangle is kept.
+struct ScanEquations {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+
+  void set_zero(int count);
+  void add(int i, int j, double value) { H(std::max(i, j), std::min(i, j)) += value; }
+};
+
+/// What one frame says: normal equations of its pose, 96 numbers, and of the shared unknowns that it touches. The
+/// pose is eliminated by a Schur complement, so a joint counts only as far as no pose would explain the frame as well.
+class ScanFrameEquations {
+ public:
+  /// `hold_pose`: the frame's pose is taken as right. false: the equations of the pose are not positive definite.
+  bool linearise(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
+                 const std::array<JointLimits, kSegmentCount>& limits, bool hold_pose);
+  /// `weight` times what the frame says. Once after linearise(): the large part is let go.
+  void add_to(ScanEquations& equations, double weight = 1);
+  /// The pose that is best once the shared unknowns have made `step`.
+  HandPose moved(const HandPose& pose, const Eigen::VectorXd& step) const;
+
+  /// Distances of data and skin along the normal that counted [m^2], and how many.
+  double squares() const { return squares_; }
+  int residuals() const { return residuals_; }
+
+ private:
+  static constexpr int kPose = 6 * kSegmentCount;
+  using PoseColumn = Eigen::Matrix<double, 6, 1>;
+  // Sums over the residuals at one vertex: products of the changes by its offset (o), its share (s) and the poses of
+  // its two segments (a, b), and their gradients.
+  struct VertexSums {
+    int vertex, offset, share;  // the latter two: number of the unknown; share -1: none
+    double oo = 0, os = 0, ss = 0, g_o = 0, g_s = 0;
+    PoseColumn ao = PoseColumn::Zero(), bo = PoseColumn::Zero(), as = PoseColumn::Zero(), bs = PoseColumn::Zero();
+  };
+  struct JointSums {
+    Eigen::Matrix<double, 6, 6> H;
+    Eigen::Matrix<double, 6, 1> g;
+  };
+
+  void add_skin(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables, GaussianTree& tree);
+  void add_joints(const HandPose& pose, const ScanModel& model, const std::array<JointLimits, kSegmentCount>& limits,
+                  GaussianTree& tree);
+  void couple(const ScanModel& model, const ScanVariables& variables);
+  bool eliminate_pose(const GaussianTree& tree, bool hold_pose);
+
+  RenderedHand rendered_;
+  ModelComparison comparison_;
+  std::vector<int> slot_;  // of every vertex in sums_, -1: none
+  std::vector<VertexSums> sums_;
+  std::array<JointSums, kSegmentCount> joints_;
+  std::array<Eigen::Matrix<double, 6, 6>, kSegmentCount> joint_parent_, joint_child_;  // rows: twist; columns: unknowns
+  std::vector<int> columns_;  // shared unknowns that the frame touches
+  Eigen::MatrixXd coupling_;  // pose x columns_
+  Eigen::LLT<Eigen::MatrixXd> pose_;
+  Eigen::VectorXd g_pose_;
+  Eigen::MatrixXd explained_;    // what the pose takes of the columns' equations
+  Eigen::VectorXd g_explained_;  // and of their right side
+  double squares_ = 0;
+  int residuals_ = 0;
+};
+
+}  // namespace barehand

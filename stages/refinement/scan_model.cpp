@@ -1,0 +1,154 @@
+#include "stages/refinement/scan_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "hand/implicit_hand.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+// Which other segment may carry a vertex that follows one alone: the palm's skin the nearest finger, a bone's the
+// nearer neighbour. The thumb's metacarpal lies in the palm's flesh over its whole length.
+int partner(const ImplicitHand& hand, const HandProfile& profile, const SkinVertex& v) {
+  if (v.a != kPalm) {
+    const bool distal_half = -v.in_a.z() > 0.5 * profile.segments[v.a].length;
+    return distal_half && !is_tip(v.a) && v.a != segment_of(0, 0) ? v.a + 1 : parent_of(v.a);
+  }
+  const Vector3d p = hand.pose()[kPalm] * v.in_a.cast<double>();
+  int nearest = segment_of(0, 0);
+  for (int f = 1; f < kFingerCount; ++f)
+    if (hand.segment_distance(segment_of(f, 0), p) < hand.segment_distance(nearest, p)) nearest = segment_of(f, 0);
+  return nearest;
+}
+
+bool in_middle_of_bone(const SkinVertex& v) {
+  const int thumb_root = segment_of(0, 0);
+  return v.weight_b == 0 && v.a != kPalm && v.a != thumb_root;
+}
+
+struct TipGrowth {
+  double longer = 0, thicker = 0;  // how far the skin's end moved along the bone, and its sides away from it [m]
+};
+
+// Least squares over what the skin shows: a single vertex may stick out where no frame saw it.
+TipGrowth growth_of_tip(const Skin& before, const Skin& now, int segment, const Vector3d& along) {
+  constexpr double kEnd = 0.5;  // cosine: normals this near to the bone's direction are the end's
+  double end = 0, end_weight = 1e-9, sides = 0, side_weight = 1e-9;
+  for (std::size_t i = 0; i < now.vertices.size(); ++i) {
+    const SkinVertex& v = now.vertices[i];
+    if (v.a != segment) continue;
+    const double out = v.normal_in_a.dot(v.in_a - before.vertices[i].in_a);
+    const double facing = v.normal_in_a.cast<double>().dot(along);
+    if (facing > kEnd) {
+      end += facing * out;
+      end_weight += facing * facing;
+    } else if (facing > -kEnd) {
+      sides += out;
+      side_weight += 1;
+    }
+  }
+  return {end / end_weight, sides / side_weight};
+}
+
+// In a profile's skin the first segment of a vertex is the one with the larger share.
+void put_in_order(SkinVertex& v) {
+  if (v.weight_b > 0.5f) {
+    std::swap(v.a, v.b);
+    std::swap(v.in_a, v.in_b);
+    v.weight_b = 1 - v.weight_b;
+  }
+  if (v.weight_b > 0) return;
+  v.b = v.a;
+  v.in_b = v.in_a;
+}
+
+}  // namespace
+
+ScanModel make_scan_model(const HandProfile& profile, double cell) {
+  const ImplicitHand hand(profile);
+  const HandPose& bind = hand.pose();  // in which both bones of a vertex carry it to the same place
+  ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}};
+  for (SkinVertex& v : model.skin.vertices) {
+    if (v.a == v.b) {
+      v.b = static_cast<std::int16_t>(partner(hand, profile, v));
+      v.in_b = (bind[v.b].inverse() * (bind[v.a] * v.in_a.cast<double>())).cast<float>();
+    }
+    const Eigen::Matrix3d R_b_a = bind[v.b].R.transpose() * bind[v.a].R;
+    model.normal_in_b.push_back(R_b_a.cast<float>() * v.normal_in_a);
+  }
+  for (int s = 1; s < kSegmentCount; ++s) model.in_parent[s] = profile.rest_relative(s).t;
+  for (Vector3d& joint : model.in_segment) joint.setZero();
+  return model;
+}
+
+ScanVariables::ScanVariables(const ScanModel& model) : vertices_(static_cast<int>(model.skin.vertices.size())) {
+  for (const SkinVertex& v : model.skin.vertices)
+    share_.push_back(in_middle_of_bone(v) ? -1 : kJoints + vertices_ + shares_++);
+}
+
+void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
+  // Longer steps leave the range in which the equations hold.
+  constexpr float kOffset = 0.004f, kShare = 0.3f;  // m; of 1
+  for (int s = 1; s < kSegmentCount; ++s) {
+    model.in_parent[s] += step.segment<3>(joint(s));
+    model.in_segment[s] += step.segment<3>(joint(s) + 3);
+  }
+  for (int i = 0; i < vertices_; ++i) {
+    SkinVertex& v = model.skin.vertices[i];
+    const float out = std::clamp(static_cast<float>(step[offset(i)]), -kOffset, kOffset);
+    v.in_a += out * v.normal_in_a;
+    v.in_b += out * model.normal_in_b[i];
+    if (share(i) < 0) continue;
+    const float change = std::clamp(static_cast<float>(step[share(i)]), -kShare, kShare);
+    v.weight_b = std::clamp(v.weight_b + change, 0.0f, 1.0f);
+  }
+}
+
+HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model) {
+  HandProfile hand = model.profile;
+  hand.origin = ProfileOrigin::measured;
+  for (int s = 1; s < kSegmentCount; ++s) {
+    const int parent = parent_of(s);
+    const SE3 joint{model.profile.rest_relative(s).R, model.in_parent[s] - model.in_segment[parent]};
+    hand.segments[s].T_hand_segment = hand.segments[parent].T_hand_segment * joint;
+  }
+  for (int s = 0; s < kSegmentCount; ++s) {
+    SegmentProfile& bone = hand.segments[s];
+    const Vector3d& start = model.in_segment[s];
+    Vector3d end = bone.distal;
+    if (s == kPalm) {
+      end = model.in_parent[segment_of(2, 0)];
+    } else if (!is_tip(s)) {
+      end = model.in_parent[s + 1];
+    } else {
+      // The skin ends one radius beyond the bone, as it did before.
+      const Vector3d along = bone.distal.normalized();
+      const TipGrowth growth = growth_of_tip(start_model.skin, model.skin, s, along);
+      bone.radius[1] = std::max(bone.radius[1] + growth.thicker, 0.5 * bone.radius[1]);
+      end += (growth.longer - growth.thicker) * along;
+    }
+    // The sections stay where the skin is.
+    const Vector3d shift[2] = {start, end - bone.distal};
+    for (int i = 0; i < 2; ++i) {
+      bone.flesh_offset_x[i] -= shift[i].x();
+      bone.flesh_offset_y[i] -= shift[i].y();
+    }
+    bone.distal = end - start;
+    bone.length = bone.distal.norm();
+  }
+  Skin skin = model.skin;
+  for (SkinVertex& v : skin.vertices) {
+    v.in_a -= model.in_segment[v.a].cast<float>();
+    v.in_b -= model.in_segment[v.b].cast<float>();
+    put_in_order(v);
+  }
+  compute_normals(hand, skin);
+  hand.scanned_skin = std::make_shared<const Skin>(std::move(skin));
+  return hand;
+}
+
+}  // namespace barehand

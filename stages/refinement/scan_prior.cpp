@@ -1,0 +1,151 @@
+#include "stages/refinement/scan_prior.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// People differ by ten times as much. But what is left in the images, a fifth of a millimetre, comes from how real skin
+// moves and errs alike in all frames, while the equations count it as if it were independent: left to these alone,
+// joints drift by 2 mm from their true places.
+constexpr double kAcrossBone = 0.0001;  // m, of a joint
+constexpr double kAlongBone = 0.0005;
+constexpr double kThumbRoot = 0.0005;  // in every direction: it lies deep in flesh
+constexpr double kBetweenBones = 0.0005;
+
+constexpr double kOffset = 0.1;          // m, of a vertex: only so that unseen ones have a place
+constexpr double kSmoothOffset = 0.004;  // m, difference along an edge
+constexpr double kMeanOffset = 0.00005;  // m, of a segment's skin as a whole
+constexpr double kMeanLever = 0.02;      // m, at which its turn counts as much
+constexpr double kSmoothShare = 0.1;     // difference along an edge
+
+constexpr double kHeld = 1e12;
+
+double sq(double x) { return x * x; }
+
+// How freely the share of a vertex may change: least at the hinges of fingers, most in the flesh of the palm.
+double share_deviation(const SkinVertex& v) {
+  const int thumb_root = segment_of(0, 0);
+  const bool fleshy = v.a == kPalm || v.b == kPalm || v.a == thumb_root || v.b == thumb_root;
+  if (!fleshy) return 0.15;
+  return v.a == kPalm || v.weight_b > 0 ? 1.0 : 0.3;
+}
+
+class Prior {
+ public:
+  Prior(const ScanModel& model, const ScanModel& start, const ScanVariables& variables, ScanEquations& equations)
+      : model_(model), start_(start), variables_(variables), out_(equations), offset_(model.skin.vertices.size()) {
+    for (std::size_t i = 0; i < offset_.size(); ++i) {
+      const SkinVertex &now = model.skin.vertices[i], &before = start.skin.vertices[i];
+      offset_[i] = now.normal_in_a.dot(now.in_a - before.in_a);
+    }
+  }
+
+  void add_joints(bool hold) {
+    for (int s = 1; s < kSegmentCount; ++s) {
+      const int first = variables_.joint(s);
+      const Vector3d in_parent = model_.in_parent[s] - start_.in_parent[s];
+      const Vector3d in_segment = model_.in_segment[s] - start_.in_segment[s];
+      for (int axis = 0; axis < 3; ++axis) {
+        const double deviation = s == segment_of(0, 0) ? kThumbRoot : (axis == 2 ? kAlongBone : kAcrossBone);
+        add_one(first + axis, in_parent[axis], deviation);
+        add_one(first + 3 + axis, in_segment[axis], deviation);
+      }
+      // Both points are the same place at rest.
+      Eigen::Matrix<double, 3, 6> J;
+      J << Matrix3d::Identity(), -model_.profile.rest_relative(s).R;
+      const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
+      out_.H.block<6, 6>(first, first) += J.transpose() * J / sq(kBetweenBones);
+      out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
+      if (hold) out_.H.diagonal().segment<6>(first).array() += kHeld;
+    }
+  }
+
+  void add_vertices() {
+    for (int i = 0; i < static_cast<int>(offset_.size()); ++i) {
+      add_one(variables_.offset(i), offset_[i], kOffset);
+      if (variables_.share(i) >= 0) add_one(variables_.share(i), share_change(i), share_deviation(vertex(i)));
+    }
+  }
+
+  void add_smoothness() {
+    for (const auto& t : model_.skin.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const int i = t[k], j = t[(k + 1) % 3];  // an edge comes twice, once from either side
+        add_difference(variables_.offset(i), variables_.offset(j), offset_[i], offset_[j], 1, kSmoothOffset);
+        if (variables_.share(i) < 0 || variables_.share(j) < 0) continue;
+        const SkinVertex &a = vertex(i), &b = vertex(j);
+        if (a.a == b.a && a.b == b.b)
+          add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), 1, kSmoothShare);
+        else if (a.a == b.b && a.b == b.a)  // the share of one is what the other leaves
+          add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), -1, kSmoothShare);
+      }
+  }
+
+  // The offsets of a segment neither shift nor turn it.
+  void add_mean(int segment) {
+    std::vector<int> members;
+    Vector3d centre = Vector3d::Zero();
+    for (int i = 0; i < static_cast<int>(offset_.size()); ++i)
+      if (vertex(i).a == segment) {
+        members.push_back(i);
+        centre += vertex(i).in_a.cast<double>();
+      }
+    if (members.empty()) return;
+    const auto count = static_cast<Eigen::Index>(members.size());
+    centre /= static_cast<double>(count);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, count);
+    Eigen::VectorXd offset(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const SkinVertex& v = vertex(members[k]);
+      const Vector3d normal = v.normal_in_a.cast<double>();
+      J.col(k) << normal, (v.in_a.cast<double>() - centre).cross(normal) / kMeanLever;
+      offset[k] = offset_[members[k]];
+    }
+    J /= static_cast<double>(count);
+    const Eigen::MatrixXd H = J.transpose() * J / sq(kMeanOffset);
+    const Eigen::VectorXd g = H * offset;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      out_.g[variables_.offset(members[k])] -= g[k];
+      for (Eigen::Index l = 0; l <= k; ++l)
+        out_.add(variables_.offset(members[k]), variables_.offset(members[l]), H(k, l));
+    }
+  }
+
+ private:
+  const SkinVertex& vertex(int i) const { return start_.skin.vertices[i]; }
+  double share_change(int i) const { return model_.skin.vertices[i].weight_b - vertex(i).weight_b; }
+
+  void add_one(int unknown, double value, double deviation) {
+    out_.add(unknown, unknown, 1 / sq(deviation));
+    out_.g[unknown] -= value / sq(deviation);
+  }
+
+  void add_difference(int i, int j, double x, double y, double sign, double deviation) {
+    const double w = 0.5 / sq(deviation), difference = x - sign * y;
+    out_.add(i, i, w);
+    out_.add(j, j, w);
+    out_.add(i, j, -sign * w);
+    out_.g[i] -= w * difference;
+    out_.g[j] += sign * w * difference;
+  }
+
+  const ScanModel &model_, &start_;
+  const ScanVariables& variables_;
+  ScanEquations& out_;
+  std::vector<double> offset_;  // of every vertex since the start [m]
+};
+
+}  // namespace
+
+void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVariables& variables, bool hold_joints,
+                    ScanEquations& equations) {
+  Prior prior(model, start, variables, equations);
+  prior.add_joints(hold_joints);
+  prior.add_vertices();
+  prior.add_smoothness();
+  for (int s = 0; s < kSegmentCount; ++s) prior.add_mean(s);
+}
+
+}  // namespace barehand

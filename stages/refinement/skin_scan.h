@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/parallel.h"
+#include "stages/refinement/scan_equations.h"
+
+namespace barehand {
+
+struct ScanProgress {
+  int round = 0, rounds = 0;  ///< finished, of
+  double mismatch = 0;        ///< root mean square distance of data and skin along the normal before the round [m]
+};
+
+/// Fuses the frames of a scan into a personal hand: Gauss-Newton on all poses, where the joints lie, how far every
+/// vertex of the skin stands out, and how skin near joints follows their two bones, all at once. `start`: the hand as
+/// fitted while it was tracked; `cell` [m]: size of the skin's triangles. Same frames, same hand, whatever the number
+/// of threads. None: there are no frames, or their equations cannot be solved. Takes seconds a round.
+std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std::vector<ScanFrame> frames,
+                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress = {});
+
+}  // namespace barehand

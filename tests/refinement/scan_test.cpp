@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hand/hand_shape.h"
+#include "stages/refinement/scan_prior.h"
+#include "stages/refinement/skin_scan.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCell = 0.008;  // m: few unknowns
+
+/// The hand turned about its upright axis and bent, in front of the camera.
+HandPose shown(const HandProfile& hand, double turn, double mcp, double pip, double thumb) {
+  SE3 T_camera_palm = test::facing_pose(hand, 0.4)[kPalm];
+  T_camera_palm.R = exp_so3({0, turn, 0}) * T_camera_palm.R;
+  std::array<JointAngles, kSegmentCount> angles{};
+  for (int finger = 1; finger < kFingerCount; ++finger) {
+    angles[segment_of(finger, 0)].flexion = mcp;
+    angles[segment_of(finger, 1)].flexion = pip;
+    angles[segment_of(finger, 2)].flexion = 0.6 * pip;
+  }
+  angles[segment_of(0, 1)].flexion = 0.6 * thumb;
+  angles[segment_of(0, 2)].flexion = thumb;
+  return forward_kinematics(hand, T_camera_palm, angles);
+}
+
+std::vector<HandPose> all_shown(const HandProfile& hand) {
+  std::vector<HandPose> poses;
+  for (const double turn : {0.0, 0.7, -0.7, 3.1, 2.4})
+    for (const auto& [mcp, pip, thumb] : {std::tuple(0.1, 0.1, 0.1), {0.1, 1.2, 1.0}, {1.1, 0.2, 0.2}, {0.6, 0.7, 0.6}})
+      poses.push_back(shown(hand, turn, mcp, pip, thumb));
+  return poses;
+}
+
+/// What a camera sees of `person`, where `start` would be in these poses.
+std::vector<ScanFrame> scan_of(const HandProfile& person, const HandProfile& start) {
+  const Skin skin = make_blended_skin(person, 0.004);
+  const std::vector<HandPose> poses = all_shown(person), guesses = all_shown(start);
+  std::vector<ScanFrame> frames;
+  for (std::size_t i = 0; i < poses.size(); ++i) frames.push_back({test::observe_skin(skin, poses[i]), guesses[i]});
+  return frames;
+}
+
+HandShape shape_with(std::initializer_list<std::pair<const char*, double>> values) {
+  HandShape shape = HandShape::Zero();
+  for (const auto& [name, value] : values)
+    for (int k = 0; k < kShapeCount; ++k)
+      if (shape_parameters()[k].name == name) shape[k] = value;
+  return shape;
+}
+
+class ScanTest : public ::testing::Test {
+ protected:
+  const std::shared_ptr<const HandProfile> start_ = test::adult_hand();
+  Workers workers_{1};
+};
+
+TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
+  const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), make_scan_model(*start_, kCell));
+  const Skin skin = make_blended_skin(*start_, kCell);
+  const HandPose pose = shown(*start_, 0.3, 0.8, 0.7, 0.5);
+  std::vector<Eigen::Vector3f> before, after;
+  pose_skin(skin, pose, before);
+  pose_skin(*hand.scanned_skin, pose, after);
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT((before[i] - after[i]).norm(), 1e-6f) << i;
+  EXPECT_EQ(hand.origin, ProfileOrigin::measured);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    EXPECT_LT((hand.segments[s].T_hand_segment.matrix() - start_->segments[s].T_hand_segment.matrix()).norm(), 1e-9);
+    EXPECT_NEAR(hand.segments[s].length, start_->segments[s].length, 1e-6) << s;
+  }
+}
+
+TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
+  ScanModel model = make_scan_model(*start_, kCell);
+  const int s = segment_of(1, 1);
+  const Vector3d shift(0.001, -0.002, 0.003);  // in the frame of the segment
+  model.in_segment[s] = shift;
+  model.in_parent[s] += start_->rest_relative(s).R * shift;
+  const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
+  EXPECT_LT((hand.segments[s].T_hand_segment.t - start_->segments[s].T_hand_segment * shift).norm(), 1e-9);
+  EXPECT_NEAR(hand.segments[s].flesh_offset_y[0], start_->segments[s].flesh_offset_y[0] - shift.y(), 1e-9);
+  HandPose rest, rest_before;
+  for (int k = 0; k < kSegmentCount; ++k) {
+    rest[k] = hand.segments[k].T_hand_segment;
+    rest_before[k] = start_->segments[k].T_hand_segment;
+  }
+  std::vector<Eigen::Vector3f> before, after;
+  pose_skin(make_blended_skin(*start_, kCell), rest_before, before);
+  pose_skin(*hand.scanned_skin, rest, after);
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT((before[i] - after[i]).norm(), 1e-5f) << i;
+}
+
+/// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
+/// is found back in one step.
+class ScanEquationsTest : public ScanTest {
+ protected:
+  /// Solves for what `change` did to a model that explained the frames exactly.
+  enum class Unknown { joint, offset, share };
+  Eigen::VectorXd found_back(Unknown unknown, const std::function<void(ScanModel&)>& change) {
+    const ScanModel truth = make_scan_model(*start_, kCell);
+    ScanModel model = truth;
+    change(model);
+    const ScanVariables variables(model);
+    const auto limits = widened_limits(*start_, 0.3);
+    ScanEquations shared;
+    shared.set_zero(variables.count());
+    shared.H.diagonal().array() += 1.0;
+    const int joints = ScanVariables::kJoints, offsets = static_cast<int>(truth.skin.vertices.size());
+    auto held = shared.H.diagonal();  // all but one kind: an offset may hide what a share does
+    if (unknown != Unknown::joint) held.head(joints).array() += 1e12;
+    if (unknown != Unknown::offset) held.segment(joints, offsets).array() += 1e12;
+    if (unknown != Unknown::share) held.tail(variables.count() - joints - offsets).array() += 1e12;
+    for (const HandPose& pose : all_shown(*start_)) {
+      const ScanFrame frame{test::observe_skin(truth.skin, pose), pose};
+      ScanFrameEquations equations;
+      EXPECT_TRUE(equations.linearise(frame, model, variables, limits, true));
+      equations.add_to(shared);
+    }
+    return shared.H.selfadjointView<Eigen::Lower>().llt().solve(shared.g);
+  }
+};
+
+TEST_F(ScanEquationsTest, FindBackHowFarTheSkinStandsOut) {
+  const ScanModel truth = make_scan_model(*start_, kCell);
+  const ScanVariables variables(truth);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(variables.count());
+  for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) change[variables.offset(static_cast<int>(i))] = 0.001;
+  const auto step = found_back(Unknown::offset, [&](ScanModel& model) { variables.apply(change, model); });
+  double sum = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {
+    const double back = step[variables.offset(static_cast<int>(i))];
+    if (std::abs(back) < 1e-6) continue;  // never in view
+    sum += back;
+    ++seen;
+  }
+  ASSERT_GT(seen, 200);
+  EXPECT_NEAR(sum / seen, -0.001, 0.0002);
+}
+
+TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
+  const ScanModel truth = make_scan_model(*start_, 0.004);
+  const ScanVariables variables(truth);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(variables.count());
+  for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {  // skin about the second joints of fingers
+    const SkinVertex& v = truth.skin.vertices[i];
+    const int inner = std::min(v.a, v.b), outer = std::max(v.a, v.b);
+    if (v.weight_b == 0 || finger_of(outer) == 0 || inner != segment_of(finger_of(outer), 0) ||
+        parent_of(outer) != inner)
+      continue;
+    change[variables.share(static_cast<int>(i))] = v.a == inner ? 0.2 : -0.2;  // towards the outer bone
+  }
+  ScanModel model = truth;
+  variables.apply(change, model);
+  const HandPose pose = shown(*start_, 0, 0.1, 0.6, 0.1);
+  ScanFrameEquations equations;
+  ASSERT_TRUE(equations.linearise({test::observe_skin(truth.skin, pose), pose}, model, variables,
+                                  widened_limits(*start_, 0.3), true));
+  ScanEquations shared;
+  shared.set_zero(variables.count());
+  equations.add_to(shared);
+  // The step along `change` that is best. A pixel counts for the vertex next to it, so that skin beside the changed one
+  // makes it shorter than -1.
+  const Eigen::VectorXd H_change = shared.H.selfadjointView<Eigen::Lower>() * change;
+  const double step = shared.g.dot(change) / change.dot(H_change);
+  EXPECT_LT(step, -0.4);
+  EXPECT_GT(step, -1.1);
+}
+
+TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
+  const ScanModel truth = make_scan_model(*start_, kCell);
+  const ScanVariables variables(truth);
+  const int s = segment_of(3, 1);
+  const Vector3d in_parent(0.001, 0.0005, -0.002), in_segment(-0.0005, 0.001, 0.0015);
+  const auto step = found_back(Unknown::joint, [&](ScanModel& model) {
+    model.in_parent[s] += in_parent;
+    model.in_segment[s] += in_segment;
+  });
+  // Of a hinge that bends about one axis, only the difference along that axis can be found.
+  const Vector3d found_parent = step.segment<3>(variables.joint(s)), found = step.segment<3>(variables.joint(s) + 3);
+  EXPECT_NEAR(found_parent.z(), -in_parent.z(), 2e-5);
+  EXPECT_NEAR(found_parent.y(), -in_parent.y(), 2e-5);
+  EXPECT_NEAR(found.z(), -in_segment.z(), 2e-5);
+  EXPECT_NEAR(found.y(), -in_segment.y(), 2e-5);
+}
+
+TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
+  const HandProfile person = reshaped(*start_, shape_with({{"index_proximal_length", 0.08},
+                                                           {"middle_intermediate_length", -0.08},
+                                                           {"fingers_thickness", 0.08},
+                                                           {"palm_thickness", 0.08}}));
+  double before = 0, after = 0;
+  std::vector<double> mismatch;
+  const auto hand = scan_hand(*start_, 0.005, scan_of(person, *start_), workers_,
+                              [&](const ScanProgress& progress) { mismatch.push_back(progress.mismatch); });
+  ASSERT_TRUE(hand);
+  for (const int s : {segment_of(1, 0), segment_of(2, 1)}) {
+    before += std::abs(start_->segments[s].length - person.segments[s].length);
+    after += std::abs(hand->segments[s].length - person.segments[s].length);
+  }
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_LT(mismatch.back(), 0.5 * mismatch.front());
+  EXPECT_LT(mismatch.back(), 0.0006);
+}
+
+TEST_F(ScanTest, TheNumberOfThreadsChangesNothing) {
+  std::vector<ScanFrame> frames = scan_of(scaled(*start_, 1.02), *start_);
+  frames.resize(4);
+  Workers three(3);
+  const auto one = scan_hand(*start_, 0.012, frames, workers_), other = scan_hand(*start_, 0.012, frames, three);
+  ASSERT_TRUE(one && other);
+  for (std::size_t i = 0; i < one->scanned_skin->vertices.size(); ++i)
+    ASSERT_EQ(one->scanned_skin->vertices[i].in_a, other->scanned_skin->vertices[i].in_a);
+}
+
+TEST_F(ScanTest, NoFramesAreNoScan) { EXPECT_FALSE(scan_hand(*start_, kCell, {}, workers_)); }
+
+}  // namespace
+}  // namespace barehand
