@@ -85,11 +85,16 @@ void print(const ScanReport& report, const HandProfile& start, const HandProfile
     std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
 }
 
-/// The hand with a skin of its own; as it was fitted if the scan says too little.
+/// The hand with a skin of its own; as it was if the scan says too little.
 HandProfile scanned(const ScanSink::Scan& scan, double cell, int threads) {
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
-    std::puts("too short a scan for a skin of its own: the mean hand was fitted");
+    std::puts("too short a scan for a skin of its own");
+    return *scan.profile;
+  }
+  // A mean hand gains by any scan; what was measured is better than a skin seen in part.
+  if (scan.profile->origin == ProfileOrigin::measured && !scan.report.missing().empty()) {
+    std::puts("not all was shown: the measured hand stays as it was");
     return *scan.profile;
   }
   Workers workers(threads);
@@ -111,10 +116,8 @@ int run(const CalibrateOptions& o) {
   config->tracker.shape_fit.enabled = true;
   const auto hands = choose_hands({o.hand}, {});
   if (!hands) return tell(hands.error(), kExitUsage);
-  if (hands->size() != 1 || hands->front().profile->origin != ProfileOrigin::mean)
-    return tell(
-        {"is no mean hand to start from", "--hand " + o.hand, "give right or left; scan one hand after the other"},
-        kExitUsage);
+  if (hands->size() != 1)
+    return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
   const auto folder = std::filesystem::absolute(o.out).parent_path();
   if (!std::filesystem::is_directory(folder))
     return tell({"no such folder", folder.string(), "make it first"}, kExitUsage);
@@ -150,7 +153,9 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
       ->required();
   calibrate->add_option("--out", o.out, "hand.json to write")->required();
-  calibrate->add_option("--hand", o.hand, "right or left: which hand is shown; or another mean hand.json")
+  calibrate
+      ->add_option("--hand", o.hand,
+                   "right or left: which hand is shown; or a hand.json, whose joints stay if it was measured")
       ->capture_default_str();
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
   calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");

@@ -24,6 +24,7 @@ class Scan {
         model_(start_),
         variables_(model_),
         limits_(widened_limits(start, kWidening)),
+        joints_are_known_(start.origin == ProfileOrigin::measured),
         frames_(std::move(frames)),
         equations_(frames_.size()),
         workers_(workers) {}
@@ -31,7 +32,7 @@ class Scan {
   /// Root mean square mismatch before the round; none: it cannot be solved.
   std::optional<double> round(bool skin_only) {
     shared_.set_zero(variables_.count());
-    add_scan_prior(model_, start_, variables_, skin_only, shared_);
+    add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared_);
     const int frames = static_cast<int>(frames_.size());
     std::array<bool, kBatch> fine{};
     double squares = 0;
@@ -68,6 +69,7 @@ class Scan {
   ScanModel model_;
   const ScanVariables variables_;
   const std::array<JointLimits, kSegmentCount> limits_;
+  const bool joints_are_known_;
   std::vector<ScanFrame> frames_;
   std::vector<ScanFrameEquations> equations_;
   ScanEquations shared_;

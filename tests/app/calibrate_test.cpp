@@ -55,6 +55,19 @@ TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
   EXPECT_GT(hand->scanned_skin->vertices.size(), 300u);
 }
 
+TEST_F(Calibrate, AMeasuredHandStaysWhereNotAllWasShown) {
+  HandProfile measured = *test::adult_hand();
+  measured.origin = ProfileOrigin::measured;
+  const std::string given = folder_ / "given.json";
+  ASSERT_TRUE(save_profile(measured, given));
+  auto arguments = calibrate("sim:scan,frames=90,width=320,height=240");
+  arguments.insert(arguments.end(), {"--hand", given});
+  ChildProcess child(arguments);
+  ASSERT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("not all was shown: the measured hand stays as it was"));
+  EXPECT_EQ(test::read_text(profile_), test::read_text(given));
+}
+
 TEST_F(Calibrate, WithoutAHandNothingIsSaved) {
   RgbdFrame wall;
   wall.utime = 1'000'000;
@@ -69,10 +82,9 @@ TEST_F(Calibrate, WithoutAHandNothingIsSaved) {
 }
 
 TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
-  for (const auto& [option, value, reason] :
-       {std::tuple("--hand", std::string("both"), "is no mean hand to start from"),
-        {"--hand", folder_ / "nobody.json", "nobody.json"},
-        {"--out", folder_ / "nowhere/mine.json", "no such folder"}}) {
+  for (const auto& [option, value, reason] : {std::tuple("--hand", std::string("both"), "is not one hand"),
+                                              {"--hand", folder_ / "nobody.json", "nobody.json"},
+                                              {"--out", folder_ / "nowhere/mine.json", "no such folder"}}) {
     auto arguments = calibrate("sim:scan");
     if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);
     arguments.insert(arguments.end(), {option, value});

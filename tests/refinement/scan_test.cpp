@@ -208,6 +208,19 @@ TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
   EXPECT_LT(mismatch.back(), 0.0006);
 }
 
+TEST_F(ScanTest, JointsOfAMeasuredHandStay) {
+  HandProfile measured = *start_;
+  measured.origin = ProfileOrigin::measured;
+  const HandProfile thicker = reshaped(measured, shape_with({{"fingers_thickness", 0.08}, {"palm_thickness", 0.08}}));
+  std::vector<double> mismatch;
+  const auto hand = scan_hand(measured, kCell, scan_of(thicker, measured), workers_,
+                              [&](const ScanProgress& progress) { mismatch.push_back(progress.mismatch); });
+  ASSERT_TRUE(hand);
+  for (int s = 1; s < kSegmentCount; ++s)
+    EXPECT_LT((hand->rest_relative(s).t - measured.rest_relative(s).t).norm(), 1e-6) << s;
+  EXPECT_LT(mismatch.back(), 0.6 * mismatch.front());
+}
+
 TEST_F(ScanTest, TheNumberOfThreadsChangesNothing) {
   std::vector<ScanFrame> frames = scan_of(scaled(*start_, 1.02), *start_);
   frames.resize(4);

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# What a scan of a hand is worth (docs/results.md): three simulated hands are scanned, from the mean hand and from their
+# measured profiles, and tracked in other sequences.
+#   docs/measure_scan.sh BAREHAND OUT
+set -eu
+barehand=$1 out=$2
+adult=$(dirname "$0")/../configs/hands/adult_right.json
+mkdir -p "$out"
+judge() {  # TITLE FOLDER HAND
+  local log="$out/track.log"
+  "$barehand" track --source "folder:$2" --hand "$3" --no-publish --result "$out/result.csv" >"$log" 2>&1
+  printf '%-44s' "$1"
+  "$barehand" eval --truth "$2/truth.csv" --result "$out/result.csv" | awk '
+    /lost/ && !lost {lost = $6} $1 == "frame" && $2 + 0 {printf "mean %s, median %s, max %s mm, lost %s\n", $3, $4, $10, lost}'
+}
+simulated() {  # NAME SEQUENCE OPTIONS...
+  local name=$1
+  shift
+  [ -d "$out/$name" ] || "$barehand" sim "$@" --out "$out/$name" >"$out/$name.log" 2>&1
+}
+scanned() {  # NAME OPTIONS...: a hand of that name
+  local name=$1
+  shift
+  simulated "scan_$name" scan "$@"
+  simulated "fist_$name" fist "$@"
+  local own="$out/fist_$name/hand.json" from_mean="$out/$name.mean.json" from_own="$out/$name.own.json"
+  "$barehand" calibrate --source "folder:$out/scan_$name" --out "$from_mean" >"$out/calibrate_$name.mean.log" 2>&1
+  "$barehand" calibrate --source "folder:$out/scan_$name" --hand "$own" --out "$from_own" \
+    >"$out/calibrate_$name.own.log" 2>&1
+  judge "$name: mean hand" "$out/fist_$name" "$adult"
+  judge "$name: scanned from the mean hand" "$out/fist_$name" "$from_mean"
+  judge "$name: measured profile" "$out/fist_$name" "$own"
+  judge "$name: scanned from the measured profile" "$out/fist_$name" "$from_own"
+}
+scanned as_in_file
+scanned larger --set scale=1.12 thickness=1.1 index=1.08 middle=1.08 ring=1.08
+scanned smaller --set scale=0.88 thickness=0.92
+scanned kinect --noise kinect
+for sequence in occlusion_{0,1,2,3,4,5,6} grasp_{mug,ball,pliers}; do
+  simulated $sequence $sequence
+  judge "$sequence: measured profile" "$out/$sequence" "$out/$sequence/hand.json"
+  for start in mean own; do judge "$sequence: scanned, $start" "$out/$sequence" "$out/as_in_file.$start.json"; done
+done
