@@ -9,7 +9,7 @@ mkdir -p "$out"
 judge() {  # TITLE FOLDER HAND
   local log="$out/track.log"
   "$barehand" track --source "folder:$2" --hand "$3" --no-publish --result "$out/result.csv" >"$log" 2>&1
-  printf '%-44s' "$1"
+  printf '%-54s' "$1"
   "$barehand" eval --truth "$2/truth.csv" --result "$out/result.csv" | awk '
     /lost/ && !lost {lost = $6} $1 == "frame" && $2 + 0 {printf "mean %s, median %s, max %s mm, lost %s\n", $3, $4, $10, lost}'
 }

@@ -82,11 +82,15 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
                                      Workers& workers, const std::function<void(const ScanProgress&)>& progress) {
   if (frames.empty()) return std::nullopt;
   Scan scan(start, cell, std::move(frames), workers);
+  double first = 0, last = 0;
   for (int round = 0; round < kRounds; ++round) {
     const auto mismatch = scan.round(round < kSkinRounds);
     if (!mismatch) return std::nullopt;
-    if (progress) progress({round + 1, kRounds, *mismatch});
+    last = *mismatch;
+    if (round == 0) first = last;
+    if (progress) progress({round + 1, kRounds, last});
   }
+  if (last > first) return std::nullopt;
   return scan.hand();
 }
 

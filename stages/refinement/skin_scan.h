@@ -17,8 +17,8 @@ struct ScanProgress {
 /// Fuses the frames of a scan into a personal hand: Gauss-Newton on all poses, where the joints lie, how far every
 /// vertex of the skin stands out, and how skin near joints follows their two bones, all at once. `start`: the hand as
 /// fitted while it was tracked, or a measured one, whose joints stay; `cell` [m]: size of the skin's triangles. Same
-/// frames, same hand, whatever the number of threads. None: there are no frames, or their equations cannot be solved.
-/// Takes seconds a round.
+/// frames, same hand, whatever the number of threads. None: there are no frames, their equations cannot be solved, or
+/// the hand explains them worse than before. Takes seconds a round.
 std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std::vector<ScanFrame> frames,
                                      Workers& workers, const std::function<void(const ScanProgress&)>& progress = {});
 
