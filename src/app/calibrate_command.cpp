@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "app/run_inputs.h"
 #include "app/scan_frames.h"
@@ -19,10 +20,9 @@ namespace barehand {
 namespace {
 
 constexpr const char* kHowTo =
-    "Open the hand and turn it slowly to show palm and back. Then circle the thumb and bend its joints one by one, "
-    "make\n"
-    "a hook (only the last two joints of the fingers bent), a table top (only the knuckles) and a fist, palm and back\n"
-    "towards the camera; half a minute. Ctrl-C ends a live scan; what was seen until then is used.";
+    "Open the hand and turn it slowly to show palm and back. Then circle the thumb and bend its joints one by one,\n"
+    "make a hook (only the last two joints of the fingers bent), a table top (only the knuckles) and a fist, palm and\n"
+    "back towards the camera; half a minute. Ctrl-C ends a live scan; what was seen until then is used.";
 
 struct CalibrateOptions {
   TrackOptions track;
@@ -85,29 +85,28 @@ void print(const ScanReport& report, const HandProfile& start, const HandProfile
     std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
 }
 
-/// The hand with a skin of its own; as it was if the scan says too little.
-HandProfile scanned(const ScanSink::Scan& scan, double cell, int threads) {
+/// The hand with a skin of its own; none if the scan says too little.
+std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int threads) {
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
     std::puts("too short a scan for a skin of its own");
-    return *scan.profile;
+    return std::nullopt;
   }
   // A mean hand gains by any scan; what was measured is better than a skin seen in part.
   if (scan.profile->origin == ProfileOrigin::measured && !scan.report.missing().empty()) {
     std::puts("not all was shown: the measured hand stays as it was");
-    return *scan.profile;
+    return std::nullopt;
   }
   Workers workers(threads);
   const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
     std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
                  progress.mismatch * 1e3);
   });
-  if (!hand) {
+  if (hand)
+    std::printf("skin and joints from %d frames\n", frames);
+  else
     std::fputs("these frames tell no skin; the hand stays as it was fitted\n", stderr);
-    return *scan.profile;
-  }
-  std::printf("skin and joints from %d frames\n", frames);
-  return *hand;
+  return hand;
 }
 
 int run(const CalibrateOptions& o) {
@@ -135,9 +134,10 @@ int run(const CalibrateOptions& o) {
                 kExitFailure);
   // What is there is safe before what takes a while.
   if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
-  const HandProfile hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
-  if (const auto saved = save_profile(hand, o.out); !saved) return tell(saved.error(), kExitFailure);
-  print(scan.report, *hands->front().profile, hand);
+  const auto hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
+  if (hand)
+    if (const auto saved = save_profile(*hand, o.out); !saved) return tell(saved.error(), kExitFailure);
+  print(scan.report, *hands->front().profile, hand ? *hand : *scan.profile);
   return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
 }
 

@@ -22,7 +22,6 @@ constexpr float kRobustScale = 0.004f;         // m, Geman-McClure
 constexpr float kGate = 0.012f;                // m, larger distances are something else
 constexpr float kFacing = 0.3f;                // cosine: skin that turns away is not measured well
 constexpr double kDamping = 1e-3;              // relative, Levenberg
-constexpr double kHeld = 1e12;                 // information of what must not move
 constexpr double kLongestStep = 0.010;         // m
 constexpr double kLargestTurn = 17 * kDegree;
 
@@ -61,14 +60,16 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
                                   GaussianTree& tree) {
   const ComparisonParams params;
   const HandObservation& observation = *frame.observation;
-  render_hand(model.skin, frame.pose, observation.frame->camera, grid_of(observation, params.stride), rendered_);
-  compare(observation, model.skin, frame.pose, rendered_, params, comparison_);
-  slot_.assign(model.skin.vertices.size(), -1);
+  RenderedHand rendered;
+  ModelComparison comparison;
+  render_hand(model.skin, frame.pose, observation.frame->camera, grid_of(observation, params.stride), rendered);
+  compare(observation, model.skin, frame.pose, rendered, params, comparison);
+  std::vector<int> slot(model.skin.vertices.size(), -1);  // of every vertex in sums_
   sums_.clear();
   squares_ = 0;
   residuals_ = 0;
   ResidualMoments poses(frame.pose);
-  for (const Correspondence& c : comparison_.correspondences) {
+  for (const Correspondence& c : comparison.correspondences) {
     const float r = c.normal.dot(c.model - c.data);
     if (c.kind != Correspondence::Kind::surface || std::abs(r) > kGate) continue;
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
@@ -79,11 +80,11 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     squares_ += sq(r);
     ++residuals_;
 
-    if (slot_[c.vertex] < 0) {
-      slot_[c.vertex] = static_cast<int>(sums_.size());
+    if (slot[c.vertex] < 0) {
+      slot[c.vertex] = static_cast<int>(sums_.size());
       sums_.push_back({c.vertex, variables.offset(c.vertex), variables.share(c.vertex)});
     }
-    VertexSums& sums = sums_[slot_[c.vertex]];
+    VertexSums& sums = sums_[slot[c.vertex]];
     const auto posed = [&](int s, const Vector3f& p) -> Vector3d { return frame.pose[s] * p.cast<double>(); };
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_share = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));

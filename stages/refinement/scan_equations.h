@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "hand/gaussian_tree.h"
 #include "hand/joint_angles.h"
@@ -14,6 +15,9 @@ struct ScanFrame {
   HandObservationPtr observation;
   HandPose pose;  ///< T_camera_segment
 };
+
+/// Information of what must not move.
+inline constexpr double kHeld = 1e12;
 
 /// Normal equations of a scan's shared unknowns; only the lower triangle is kept.
 struct ScanEquations {
@@ -61,9 +65,6 @@ class ScanFrameEquations {
   void couple(const ScanModel& model, const ScanVariables& variables);
   bool eliminate_pose(const GaussianTree& tree, bool hold_pose);
 
-  RenderedHand rendered_;
-  ModelComparison comparison_;
-  std::vector<int> slot_;  // of every vertex in sums_, -1: none
   std::vector<VertexSums> sums_;
   std::array<JointSums, kSegmentCount> joints_;
   std::array<Eigen::Matrix<double, 6, 6>, kSegmentCount> joint_parent_, joint_child_;  // rows: twist; columns: unknowns

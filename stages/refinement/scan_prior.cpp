@@ -20,8 +20,6 @@ constexpr double kMeanOffset = 0.00005;  // m, of a segment's skin as a whole
 constexpr double kMeanLever = 0.02;      // m, at which its turn counts as much
 constexpr double kSmoothShare = 0.1;     // difference along an edge
 
-constexpr double kHeld = 1e12;
-
 double sq(double x) { return x * x; }
 
 // How freely the share of a vertex may change: least at the hinges of fingers, most in the flesh of the palm.

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "hand/hand_shape.h"
-#include "stages/refinement/scan_prior.h"
 #include "stages/refinement/skin_scan.h"
 #include "support/painted_hand.h"
 
