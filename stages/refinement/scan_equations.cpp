@@ -42,8 +42,15 @@ Eigen::MatrixXd dense(const GaussianTree& tree) {
 }  // namespace
 
 void ScanEquations::set_zero(int count) {
-  H.setZero(count, count);
+  H.clear();
+  means.clear();
+  mean_rows = 0;
   g.setZero(count);
+}
+
+void ScanEquations::add(int first, const Eigen::Matrix<double, 6, 6>& block) {
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j) add(first + i, first + j, block(i, j));
 }
 
 bool ScanFrameEquations::linearise(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
@@ -53,7 +60,7 @@ bool ScanFrameEquations::linearise(const ScanFrame& frame, const ScanModel& mode
   add_skin(frame, model, variables, tree);
   add_joints(frame.pose, model, limits, tree);
   couple(model, variables);
-  return eliminate_pose(tree, hold_pose);
+  return factorise_pose(tree, hold_pose);
 }
 
 void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
@@ -89,7 +96,10 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_share = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
     const auto twist = [&](int s, double share) {
-      return (PoseColumn() << share * normal, share * (model_point - frame.pose[s].t).cross(normal)).finished();
+      PoseColumn column;
+      column.head<3>() = share * normal;
+      column.tail<3>() = share * (model_point - frame.pose[s].t).cross(normal);
+      return column;
     };
     const PoseColumn a = twist(v.a, 1 - v.weight_b), b = twist(v.b, v.weight_b);
     sums.oo += w;
@@ -132,48 +142,41 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
 }
 
 void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& variables) {
-  columns_.clear();
-  for (int k = 0; k < ScanVariables::kJoints; ++k) columns_.push_back(k);
-  for (const VertexSums& sums : sums_) {
-    columns_.push_back(sums.offset);
-    if (sums.share >= 0) columns_.push_back(sums.share);
-  }
-  coupling_.setZero(kPose, static_cast<Eigen::Index>(columns_.size()));
-  for (int s = 1; s < kSegmentCount; ++s) {
-    coupling_.block<6, 6>(6 * parent_of(s), variables.joint(s)) += joint_parent_[s];
-    coupling_.block<6, 6>(6 * s, variables.joint(s)) += joint_child_[s];
-  }
-  Eigen::Index column = ScanVariables::kJoints;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int segment, int unknown, const PoseColumn& column) {
+    for (int i = 0; i < 6; ++i) entries.emplace_back(6 * segment + i, unknown, column[i]);
+  };
+  for (int s = 1; s < kSegmentCount; ++s)
+    for (int k = 0; k < 6; ++k) {
+      add(parent_of(s), variables.joint(s) + k, joint_parent_[s].col(k));
+      add(s, variables.joint(s) + k, joint_child_[s].col(k));
+    }
   for (const VertexSums& sums : sums_) {
     const SkinVertex& v = model.skin.vertices[sums.vertex];
-    coupling_.col(column).segment<6>(6 * v.a) += sums.ao;
-    coupling_.col(column++).segment<6>(6 * v.b) += sums.bo;
+    add(v.a, sums.offset, sums.ao);
+    add(v.b, sums.offset, sums.bo);
     if (sums.share < 0) continue;
-    coupling_.col(column).segment<6>(6 * v.a) += sums.as;
-    coupling_.col(column++).segment<6>(6 * v.b) += sums.bs;
+    add(v.a, sums.share, sums.as);
+    add(v.b, sums.share, sums.bs);
   }
+  coupling_.resize(kPose, variables.count());
+  coupling_.setFromTriplets(entries.begin(), entries.end());
 }
 
-bool ScanFrameEquations::eliminate_pose(const GaussianTree& tree, bool hold_pose) {
+bool ScanFrameEquations::factorise_pose(const GaussianTree& tree, bool hold_pose) {
   Eigen::MatrixXd H = dense(tree);
   H.diagonal() *= 1 + kDamping;
   H.diagonal().array() += hold_pose ? kHeld : 1e-3;
   g_pose_.resize(kPose);
   for (int s = 0; s < kSegmentCount; ++s) g_pose_.segment<6>(6 * s) = tree.g[s];
   pose_.compute(H);
-  if (pose_.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd half = pose_.matrixL().solve(coupling_);
-  const Eigen::VectorXd half_g = pose_.matrixL().solve(g_pose_);
-  explained_.setZero(half.cols(), half.cols());
-  explained_.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
-  g_explained_ = half.transpose() * half_g;
-  return explained_.allFinite();
+  return pose_.info() == Eigen::Success && g_pose_.allFinite();
 }
 
-void ScanFrameEquations::add_to(ScanEquations& equations, double weight) {
+void ScanFrameEquations::add_to(ScanEquations& equations, double weight) const {
   for (int s = 1; s < kSegmentCount; ++s) {
     const int first = 6 * (s - 1);
-    equations.H.block<6, 6>(first, first) += weight * joints_[s].H;
+    equations.add(first, weight * joints_[s].H);
     equations.g.segment<6>(first) += weight * joints_[s].g;
   }
   for (const VertexSums& sums : sums_) {
@@ -184,19 +187,21 @@ void ScanFrameEquations::add_to(ScanEquations& equations, double weight) {
     equations.add(sums.share, sums.offset, weight * sums.os);
     equations.g[sums.share] += weight * sums.g_s;
   }
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    equations.g[columns_[j]] -= weight * g_explained_[static_cast<Eigen::Index>(j)];
-    for (std::size_t i = j; i < columns_.size(); ++i)
-      equations.add(columns_[i], columns_[j],
-                    -weight * explained_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-  }
-  explained_.resize(0, 0);
+  equations.g -= weight * (coupling_.transpose() * pose_.solve(g_pose_));
+}
+
+Eigen::VectorXd ScanFrameEquations::explained(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd by_pose = pose_.solve(coupling_ * x);
+  return coupling_.transpose() * by_pose;
+}
+
+Eigen::MatrixXd ScanFrameEquations::explained_joints() const {
+  const Eigen::MatrixXd coupling = coupling_.leftCols(ScanVariables::kJoints);
+  return coupling.transpose() * pose_.solve(coupling);
 }
 
 HandPose ScanFrameEquations::moved(const HandPose& pose, const Eigen::VectorXd& step) const {
-  Eigen::VectorXd shared(static_cast<Eigen::Index>(columns_.size()));
-  for (std::size_t i = 0; i < columns_.size(); ++i) shared[static_cast<Eigen::Index>(i)] = step[columns_[i]];
-  const Eigen::VectorXd twists = pose_.solve(g_pose_ - coupling_ * shared);
+  const Eigen::VectorXd twists = pose_.solve(g_pose_ - coupling_ * step);
   HandPose result;
   for (int s = 0; s < kSegmentCount; ++s) {
     const Vector6d twist = twists.segment<6>(6 * s);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
+#include <vector>
 
 #include "hand/gaussian_tree.h"
 #include "hand/joint_angles.h"
@@ -19,13 +21,17 @@ struct ScanFrame {
 /// Information of what must not move.
 inline constexpr double kHeld = 1e12;
 
-/// Normal equations of a scan's shared unknowns; only the lower triangle is kept.
+/// Normal equations H x = g of a scan's shared unknowns. Few unknowns meet in any one term, but for the means.
 struct ScanEquations {
-  Eigen::MatrixXd H;
+  std::vector<Eigen::Triplet<double>> H;      ///< lower triangle; entries at the same place add up
+  std::vector<Eigen::Triplet<double>> means;  ///< J, of terms that many unknowns share: J^T J belongs to H, too
+  int mean_rows = 0;                          ///< of J
   Eigen::VectorXd g;
 
   void set_zero(int count);
-  void add(int i, int j, double value) { H(std::max(i, j), std::min(i, j)) += value; }
+  void add(int i, int j, double value) { H.emplace_back(std::max(i, j), std::min(i, j), value); }
+  /// A symmetric block on the diagonal.
+  void add(int first, const Eigen::Matrix<double, 6, 6>& block);
 };
 
 /// What one frame says: normal equations of its pose, 96 numbers, and of the shared unknowns that it touches. The
@@ -35,8 +41,12 @@ class ScanFrameEquations {
   /// `hold_pose`: the frame's pose is taken as right. false: the equations of the pose are not positive definite.
   bool linearise(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
                  const std::array<JointLimits, kSegmentCount>& limits, bool hold_pose);
-  /// `weight` times what the frame says. Once after linearise(): the large part is let go.
-  void add_to(ScanEquations& equations, double weight = 1);
+  /// `weight` times what the frame says, but for explained().
+  void add_to(ScanEquations& equations, double weight = 1) const;
+  /// H_explained x: what the frame's pose takes of the shared unknowns' equations. H_explained is dense and never made.
+  Eigen::VectorXd explained(const Eigen::VectorXd& x) const;
+  /// Its block of the joints.
+  Eigen::MatrixXd explained_joints() const;
   /// The pose that is best once the shared unknowns have made `step`.
   HandPose moved(const HandPose& pose, const Eigen::VectorXd& step) const;
 
@@ -63,17 +73,14 @@ class ScanFrameEquations {
   void add_joints(const HandPose& pose, const ScanModel& model, const std::array<JointLimits, kSegmentCount>& limits,
                   GaussianTree& tree);
   void couple(const ScanModel& model, const ScanVariables& variables);
-  bool eliminate_pose(const GaussianTree& tree, bool hold_pose);
+  bool factorise_pose(const GaussianTree& tree, bool hold_pose);
 
   std::vector<VertexSums> sums_;
   std::array<JointSums, kSegmentCount> joints_;
   std::array<Eigen::Matrix<double, 6, 6>, kSegmentCount> joint_parent_, joint_child_;  // rows: twist; columns: unknowns
-  std::vector<int> columns_;  // shared unknowns that the frame touches
-  Eigen::MatrixXd coupling_;  // pose x columns_
+  Eigen::SparseMatrix<double> coupling_;                                               // pose x shared unknowns
   Eigen::LLT<Eigen::MatrixXd> pose_;
   Eigen::VectorXd g_pose_;
-  Eigen::MatrixXd explained_;    // what the pose takes of the columns' equations
-  Eigen::VectorXd g_explained_;  // and of their right side
   double squares_ = 0;
   int residuals_ = 0;
 };

@@ -54,9 +54,9 @@ class Prior {
       Eigen::Matrix<double, 3, 6> J;
       J << Matrix3d::Identity(), -model_.profile.rest_relative(s).R;
       const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
-      out_.H.block<6, 6>(first, first) += J.transpose() * J / sq(kBetweenBones);
+      out_.add(first, J.transpose() * J / sq(kBetweenBones));
       out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
-      if (hold) out_.H.diagonal().segment<6>(first).array() += kHeld;
+      if (hold) out_.add(first, kHeld * Eigen::Matrix<double, 6, 6>::Identity());
     }
   }
 
@@ -101,14 +101,14 @@ class Prior {
       J.col(k) << normal, (v.in_a.cast<double>() - centre).cross(normal) / kMeanLever;
       offset[k] = offset_[members[k]];
     }
-    J /= static_cast<double>(count);
-    const Eigen::MatrixXd H = J.transpose() * J / sq(kMeanOffset);
-    const Eigen::VectorXd g = H * offset;
+    J /= static_cast<double>(count) * kMeanOffset;
+    const Eigen::VectorXd g = J.transpose() * (J * offset);
     for (Eigen::Index k = 0; k < count; ++k) {
-      out_.g[variables_.offset(members[k])] -= g[k];
-      for (Eigen::Index l = 0; l <= k; ++l)
-        out_.add(variables_.offset(members[k]), variables_.offset(members[l]), H(k, l));
+      const int unknown = variables_.offset(members[k]);
+      out_.g[unknown] -= g[k];
+      for (int row = 0; row < 6; ++row) out_.means.emplace_back(out_.mean_rows + row, unknown, J(row, k));
     }
+    out_.mean_rows += 6;
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "math/angles.h"
 #include "stages/refinement/scan_prior.h"
+#include "stages/refinement/scan_system.h"
 
 namespace barehand {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr int kRounds = 8;
 constexpr int kSkinRounds = 2;              // first ones, in which the skin alone settles: it is farthest off
 constexpr double kFullScan = 46;            // frames: more or fewer of them say as much, as all err alike
-constexpr int kBatch = 8;                   // frames at a time: what one says of all unknowns is megabytes
-constexpr double kDamping = 1e-3;           // relative, Levenberg
 constexpr double kWidening = 20 * kDegree;  // of joint limits
 
 class Scan {
@@ -31,34 +30,26 @@ class Scan {
 
   /// Root mean square mismatch before the round; none: it cannot be solved.
   std::optional<double> round(bool skin_only) {
+    const int frames = static_cast<int>(frames_.size());
+    std::vector<char> fine(frames_.size());
+    workers_.for_each_index(
+        frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
+    if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
+    const double weight = kFullScan / frames;
     shared_.set_zero(variables_.count());
     add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared_);
-    const int frames = static_cast<int>(frames_.size());
-    std::array<bool, kBatch> fine{};
     double squares = 0;
     int residuals = 0;
-    for (int first = 0; first < frames; first += kBatch) {
-      const int batch = std::min(kBatch, frames - first);
-      workers_.for_each_index(batch, [&](int i) {
-        fine[i] = equations_[first + i].linearise(frames_[first + i], model_, variables_, limits_, skin_only);
-      });
-      for (int i = 0; i < batch; ++i) {
-        if (!fine[i]) return std::nullopt;
-        ScanFrameEquations& equations = equations_[first + i];
-        equations.add_to(shared_, kFullScan / frames);
-        squares += equations.squares();
-        residuals += equations.residuals();
-      }
+    for (const ScanFrameEquations& equations : equations_) {
+      equations.add_to(shared_, weight);
+      squares += equations.squares();
+      residuals += equations.residuals();
     }
     if (residuals == 0) return std::nullopt;
-    shared_.H.diagonal() *= 1 + kDamping;
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> solver(shared_.H);  // in place: it is large
-    if (solver.info() != Eigen::Success) return std::nullopt;
-    const Eigen::VectorXd step = solver.solve(shared_.g);
-    if (!step.allFinite()) return std::nullopt;
-    workers_.for_each_index(static_cast<int>(frames_.size()),
-                            [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, step); });
-    variables_.apply(step, model_);
+    const auto step = ScanSystem(shared_, equations_, weight, workers_).solve();
+    if (!step) return std::nullopt;
+    workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });
+    variables_.apply(*step, model_);
     return std::sqrt(squares / residuals);
   }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "hand/hand_shape.h"
+#include "stages/refinement/scan_prior.h"
+#include "stages/refinement/scan_system.h"
 #include "stages/refinement/skin_scan.h"
 #include "support/painted_hand.h"
 
@@ -106,19 +108,19 @@ class ScanEquationsTest : public ScanTest {
     const auto limits = widened_limits(*start_, 0.3);
     ScanEquations shared;
     shared.set_zero(variables.count());
-    shared.H.diagonal().array() += 1.0;
     const int joints = ScanVariables::kJoints, offsets = static_cast<int>(truth.skin.vertices.size());
-    auto held = shared.H.diagonal();  // all but one kind: an offset may hide what a share does
-    if (unknown != Unknown::joint) held.head(joints).array() += 1e12;
-    if (unknown != Unknown::offset) held.segment(joints, offsets).array() += 1e12;
-    if (unknown != Unknown::share) held.tail(variables.count() - joints - offsets).array() += 1e12;
+    for (int k = 0; k < variables.count(); ++k) {  // all but one kind is held: an offset may hide what a share does
+      const Unknown kind = k < joints ? Unknown::joint : (k < joints + offsets ? Unknown::offset : Unknown::share);
+      shared.add(k, k, kind == unknown ? 1.0 : 1e12);
+    }
+    std::vector<ScanFrameEquations> frames;
     for (const HandPose& pose : all_shown(*start_)) {
       const ScanFrame frame{test::observe_skin(truth.skin, pose), pose};
-      ScanFrameEquations equations;
-      EXPECT_TRUE(equations.linearise(frame, model, variables, limits, true));
-      equations.add_to(shared);
+      frames.emplace_back();
+      EXPECT_TRUE(frames.back().linearise(frame, model, variables, limits, true));
+      frames.back().add_to(shared);
     }
-    return shared.H.selfadjointView<Eigen::Lower>().llt().solve(shared.g);
+    return ScanSystem(shared, frames, 1, workers_).solve().value();
   }
 };
 
@@ -155,15 +157,15 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
   ScanModel model = truth;
   variables.apply(change, model);
   const HandPose pose = shown(*start_, 0, 0.1, 0.6, 0.1);
-  ScanFrameEquations equations;
-  ASSERT_TRUE(equations.linearise({test::observe_skin(truth.skin, pose), pose}, model, variables,
+  std::vector<ScanFrameEquations> frames(1);
+  ASSERT_TRUE(frames[0].linearise({test::observe_skin(truth.skin, pose), pose}, model, variables,
                                   widened_limits(*start_, 0.3), true));
   ScanEquations shared;
   shared.set_zero(variables.count());
-  equations.add_to(shared);
+  frames[0].add_to(shared);
   // The step along `change` that is best. A pixel counts for the vertex next to it, so that skin beside the changed one
   // makes it shorter than -1.
-  const Eigen::VectorXd H_change = shared.H.selfadjointView<Eigen::Lower>() * change;
+  const Eigen::VectorXd H_change = ScanSystem(shared, frames, 1, workers_).times(change);
   const double step = shared.g.dot(change) / change.dot(H_change);
   EXPECT_LT(step, -0.4);
   EXPECT_GT(step, -1.1);
@@ -184,6 +186,33 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
   EXPECT_NEAR(found_parent.y(), -in_parent.y(), 2e-5);
   EXPECT_NEAR(found.z(), -in_segment.z(), 2e-5);
   EXPECT_NEAR(found.y(), -in_segment.y(), 2e-5);
+}
+
+/// What the poses of frames explain is as if they were unknowns, too.
+TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
+  const double cell = 0.012;
+  const ScanModel start = make_scan_model(*start_, cell);
+  const ScanVariables variables(start);
+  const auto limits = widened_limits(*start_, 0.3);
+  const auto scan = scan_of(scaled(*start_, 1.03), *start_);
+  std::vector<ScanFrameEquations> frames(4);
+  ScanEquations shared;
+  shared.set_zero(variables.count());
+  add_scan_prior(start, start, variables, false, shared);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    ASSERT_TRUE(frames[i].linearise(scan[i], start, variables, limits, false));
+    frames[i].add_to(shared, 2);
+  }
+  const ScanSystem system(shared, frames, 2, workers_);
+  Eigen::MatrixXd matrix(variables.count(), variables.count());
+  for (int k = 0; k < variables.count(); ++k) matrix.col(k) = system.times(Eigen::VectorXd::Unit(variables.count(), k));
+  const double asymmetry = (matrix - matrix.transpose()).norm();
+  EXPECT_LT(asymmetry, 1e-9 * matrix.norm());
+  const Eigen::VectorXd exact = matrix.llt().solve(shared.g);
+  const auto solved = system.solve();
+  ASSERT_TRUE(solved);
+  ASSERT_GT(exact.norm(), 1e-3);
+  EXPECT_LT((*solved - exact).norm(), 1e-4 * exact.norm());
 }
 
 TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
