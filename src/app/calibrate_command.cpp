@@ -34,12 +34,14 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
+constexpr int kSettling = 60, kMostFrames = 64;  // tracked frames before the first that is kept; frames kept
+
 /// Keeps the hand as fitted last and frames to scan its skin from, and tells the person what to show next.
 class ScanSink : public Sink {
  public:
   struct Scan {
     ScanReport report;
-    ScanFrames frames;
+    ScanFrames frames{kSettling, kMostFrames};
     std::shared_ptr<const HandProfile> profile;  ///< null: no hand was tracked
   };
   explicit ScanSink(Scan& scan) : scan_(scan) {}
@@ -47,7 +49,7 @@ class ScanSink : public Sink {
   Result<void> consume(const TrackedFrame& tracked) override {
     const HandEstimate& hand = *tracked.estimates[0];
     scan_.report.add(hand);
-    scan_.frames.add(tracked.observations[0], hand);
+    if (hand.status == TrackStatus::tracking && scan_.frames.wants()) keep(tracked.observations[0], hand);
     if (hand.has_pose()) scan_.profile = hand.profile;
     advise();
     return {};
@@ -56,6 +58,12 @@ class ScanSink : public Sink {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
+
+  void keep(const HandObservationPtr& observation, const HandEstimate& hand) {
+    HandPose pose;
+    for (int s = 0; s < kSegmentCount; ++s) pose[s] = hand.segments[s].T_camera_segment;
+    scan_.frames.keep(observation, pose);
+  }
 
   void advise() {
     if (complete_ || Clock::now() < advised_ + kAdvise) return;
@@ -113,6 +121,7 @@ int run(const CalibrateOptions& o) {
   auto config = read_configuration(o.track.config);
   if (!config) return tell(config.error(), kExitUsage);
   config->tracker.shape_fit.enabled = true;
+  config->tracker.shape_fit.scans = 0;  // one of all that is shown is made at the end
   const auto hands = choose_hands({o.hand}, {});
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)

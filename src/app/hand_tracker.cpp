@@ -34,7 +34,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       ids_(ids) {
   if (!params_.shape_fit.enabled) return;
   if (model_->profile->origin == ProfileOrigin::mean)
-    person_.emplace(params_.shape_fit, model_->profile);
+    start_person(model_->profile);
   else
     size_check_.emplace(params_.refinement, model_->profile, model_->skin);
 }
@@ -47,10 +47,13 @@ void HandTracker::reset() {
   requested_start_.reset();
   search_frames_ = 0;
   usual_score_.reset();
-  if (!person_) return;
-  // Whoever comes next may be somebody else.
+  if (person_) forget_person();  // whoever comes next may be somebody else
+}
+
+void HandTracker::forget_person() {
   const auto mean = person_->mean();
-  person_.emplace(params_.shape_fit, mean);
+  start_person(mean);
+  size_check_.reset();
   model_ = std::make_unique<HandModel>(params_, mean, workers_, log_);
 }
 
@@ -70,6 +73,7 @@ void HandTracker::change(const TrackerParams& params) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
+  use_scan();
   if (requested_start_) {
     motion_.restart(*requested_start_, observation.frame->utime);
     loss_.start_tracking();
@@ -84,6 +88,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation, std::optional<Fit> found) {
+  use_scan();
   ++search_frames_;
   TrackEvidence seen = evidence(observation);
   if (!found) seen.hand_pixels = 0;
@@ -139,7 +144,7 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
     search_frames_ = 0;
     uncross(observation, *fit);
     const bool doubt = doubtful(fit->refined.score);  // asked always: it learns what is usual
-    if (unconfirmed_)  // thoroughly: a quick search may be wrong once more
+    if (unconfirmed_)                                 // thoroughly: a quick search may be wrong once more
       found = search_once(observation, Effort::full, 0);
     else if (doubt)
       found = search_doubtful(observation, fit->refined.pose);
@@ -216,14 +221,38 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
 void HandTracker::greet_new_hand() {
   hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first;
   doubtful_frames_ = 0;
+  if (scan_) scan_->restart();
+  if (person_ && model_->profile->scanned_skin) size_check_.emplace(params_.refinement, model_->profile, model_->skin);
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
   const auto size = size_check_->look(observation, refined.pose, refined.score);
-  if (size) log_->warn("{}", other_size(*size, *model_->profile));
+  if (!size) return;
+  if (!person_) return log_->warn("{}", other_size(*size, *model_->profile));
+  log_->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
+  forget_person();
+}
+
+void HandTracker::start_person(std::shared_ptr<const HandProfile> mean) {
+  scan_ = std::make_unique<PersonScan>(params_, mean, workers_);
+  person_.emplace(params_.shape_fit, std::move(mean));
+}
+
+void HandTracker::use_scan() {
+  if (!scan_) return;
+  try {
+    const auto hand = scan_->take();
+    if (!hand) return;
+    model_ = std::make_unique<HandModel>(params_, hand, hand->scanned_skin, model_->initialiser, workers_, log_);
+    log_->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
+  } catch (const std::exception& e) {  // most likely memory: the hand as it is does, too
+    log_->warn("the hand could not be scanned: {}", e.what());
+  }
 }
 
 void HandTracker::fit_person(const HandObservation& observation, const HandPose& pose) {
+  scan_->add(observation, pose);
+  if (model_->profile->scanned_skin) return;
   const PersonFit::Change change = person_->look(observation, pose, model_->refinement, model_->skin);
   if (change == PersonFit::Change::large) {
     model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);

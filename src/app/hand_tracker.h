@@ -5,6 +5,7 @@
 
 #include "app/hand_model.h"
 #include "app/person_fit.h"
+#include "app/person_scan.h"
 #include "app/size_check.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
@@ -87,7 +88,10 @@ class HandTracker {
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);
   void check_size(const HandObservation& observation, const RefinedPose& refined);
+  void forget_person();
+  void start_person(std::shared_ptr<const HandProfile> mean);
   void fit_person(const HandObservation& observation, const HandPose& pose);
+  void use_scan();
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_segments(HandEstimate& out, const Fit& fit);
   void fill_held(HandEstimate& out, double held_s) const;
@@ -99,7 +103,8 @@ class HandTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<HandModel> model_;
-  std::optional<PersonFit> person_;      // while a mean hand is fitted
+  std::optional<PersonFit> person_;      // if a mean hand is fitted
+  std::unique_ptr<PersonScan> scan_;     // and scanned
   std::optional<SizeCheck> size_check_;  // of a profile that is used as it is
   MotionModel motion_;
   LossDetector loss_;

@@ -1,14 +1,14 @@
 #include "app/scan_frames.h"
 
+#include <utility>
+
 namespace barehand {
 
-void ScanFrames::add(const HandObservationPtr& observation, const HandEstimate& estimate) {
-  if (estimate.status != TrackStatus::tracking || tracked_++ < kSettling) return;
-  if ((tracked_ - kSettling - 1) % every_ != 0) return;
-  ScanFrame frame{observation, {}};
-  for (int s = 0; s < kSegmentCount; ++s) frame.pose[s] = estimate.segments[s].T_camera_segment;
-  frames_.push_back(std::move(frame));
-  if (static_cast<int>(frames_.size()) <= kMost) return;
+bool ScanFrames::wants() { return tracked_++ >= settling_ && (tracked_ - settling_ - 1) % every_ == 0; }
+
+void ScanFrames::keep(HandObservationPtr observation, const HandPose& pose) {
+  frames_.push_back({std::move(observation), pose});
+  if (static_cast<int>(frames_.size()) <= most_) return;
   for (std::size_t i = 0; 2 * i < frames_.size(); ++i) frames_[i] = frames_[2 * i];
   frames_.resize((frames_.size() + 1) / 2);
   every_ *= 2;

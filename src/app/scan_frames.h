@@ -10,15 +10,19 @@ namespace barehand {
 /// when the hand is not yet known well enough to be followed closely.
 class ScanFrames {
  public:
-  static constexpr int kMost = 64;
-  static constexpr int kFewest = 24;    ///< fewer say too little about a skin
-  static constexpr int kSettling = 60;  ///< tracked frames at the beginning
+  static constexpr int kFewest = 24;  ///< fewer say too little about a skin
 
-  /// Frames in which the hand is not tracked do not count.
-  void add(const HandObservationPtr& observation, const HandEstimate& estimate);
+  /// `settling`: tracked frames at the beginning; `most`: frames to keep.
+  ScanFrames(int settling, int most) : settling_(settling), most_(most) {}
+
+  /// Counts a tracked frame; whether it is to be kept.
+  bool wants();
+  void keep(HandObservationPtr observation, const HandPose& pose);
   const std::vector<ScanFrame>& frames() const { return frames_; }
+  int tracked() const { return tracked_; }
 
  private:
+  int settling_, most_;
   std::vector<ScanFrame> frames_;
   int tracked_ = 0, every_ = 1;
 };

@@ -112,6 +112,7 @@ Step TrackRun::open_input() {
   auto input = connect([&] { return open_source(request, clock_); }, from_network);
   if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
   input_ = std::move(*input);
+  if (input_.source->live()) workers_->go_live();
   if (input_.warning) log_.logger().warn(*input_.warning);
   return {};
 }

@@ -1,6 +1,8 @@
 #include "core/parallel.h"
 
 #include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -56,6 +58,11 @@ void Workers::run(int n, Call call) {
     throw;
   }
   settle();
+}
+
+void Workers::give_way() {
+  constexpr int kLast = 19;  // nice value, which Linux keeps for every thread
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLast);
 }
 
 Result<std::unique_ptr<Workers>> make_workers(int threads) {

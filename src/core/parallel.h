@@ -1,7 +1,9 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -30,6 +32,24 @@ class Workers {
   }
   int threads() const { return threads_; }
 
+  /// Work of seconds that no frame needs at once: fn(Workers&), which may outlive this call but not `*this`. A
+  /// recording waits for it, so that it gives the same on every machine: it is done before this returns. After
+  /// go_live() it is done meanwhile, on what the cores have to spare. What fn throws is thrown by get().
+  template <typename Fn>
+  auto aside(Fn fn) -> std::future<std::invoke_result_t<Fn&, Workers&>> {
+    if (live_)
+      return std::async(std::launch::async, [fn = std::move(fn)]() mutable {
+        give_way();
+        Workers alone(1);
+        return fn(alone);
+      });
+    auto done = std::async(std::launch::deferred, [this, fn = std::move(fn)]() mutable { return fn(*this); });
+    done.wait();
+    return done;
+  }
+  /// From now on frames come by themselves and nothing may hold them up.
+  void go_live() { live_ = true; }
+
  private:
   /// A function that someone else owns: std::function would allocate for most lambdas.
   struct Call {
@@ -38,8 +58,11 @@ class Workers {
     void operator()(int i) const { function(self, i); }
   };
   void run(int n, Call call);
+  /// The calling thread runs only while no other one wants its core.
+  static void give_way();
 
   int threads_;
+  bool live_ = false;
   std::unique_ptr<TbbArena> arena_;  ///< none for one thread
 };
 

@@ -209,7 +209,7 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   const auto tree = check_parents(parents, path);
   if (!tree) return tl::unexpected(tree.error());
   if (json.contains("skin")) {
-    if (profile.origin != ProfileOrigin::measured)
+    if (profile.origin == ProfileOrigin::mean)
       return fail("\"skin\" stands beside \"mean_hand\"", path, "a scanned hand is nobody else's: remove one");
     auto skin = skin_from_json(json.at("skin"), path + ": skin");
     if (!skin) return tl::unexpected(skin.error());

@@ -15,6 +15,8 @@ struct ShapeFitParams {
   double memory = 1.5;        ///< how far back, of all looks so far: old ones were taken with a worse hand
   double memory_looks = 200;  ///< but never further back than so many
   int first_rebuild = 8;      ///< looks before a skin is made anew; then after twice, four times ... as many
+  int scan_after = 60;  ///< frames before the skin is scanned (scan_hand); then after twice, four times ... as many
+  int scans = 3;        ///< so often; 0: never
 };
 
 template <class V>
@@ -27,6 +29,8 @@ void visit(V& v, ShapeFitParams& p) {
   v("memory", p.memory, 0.01, 10.0, "part of all looks so far that counts: old ones were taken with a worse hand");
   v("memory_looks", p.memory_looks, 1.0, 1e6, "looks, never more count");
   v("first_rebuild", p.first_rebuild, 1, 100000, "looks before a new skin is made, then twice as many each time");
+  v("scan_after", p.scan_after, 32, 100000, "tracked frames before the skin is scanned, then twice as many each time");
+  v("scans", p.scans, 0, 10, "how often the skin is scanned, 0: never");
 }
 
 /// Collects what frames say about a person's hand, each at its own best pose and with that pose's uncertainty

@@ -70,11 +70,13 @@ class Scan {
 }  // namespace
 
 std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std::vector<ScanFrame> frames,
-                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress) {
+                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress,
+                                     const std::stop_token& stop) {
   if (frames.empty()) return std::nullopt;
   Scan scan(start, cell, std::move(frames), workers);
   double first = 0, last = 0;
   for (int round = 0; round < kRounds; ++round) {
+    if (stop.stop_requested()) return std::nullopt;
     const auto mismatch = scan.round(round < kSkinRounds);
     if (!mismatch) return std::nullopt;
     last = *mismatch;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/parallel.h"
@@ -18,8 +19,9 @@ struct ScanProgress {
 /// vertex of the skin stands out, and how skin near joints follows their two bones, all at once. `start`: the hand as
 /// fitted while it was tracked, or a measured one, whose joints stay; `cell` [m]: size of the skin's triangles. Same
 /// frames, same hand, whatever the number of threads. None: there are no frames, their equations cannot be solved, or
-/// the hand explains them worse than before. Takes seconds a round.
+/// the hand explains them worse than before, or it is to stop. Takes half a second a round.
 std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std::vector<ScanFrame> frames,
-                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress = {});
+                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress = {},
+                                     const std::stop_token& stop = {});
 
 }  // namespace barehand

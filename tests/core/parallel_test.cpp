@@ -1,6 +1,8 @@
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <stdexcept>
 #include <thread>
@@ -54,6 +56,46 @@ TEST(Workers, ExceptionReachesTheCaller) {
     Workers workers(threads);
     EXPECT_THROW(workers.for_each_index(9, [](int i) { i == 5 ? throw std::runtime_error("five") : void(); }),
                  std::runtime_error);
+  }
+}
+
+TEST(Workers, DoAsideBeforeTheyReturnWhereNothingIsLive) {
+  for (const int threads : {1, 3}) {
+    Workers workers(threads);
+    std::thread::id where;
+    int cores = 0;
+    auto result = workers.aside([&](Workers& w) {
+      where = std::this_thread::get_id();
+      cores = w.threads();
+      return 7;
+    });
+    EXPECT_EQ(where, std::this_thread::get_id());
+    EXPECT_EQ(cores, threads);
+    ASSERT_EQ(result.wait_for(std::chrono::seconds(0)), std::future_status::ready);
+    EXPECT_EQ(result.get(), 7);
+  }
+}
+
+TEST(Workers, DoAsideMeanwhileAndGiveWayWhereFramesComeByThemselves) {
+  Workers workers(2);
+  workers.go_live();
+  std::promise<void> returned;
+  auto result = workers.aside([&](Workers& alone) {
+    returned.get_future().wait();  // would never end if aside() waited for this
+    EXPECT_EQ(alone.threads(), 1);
+    return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
+  });
+  returned.set_value();
+  EXPECT_EQ(result.get(), 19);
+  EXPECT_LT(getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())), 19);
+}
+
+TEST(Workers, WhatIsDoneAsideThrowsWhereItIsAskedFor) {
+  for (const bool live : {false, true}) {
+    Workers workers(1);
+    if (live) workers.go_live();
+    auto result = workers.aside([](Workers&) -> int { throw std::runtime_error("no"); });
+    EXPECT_THROW(result.get(), std::runtime_error) << live;
   }
 }
 

@@ -1,0 +1,114 @@
+#include "app/person_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "hand/hand_shape.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+/// A person with larger and thicker fingers than the mean hand, who turns and bends the hand.
+class PersonScanTest : public ::testing::Test {
+ protected:
+  PersonScanTest() {
+    params_.skin_cell = 0.008;  // m: few unknowns
+    params_.shape_fit.scan_after = 60;
+    params_.shape_fit.scans = 2;
+  }
+  static HandShape shape_of_the_person() {
+    HandShape shape = HandShape::Zero();
+    shape[0] = 0.05;
+    for (int k = 0; k < kShapeCount; ++k)
+      if (shape_parameters()[k].name == "fingers_thickness") shape[k] = 0.1;
+    return shape;
+  }
+  void show(PersonScan& scan, int frames) {
+    for (int i = 0; i < frames; ++i, ++shown_) {
+      const HandPose facing = test::facing_pose(person_, 0.45, 0.15 + 0.1 * (shown_ % 8));
+      const HandPose pose =
+          test::turned(facing, {0.4 * std::sin(shown_), 0.5 * std::cos(0.7 * shown_), 0}, facing[kPalm].t);
+      scan.add(*test::observe_skin(persons_skin_, pose), pose);
+    }
+  }
+  static std::shared_ptr<const HandProfile> wait_for(PersonScan& scan) {
+    for (int i = 0; i < 60000; ++i) {
+      if (auto hand = scan.take()) return hand;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return nullptr;
+  }
+
+  TrackerParams params_;
+  const std::shared_ptr<const HandProfile> mean_ = test::adult_hand();
+  const HandProfile person_ = reshaped(*mean_, shape_of_the_person());
+  const Skin persons_skin_ = make_blended_skin(person_, 0.004);
+  Workers workers_{2};
+  int shown_ = 0;
+};
+
+TEST_F(PersonScanTest, ARecordingHasTheHandAtOnce) {
+  PersonScan scan(params_, mean_, workers_);
+  show(scan, params_.shape_fit.scan_after - 1);
+  EXPECT_FALSE(scan.take());
+  show(scan, 1);
+  const auto hand = scan.take();
+  ASSERT_TRUE(hand);
+  EXPECT_FALSE(scan.take());
+  EXPECT_TRUE(hand->scanned_skin);
+  EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
+  const double error = std::abs(hand->hand_length() - person_.hand_length());
+  EXPECT_LT(error, 0.5 * std::abs(mean_->hand_length() - person_.hand_length()));
+}
+
+TEST_F(PersonScanTest, ScansAsOftenAsItIsTold) {
+  PersonScan scan(params_, mean_, workers_);
+  show(scan, params_.shape_fit.scan_after);
+  EXPECT_TRUE(scan.take());
+  show(scan, params_.shape_fit.scan_after - 1);
+  EXPECT_FALSE(scan.take());
+  show(scan, 1);
+  EXPECT_TRUE(scan.take());
+  show(scan, 4 * params_.shape_fit.scan_after);
+  EXPECT_FALSE(scan.take());
+}
+
+TEST_F(PersonScanTest, AnotherHandIsScannedAfterAsMuchAsTheLastScanSaw) {
+  PersonScan scan(params_, mean_, workers_);
+  show(scan, 2 * params_.shape_fit.scan_after);
+  EXPECT_TRUE(scan.take());
+  scan.restart();
+  show(scan, 2 * params_.shape_fit.scan_after - 1);
+  EXPECT_FALSE(scan.take());
+  show(scan, 1);
+  EXPECT_TRUE(scan.take());
+}
+
+TEST_F(PersonScanTest, ALiveHandIsScannedMeanwhileAndAlike) {
+  PersonScan waiting(params_, mean_, workers_);
+  show(waiting, params_.shape_fit.scan_after);
+  const auto expected = waiting.take();
+  Workers live(2);
+  live.go_live();
+  shown_ = 0;
+  PersonScan scan(params_, mean_, live);
+  show(scan, params_.shape_fit.scan_after);
+  const auto hand = wait_for(scan);
+  ASSERT_TRUE(expected && hand);
+  for (std::size_t i = 0; i < hand->scanned_skin->vertices.size(); ++i)
+    ASSERT_EQ(hand->scanned_skin->vertices[i].in_a, expected->scanned_skin->vertices[i].in_a);
+}
+
+TEST_F(PersonScanTest, EndsWhileAScanIsUnderWay) {
+  Workers live(2);
+  live.go_live();
+  auto scan = std::make_unique<PersonScan>(params_, mean_, live);
+  show(*scan, params_.shape_fit.scan_after);
+  scan.reset();
+}
+
+}  // namespace
+}  // namespace barehand
