@@ -96,6 +96,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);
   if (!workers) return tl::unexpected(workers.error());
+  (*workers)->go_live();  // a scan of a mean hand takes what tracking leaves, as beside a sensor
   auto opened = LcmBus::open(conditions.lcm_url);
   if (!opened) return tl::unexpected(opened.error());
   const std::shared_ptr<LcmBus> bus = std::move(*opened);
