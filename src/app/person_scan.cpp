@@ -8,7 +8,7 @@ namespace barehand {
 namespace {
 
 constexpr int kSettling = 8, kMost = 32;  // frames before the first that is kept, and frames kept
-constexpr int kPasses = 2;                // over all frames, while the mean hand is fitted to them
+constexpr int kPasses = 4;                // over all frames, while the mean hand is fitted to them
 constexpr int kIterations = 8;            // of a pose
 
 /// Fits the mean hand to frames, and poses to the hand.

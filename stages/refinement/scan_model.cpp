@@ -54,14 +54,6 @@ TipGrowth growth_of_tip(const Skin& before, const Skin& now, int segment, const 
   return {end / end_weight, sides / side_weight};
 }
 
-// No frame tells where the wrist lies: it keeps its distance to the knuckles of the fingers.
-Vector3d wrist_moved(const ScanModel& before, const ScanModel& now) {
-  double along = 0;
-  for (int f = 1; f < kFingerCount; ++f)
-    along += (now.in_parent[segment_of(f, 0)] - before.in_parent[segment_of(f, 0)]).z() / (kFingerCount - 1);
-  return {0, 0, along};
-}
-
 // In a profile's skin the first segment of a vertex is the one with the larger share.
 void put_in_order(SkinVertex& v) {
   if (v.weight_b > 0.5f) {
@@ -117,18 +109,16 @@ void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
 }
 
 HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model) {
-  std::array<Vector3d, kSegmentCount> origin = model.in_segment;  // of the new frames in the old ones
-  origin[kPalm] = wrist_moved(start_model, model);
   HandProfile hand = model.profile;
   hand.origin = ProfileOrigin::measured;
   for (int s = 1; s < kSegmentCount; ++s) {
     const int parent = parent_of(s);
-    const SE3 joint{model.profile.rest_relative(s).R, model.in_parent[s] - origin[parent]};
+    const SE3 joint{model.profile.rest_relative(s).R, model.in_parent[s] - model.in_segment[parent]};
     hand.segments[s].T_hand_segment = hand.segments[parent].T_hand_segment * joint;
   }
   for (int s = 0; s < kSegmentCount; ++s) {
     SegmentProfile& bone = hand.segments[s];
-    const Vector3d& start = origin[s];
+    const Vector3d& start = model.in_segment[s];
     Vector3d end = bone.distal;
     if (s == kPalm) {
       end = model.in_parent[segment_of(2, 0)];
@@ -152,8 +142,8 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
   }
   Skin skin = model.skin;
   for (SkinVertex& v : skin.vertices) {
-    v.in_a -= origin[v.a].cast<float>();
-    v.in_b -= origin[v.b].cast<float>();
+    v.in_a -= model.in_segment[v.a].cast<float>();
+    v.in_b -= model.in_segment[v.b].cast<float>();
     put_in_order(v);
   }
   compute_normals(hand, skin);

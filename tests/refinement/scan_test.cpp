@@ -94,17 +94,6 @@ TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
   for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT((before[i] - after[i]).norm(), 1e-5f) << i;
 }
 
-TEST_F(ScanTest, TheWristKeepsItsDistanceToTheKnuckles) {
-  ScanModel model = make_scan_model(*start_, kCell);
-  for (int finger = 1; finger < kFingerCount; ++finger) model.in_parent[segment_of(finger, 0)].z() -= 0.002;
-  const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
-  EXPECT_NEAR(hand.segments[kPalm].length, start_->segments[kPalm].length, 1e-9);
-  const Vector3d thumb = hand.rest_relative(segment_of(0, 0)).t - start_->rest_relative(segment_of(0, 0)).t;
-  EXPECT_NEAR(thumb.z(), 0.002, 1e-9);  // nearer to the wrist, which moved
-  EXPECT_NEAR(hand.scanned_skin->vertices[0].in_a.z() - model.skin.vertices[0].in_a.z(),
-              hand.scanned_skin->vertices[0].a == kPalm ? 0.002 : 0, 1e-6);
-}
-
 /// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
 /// is found back in one step.
 class ScanEquationsTest : public ScanTest {
