@@ -49,7 +49,7 @@ class ScanSink : public Sink {
   Result<void> consume(const TrackedFrame& tracked) override {
     const HandEstimate& hand = *tracked.estimates[0];
     scan_.report.add(hand);
-    if (hand.status == TrackStatus::tracking && scan_.frames.wants()) keep(tracked.observations[0], hand);
+    scan_.frames.add(tracked.observations[0], hand);
     if (hand.has_pose()) scan_.profile = hand.profile;
     advise();
     return {};
@@ -58,12 +58,6 @@ class ScanSink : public Sink {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
-
-  void keep(const HandObservationPtr& observation, const HandEstimate& hand) {
-    HandPose pose;
-    for (int s = 0; s < kSegmentCount; ++s) pose[s] = hand.segments[s].T_camera_segment;
-    scan_.frames.keep(observation, pose);
-  }
 
   void advise() {
     if (complete_ || Clock::now() < advised_ + kAdvise) return;

@@ -73,7 +73,6 @@ void HandTracker::change(const TrackerParams& params) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
-  use_scan();
   if (requested_start_) {
     motion_.restart(*requested_start_, observation.frame->utime);
     loss_.start_tracking();
@@ -88,7 +87,6 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation, std::optional<Fit> found) {
-  use_scan();
   ++search_frames_;
   TrackEvidence seen = evidence(observation);
   if (!found) seen.hand_pixels = 0;
@@ -134,7 +132,9 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
     usual_score_.reset();
     last_good_.reset();
   }
-  return estimate(observation, fit);
+  HandEstimatePtr result = estimate(observation, fit);
+  use_scan();  // between two frames: what a search found in a frame was found with the hand it is judged with
+  return result;
 }
 
 std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& observation, double bad_score) {

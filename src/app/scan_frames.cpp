@@ -14,4 +14,8 @@ void ScanFrames::keep(HandObservationPtr observation, const HandPose& pose) {
   every_ *= 2;
 }
 
+void ScanFrames::add(const HandObservationPtr& observation, const HandEstimate& estimate) {
+  if (estimate.status == TrackStatus::tracking && wants()) keep(observation, pose_of(estimate.segments));
+}
+
 }  // namespace barehand

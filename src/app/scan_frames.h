@@ -18,6 +18,8 @@ class ScanFrames {
   /// Counts a tracked frame; whether it is to be kept.
   bool wants();
   void keep(HandObservationPtr observation, const HandPose& pose);
+  /// Both. A frame in which the hand is not tracked does not count.
+  void add(const HandObservationPtr& observation, const HandEstimate& estimate);
   const std::vector<ScanFrame>& frames() const { return frames_; }
   int tracked() const { return tracked_; }
 

@@ -14,8 +14,7 @@ constexpr double kFacing = 0.5;  // cosine between line of sight and a side's no
 
 void ScanReport::add(const HandEstimate& estimate) {
   if (estimate.status != TrackStatus::tracking) return;
-  HandPose pose;
-  for (int s = 0; s < kSegmentCount; ++s) pose[s] = estimate.segments[s].T_camera_segment;
+  const HandPose pose = pose_of(estimate.segments);
   for (int s = 0; s < kSegmentCount; ++s) {
     ScannedSegment& segment = segments_[s];
     if (!estimate.segments[s].seen) continue;

@@ -28,6 +28,12 @@ struct SegmentState {
   bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
 };
 
+inline HandPose pose_of(const std::array<SegmentState, kSegmentCount>& segments) {
+  HandPose pose;
+  for (int s = 0; s < kSegmentCount; ++s) pose[s] = segments[s].T_camera_segment;
+  return pose;
+}
+
 /// Result of one frame: what the publish stage, result tables and overlays consume. Immutable once shared.
 struct HandEstimate {
   std::int64_t utime = 0;

@@ -40,7 +40,7 @@ struct HandProfile {
   Handedness handedness = Handedness::right;
   ProfileOrigin origin = ProfileOrigin::measured;
   std::array<SegmentProfile, kSegmentCount> segments;
-  std::shared_ptr<const Skin> scanned_skin;  ///< of `barehand calibrate`; null: the sections of the segments say it
+  std::shared_ptr<const Skin> scanned_skin;  ///< of a scan; null: the sections of the segments say it
 
   /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.
   SE3 rest_relative(int segment) const;

@@ -165,7 +165,7 @@ HandMessages HandMessageMaker::process(const HandEstimate& estimate) {
   FrameState frame{estimate, track, profile_.get(), {}, {}};
   if (track.has_pose) {
     assert(profile_ && "an estimate with a pose has a profile");
-    for (int s = 0; s < kSegmentCount; ++s) frame.raw[s] = track.segments[s].T_camera_segment;
+    frame.raw = pose_of(track.segments);
     frame.smoothed = smoother_.smooth(frame.raw, estimate.utime, params_.smoothing);
   } else {
     smoother_.reset();

@@ -36,17 +36,18 @@ class Scan {
         frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
     const double weight = kFullScan / frames;
-    shared_.set_zero(variables_.count());
-    add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared_);
+    ScanEquations shared;
+    shared.set_zero(variables_.count());
+    add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared);
     double squares = 0;
     int residuals = 0;
     for (const ScanFrameEquations& equations : equations_) {
-      equations.add_to(shared_, weight);
+      equations.add_to(shared, weight);
       squares += equations.squares();
       residuals += equations.residuals();
     }
     if (residuals == 0) return std::nullopt;
-    const auto step = ScanSystem(shared_, equations_, weight, workers_).solve();
+    const auto step = ScanSystem(shared, equations_, weight, workers_).solve();
     if (!step) return std::nullopt;
     workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });
     variables_.apply(*step, model_);
@@ -63,7 +64,6 @@ class Scan {
   const bool joints_are_known_;
   std::vector<ScanFrame> frames_;
   std::vector<ScanFrameEquations> equations_;
-  ScanEquations shared_;
   Workers& workers_;
 };
 

@@ -9,12 +9,13 @@ class ScanFramesTest : public ::testing::Test {
  protected:
   static constexpr int kSettling = 60, kMost = 64;
 
-  void show(int frames) {
-    for (int i = 0; i < frames; ++i, ++shown_) {
-      if (!frames_.wants()) continue;
-      HandPose pose;
-      pose[kPalm].t.z() = shown_;
-      frames_.keep(std::make_shared<HandObservation>(), pose);
+  void show(int frames, TrackStatus status = TrackStatus::tracking) {
+    for (int i = 0; i < frames; ++i) {
+      HandEstimate estimate;
+      estimate.status = status;
+      estimate.segments[kPalm].T_camera_segment.t.z() = shown_;
+      frames_.add(std::make_shared<HandObservation>(), estimate);
+      if (status == TrackStatus::tracking) ++shown_;
     }
   }
   std::vector<int> kept() const {
@@ -27,9 +28,12 @@ class ScanFramesTest : public ::testing::Test {
   int shown_ = 0;  // tracked frames
 };
 
-TEST_F(ScanFramesTest, LeavesOutTheBeginning) {
-  show(kSettling);
+TEST_F(ScanFramesTest, LeavesOutTheBeginningAndWhatIsNotTracked) {
+  show(kSettling - 1);
+  show(50, TrackStatus::lost);
+  show(1);
   EXPECT_TRUE(kept().empty());
+  show(10, TrackStatus::holding);
   show(2);
   EXPECT_EQ(kept(), (std::vector<int>{kSettling, kSettling + 1}));
   EXPECT_EQ(frames_.tracked(), kSettling + 2);

@@ -57,8 +57,7 @@ TEST_F(HandMessagesTest, ALeftHandSaysSo) {
 TEST_F(HandMessagesTest, SegmentsCarryTheEstimate) {
   const HandEstimate e = estimate(3);
   const HandMessages messages = maker_.process(e);
-  HandPose pose;
-  for (int s = 0; s < kSegmentCount; ++s) pose[s] = e.segments[s].T_camera_segment;
+  const HandPose pose = pose_of(e.segments);
   for (int s = 0; s < kSegmentCount; ++s) {
     const segment_state_t& m = messages.state.segments[s];
     const Eigen::Vector3d distal = distal_end(profile_, pose, s);
