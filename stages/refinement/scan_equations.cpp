@@ -14,15 +14,18 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 // Deviations of single residuals. A frame has thousands of them, which err alike.
-constexpr double kSigmaDepth = 0.00045;        // m, of a surface distance
+constexpr double kSigmaSkin = 0.00045;         // m, of a surface distance, as far as the skin errs
+constexpr double kSigmaNoise = 2;              // and as far as the sensor does, in its noise
 constexpr double kSigmaGap = 0.00011;          // m, of a joint (Eq. 5)
-constexpr double kSigmaAngle = 1.8 * kDegree;  // beyond the limits, and twist (Eq. 6)
+constexpr double kSigmaAngle = 0.6 * kDegree;  // beyond the limits, and twist (Eq. 6)
 constexpr double kSigmaTurn = 4.5 * kDegree;   // of one step of a joint, so that a hidden one stays
-constexpr float kRobustScale = 0.004f;         // m, Geman-McClure
-constexpr float kGate = 0.012f;                // m, larger distances are something else
-constexpr float kFacing = 0.3f;                // cosine: skin that turns away is not measured well
-constexpr double kDamping = 1e-3;              // relative, Levenberg
-constexpr double kLongestStep = 0.010;         // m
+constexpr double kRobustSkin = 0.001;          // m, scale of Geman-McClure, as the deviation
+constexpr double kRobustNoise = 2;
+constexpr double kFolds = 10;           // how much less skin says that follows two bones
+constexpr float kGate = 0.012f;         // m, larger distances are something else
+constexpr float kFacing = 0.3f;         // cosine: skin that turns away is not measured well
+constexpr double kDamping = 1e-3;       // relative, Levenberg
+constexpr double kLongestStep = 0.010;  // m
 constexpr double kLargestTurn = 17 * kDegree;
 
 double sq(double x) { return x * x; }
@@ -75,14 +78,17 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
   sums_.clear();
   squares_ = 0;
   residuals_ = 0;
+  const double sigma_sq = sq(kSigmaSkin) + sq(kSigmaNoise * observation.noise);
+  const double robust_sq = sq(kRobustSkin) + sq(kRobustNoise * observation.noise);
   ResidualMoments poses(frame.pose);
   for (const Correspondence& c : comparison.correspondences) {
     const float r = c.normal.dot(c.model - c.data);
     if (c.kind != Correspondence::Kind::surface || std::abs(r) > kGate) continue;
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
-    const double robust = sq(kRobustScale) / (sq(kRobustScale) + sq(r));
-    const double w = c.weight / sq(kSigmaDepth) * sq(robust);
+    // Near joints skin folds and bulges, in the same way in all frames: it would draw joints away from their places.
+    const double shared = std::min(v.weight_b, 1 - v.weight_b);
+    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / (1 + sq(kFolds * shared));
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
     squares_ += sq(r);
     ++residuals_;

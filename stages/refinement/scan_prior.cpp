@@ -6,28 +6,22 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// People differ by ten times as much. But what is left in the images, a fifth of a millimetre, comes from how real skin
-// moves and errs alike in all frames, while the equations count it as if it were independent: left to these alone,
-// joints drift by 2 mm from their true places.
-constexpr double kAcrossBone = 0.0001;  // m, of a joint
-constexpr double kAlongBone = 0.0005;
-constexpr double kThumbRoot = 0.0005;  // in every direction: it lies deep in flesh
-constexpr double kBetweenBones = 0.0005;
+constexpr double kAcrossBone = 0.001;  // m, of a joint
+constexpr double kAlongBone = 0.003;   // and of the thumb's root, which lies deep in flesh, in every direction
+constexpr double kBetweenBones = 0.001;
 
 constexpr double kOffset = 0.1;          // m, of a vertex: only so that unseen ones have a place
-constexpr double kSmoothOffset = 0.004;  // m, difference along an edge
-constexpr double kMeanOffset = 0.00005;  // m, of a segment's skin as a whole
+constexpr double kSmoothOffset = 0.002;  // m, difference along an edge
+constexpr double kMeanOffset = 0.0001;   // m, of a segment's skin as a whole
 constexpr double kMeanLever = 0.02;      // m, at which its turn counts as much
-constexpr double kSmoothShare = 0.1;     // difference along an edge
+constexpr double kSmoothShare = 1;       // difference along an edge
 
 double sq(double x) { return x * x; }
 
-// How freely the share of a vertex may change: least at the hinges of fingers, most in the flesh of the palm.
+// How freely the share of a vertex may change: less at the hinges of fingers than in the flesh of the palm.
 double share_deviation(const SkinVertex& v) {
   const int thumb_root = segment_of(0, 0);
-  const bool fleshy = v.a == kPalm || v.b == kPalm || v.a == thumb_root || v.b == thumb_root;
-  if (!fleshy) return 0.15;
-  return v.a == kPalm || v.weight_b > 0 ? 1.0 : 0.3;
+  return v.a == kPalm || v.b == kPalm || v.a == thumb_root || v.b == thumb_root ? 1.0 : 0.5;
 }
 
 class Prior {
@@ -46,7 +40,7 @@ class Prior {
       const Vector3d in_parent = model_.in_parent[s] - start_.in_parent[s];
       const Vector3d in_segment = model_.in_segment[s] - start_.in_segment[s];
       for (int axis = 0; axis < 3; ++axis) {
-        const double deviation = s == segment_of(0, 0) ? kThumbRoot : (axis == 2 ? kAlongBone : kAcrossBone);
+        const double deviation = s == segment_of(0, 0) || axis == 2 ? kAlongBone : kAcrossBone;
         add_one(first + axis, in_parent[axis], deviation);
         add_one(first + 3 + axis, in_segment[axis], deviation);
       }

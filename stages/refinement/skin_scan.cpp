@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kRounds = 16;
 constexpr int kSkinRounds = 2;              // first ones, in which the skin alone settles: it is farthest off
 constexpr double kFullScan = 46;            // frames: more or fewer of them say as much, as all err alike
 constexpr double kWidening = 20 * kDegree;  // of joint limits

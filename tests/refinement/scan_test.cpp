@@ -163,12 +163,13 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
   ScanEquations shared;
   shared.set_zero(variables.count());
   frames[0].add_to(shared);
-  // The step along `change` that is best. A pixel counts for the vertex next to it, so that skin beside the changed one
-  // makes it shorter than -1.
+  // The step along `change` that is best. A pixel counts for the vertex next to it, so that skin beside the changed
+  // one, which counts more as it follows one bone, makes it shorter than -1. Twice or half the derivative: -0.13,
+  // -0.53.
   const Eigen::VectorXd H_change = ScanSystem(shared, frames, 1, workers_).times(change);
   const double step = shared.g.dot(change) / change.dot(H_change);
-  EXPECT_LT(step, -0.4);
-  EXPECT_GT(step, -1.1);
+  EXPECT_LT(step, -0.2);
+  EXPECT_GT(step, -0.35);
 }
 
 TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
