@@ -15,13 +15,13 @@ using Eigen::Vector3f;
 
 // Deviations of single residuals. A frame has thousands of them, which err alike.
 constexpr double kSigmaSkin = 0.00045;         // m, of a surface distance, as far as the skin errs
-constexpr double kSigmaNoise = 2;              // and as far as the sensor does, in its noise
+constexpr double kSigmaNoise = 2;              // and as far as the sensor does, times its noise
 constexpr double kSigmaGap = 0.00011;          // m, of a joint (Eq. 5)
 constexpr double kSigmaAngle = 0.6 * kDegree;  // beyond the limits, and twist (Eq. 6)
 constexpr double kSigmaTurn = 4.5 * kDegree;   // of one step of a joint, so that a hidden one stays
 constexpr double kRobustSkin = 0.001;          // m, scale of Geman-McClure, as the deviation
 constexpr double kRobustNoise = 2;
-constexpr double kFolds = 10;           // how much less skin says that follows two bones
+constexpr double kFolds = 10;           // skin that a second bone moves by a tenth counts half, by a half 1 / 26
 constexpr float kGate = 0.012f;         // m, larger distances are something else
 constexpr float kFacing = 0.3f;         // cosine: skin that turns away is not measured well
 constexpr double kDamping = 1e-3;       // relative, Levenberg

@@ -6,9 +6,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kAcrossBone = 0.001;  // m, of a joint
-constexpr double kAlongBone = 0.003;   // and of the thumb's root, which lies deep in flesh, in every direction
-constexpr double kBetweenBones = 0.001;
+// About as far as a fit to sections may be off.
+constexpr double kAcrossBone = 0.001;    // m, of a joint
+constexpr double kAlongBone = 0.003;     // and of the thumb's root, which lies deep in flesh, in every direction
+constexpr double kBetweenBones = 0.001;  // m, of the two points of a joint
 
 constexpr double kOffset = 0.1;          // m, of a vertex: only so that unseen ones have a place
 constexpr double kSmoothOffset = 0.002;  // m, difference along an edge
