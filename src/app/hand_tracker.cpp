@@ -373,10 +373,10 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
 }
 
 void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
-  // A search bends what no data holds at random.
-  constexpr double kHidden = 0.15;
+  // A search bends what no data holds at random, and what is seen by a sliver nearly so: that goes with any bend.
+  constexpr double kHeld = 0.5;
   std::array<bool, kSegmentCount> seen;
-  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHidden;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHeld;
   const HandPose pose = with_hidden_at_ease(*model_->profile, found.pose, seen);
   const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
   if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;
