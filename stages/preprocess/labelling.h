@@ -38,6 +38,8 @@ class HandMask {
   Image<float> own_odds_, odds_;   // of a pixel, and summed over the `skew_px` around it
   Image<std::uint8_t> tells_;      // 1 = its colour says anything
   Image<std::uint16_t> telling_;   // the same, counted in its surroundings
+  Image<std::uint8_t> unlike_;     // 1 = its colour rather is none of skin
+  Image<std::uint16_t> unlikes_;   // the same, counted in its surroundings
   Image<std::uint16_t> edges_;     // depth edges in its surroundings
   WindowSum<float> sum_odds_;
   WindowSum<std::uint16_t> count_;

@@ -48,6 +48,19 @@ TEST(Preprocess, ObjectTouchingTheHandAtItsDepthIsToldApartByColour) {
   EXPECT_EQ(label_at(*o, 0.03, 0.01, kZ), PixelLabel::hand);
 }
 
+TEST(Preprocess, AFingertipThatShowsBehindAnObjectIsHand) {
+  // Five pixels wide: all of it lies beside depth edges, and the object before it is hardly nearer.
+  constexpr double kFar = 0.8, kTip = kY - 0.18;
+  const auto o = observe(PaintedScene()
+                             .hand(kX, kY, kFar)
+                             .patch(kX - 0.04, kTip + 0.02, kX + 0.04, kTip + 0.07, kFar - 0.006, test::kGreen));
+  for (int finger = 0; finger < 4; ++finger) {
+    const double x = kX + 0.0315 - 0.021 * finger;
+    EXPECT_EQ(label_at(*o, x, kTip + 0.01, kFar), PixelLabel::hand) << finger;
+    EXPECT_EQ(label_at(*o, x, kTip + 0.04, kFar), PixelLabel::object) << finger;
+  }
+}
+
 TEST(Preprocess, MissingDepthStaysUnknown) {
   const auto o = observe(PaintedScene().hand(kX, kY, kZ).erase_depth(150, 115, 160, 125));
   const int u = 155 - o->u0, v = 120 - o->v0;
