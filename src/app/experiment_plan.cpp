@@ -60,6 +60,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_velocity", [](TrackerParams& p) { p.prediction.velocity = false; });
   without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
+  without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
   without("no_doubt", [](TrackerParams& p) { p.doubt = 1000; });
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });
   without("palm_unobserved", [](TrackerParams& p) { p.segment_tracker.observe_palm = false; });

@@ -27,16 +27,13 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       seed_(seed),
       workers_(workers),
       log_(std::move(log)),
-      model_(std::make_unique<HandModel>(params_, std::move(profile), workers_, log_)),
+      given_(std::move(profile)),
+      model_(std::make_unique<HandModel>(params_, given_, workers_, log_)),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
       uncertainty_(params_.uncertainty, params_.refinement.energy),
       ids_(ids) {
-  if (!params_.shape_fit.enabled) return;
-  if (model_->profile->origin == ProfileOrigin::mean)
-    start_person(model_->profile);
-  else
-    size_check_.emplace(params_.refinement, model_->profile, model_->skin);
+  if (params_.shape_fit.enabled) meet_person();
 }
 
 void HandTracker::reset() {
@@ -47,14 +44,12 @@ void HandTracker::reset() {
   requested_start_.reset();
   search_frames_ = 0;
   usual_score_.reset();
-  if (person_) forget_person();  // whoever comes next may be somebody else
+  if (scan_) forget_person();  // whoever comes next may be somebody else
 }
 
 void HandTracker::forget_person() {
-  const auto mean = person_->mean();
-  start_person(mean);
-  size_check_.reset();
-  model_ = std::make_unique<HandModel>(params_, mean, workers_, log_);
+  model_ = std::make_unique<HandModel>(params_, given_, workers_, log_);
+  meet_person();
 }
 
 void HandTracker::change(const TrackerParams& params) {
@@ -123,7 +118,7 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
     if (size_check_) check_size(observation, fit->refined);
     if (fit->refined.score < loss_.good_threshold(evidence)) {
       last_good_ = fit->refined.pose;
-      if (person_) fit_person(observation, fit->refined.pose);
+      learn_person(observation, fit->refined.pose);
     }
   } else if (unconfirmed_) {
     motion_.restart(fit->refined.pose, observation.frame->utime);
@@ -233,9 +228,14 @@ void HandTracker::check_size(const HandObservation& observation, const RefinedPo
   forget_person();
 }
 
-void HandTracker::start_person(std::shared_ptr<const HandProfile> mean) {
-  scan_ = std::make_unique<PersonScan>(params_, mean, workers_);
-  person_.emplace(params_.shape_fit, std::move(mean));
+void HandTracker::meet_person() {
+  person_.reset();
+  size_check_.reset();
+  if (!given_->scanned_skin) scan_ = std::make_unique<PersonScan>(params_, given_, workers_);
+  if (given_->origin == ProfileOrigin::mean)
+    person_.emplace(params_.shape_fit, given_);
+  else
+    size_check_.emplace(params_.refinement, model_->profile, model_->skin);
 }
 
 void HandTracker::use_scan() {
@@ -250,9 +250,9 @@ void HandTracker::use_scan() {
   }
 }
 
-void HandTracker::fit_person(const HandObservation& observation, const HandPose& pose) {
-  scan_->add(observation, pose);
-  if (model_->profile->scanned_skin) return;
+void HandTracker::learn_person(const HandObservation& observation, const HandPose& pose) {
+  if (scan_) scan_->add(observation, pose);
+  if (!person_ || model_->profile->scanned_skin) return;
   const PersonFit::Change change = person_->look(observation, pose, model_->refinement, model_->skin);
   if (change == PersonFit::Change::large) {
     model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);

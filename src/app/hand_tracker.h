@@ -89,8 +89,8 @@ class HandTracker {
   void remember(const HandObservation& observation, const Fit& fit);
   void check_size(const HandObservation& observation, const RefinedPose& refined);
   void forget_person();
-  void start_person(std::shared_ptr<const HandProfile> mean);
-  void fit_person(const HandObservation& observation, const HandPose& pose);
+  void meet_person();
+  void learn_person(const HandObservation& observation, const HandPose& pose);
   void use_scan();
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_segments(HandEstimate& out, const Fit& fit);
@@ -102,10 +102,11 @@ class HandTracker {
   std::uint64_t seed_;
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<const HandProfile> given_;  // before anything is learnt of the person
   std::unique_ptr<HandModel> model_;
-  std::optional<PersonFit> person_;      // if a mean hand is fitted
-  std::unique_ptr<PersonScan> scan_;     // and scanned
-  std::optional<SizeCheck> size_check_;  // of a profile that is used as it is
+  std::optional<PersonFit> person_;      // if the given hand is a mean hand
+  std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before
+  std::optional<SizeCheck> size_check_;  // of a hand that is not fitted, or no longer
   MotionModel motion_;
   LossDetector loss_;
   PoseUncertainty uncertainty_;

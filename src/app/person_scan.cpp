@@ -49,11 +49,11 @@ class BatchFit {
   std::unique_ptr<Refinement> refinement_;
 };
 
-std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::shared_ptr<const HandProfile> mean,
+std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::shared_ptr<const HandProfile> given,
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
-  BatchFit fit(params, std::move(mean));
-  for (int pass = 0; pass < kPasses; ++pass)
+  BatchFit fit(params, given);
+  for (int pass = 0; given->origin == ProfileOrigin::mean && pass < kPasses; ++pass)
     for (ScanFrame& frame : frames) {
       if (stop.stop_requested()) return nullptr;
       fit.look(frame);
@@ -61,15 +61,15 @@ std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::sha
   workers.for_each_index(static_cast<int>(frames.size()), [&](int i) { fit.refine(frames[i]); });
   auto hand = scan_hand(fit.profile(), params.skin_cell, std::move(frames), workers, {}, stop);
   if (!hand) return nullptr;
-  hand->origin = ProfileOrigin::fitted;
+  if (given->origin != ProfileOrigin::measured) hand->origin = ProfileOrigin::fitted;
   return std::make_shared<const HandProfile>(*std::move(hand));
 }
 
 }  // namespace
 
-PersonScan::PersonScan(const TrackerParams& params, std::shared_ptr<const HandProfile> mean, Workers& workers)
+PersonScan::PersonScan(const TrackerParams& params, std::shared_ptr<const HandProfile> given, Workers& workers)
     : params_(params),
-      mean_(std::move(mean)),
+      given_(std::move(given)),
       workers_(workers),
       frames_(kSettling, kMost),
       next_(params.shape_fit.scan_after) {}
@@ -85,8 +85,8 @@ void PersonScan::add(const HandObservation& observation, const HandPose& pose) {
 
 void PersonScan::start() {
   next_ *= 2;
-  scan_ = workers_.aside([params = params_, mean = mean_, frames = frames_.frames(), stop = stop_.get_token()](
-                             Workers& workers) { return scanned(params, mean, frames, workers, stop); });
+  scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
+                             Workers& workers) { return scanned(params, given, frames, workers, stop); });
   if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};  // they are large
 }
 

@@ -9,12 +9,12 @@
 namespace barehand {
 
 /// Scans a person's hand while it is tracked, as `barehand calibrate` does: after some frames, and again after twice
-/// and four times as many, the mean hand is fitted to those that were kept, and its skin scanned. Workers::aside says
-/// when that is done.
+/// and four times as many, its skin is scanned from those that were kept. A mean hand is fitted to them before; the
+/// joints of a measured one stay. Workers::aside says when that is done.
 class PersonScan {
  public:
   /// `workers` outlives it.
-  PersonScan(const TrackerParams& params, std::shared_ptr<const HandProfile> mean, Workers& workers);
+  PersonScan(const TrackerParams& params, std::shared_ptr<const HandProfile> given, Workers& workers);
   /// Waits for a scan under way to stop: half a second.
   ~PersonScan();
   PersonScan(const PersonScan&) = delete;
@@ -33,7 +33,7 @@ class PersonScan {
   void start();
 
   const TrackerParams params_;
-  const Hand mean_;
+  const Hand given_;
   Workers& workers_;
   ScanFrames frames_;
   int scans_ = 0, next_;

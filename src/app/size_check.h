@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Whether a profile that is used as it is has the size of the hand that is tracked with it: on a few frames, would a
-/// smaller or a larger copy of the hand explain the data better?
+/// Whether a profile whose bones are used as they are has the size of the hand that is tracked with it: on a few
+/// frames, would a smaller or a larger copy of the hand explain the data better?
 class SizeCheck {
  public:
   /// `skin`: made for the profile. The copies are made at the first look: most trackers only search.

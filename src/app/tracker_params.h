@@ -89,7 +89,7 @@ void visit(V& v, TrackerParams& p) {
   v("icp", p.icp, "global motion (Sec. 4.4)");
   v("loss", p.loss, "when a hand counts as tracked");
   v("initialiser", p.initialiser, "start and restart from one observation");
-  v("shape_fit", p.shape_fit, "fitting a mean hand to the person in view");
+  v("shape_fit", p.shape_fit, "learning the hand of the person in view");
 }
 
 }  // namespace barehand

@@ -6,7 +6,7 @@
 
 namespace barehand {
 
-/// When and how a person's hand is fitted while it is tracked.
+/// When and how a person's hand is learnt while it is tracked.
 struct ShapeFitParams {
   bool enabled = true;
   int every = 1, every_later = 8;  ///< frames between two looks: at first, and after `eager_looks`
@@ -21,7 +21,8 @@ struct ShapeFitParams {
 
 template <class V>
 void visit(V& v, ShapeFitParams& p) {
-  v("enabled", p.enabled, "fit the person's hand while tracking, if the profile is a mean hand");
+  v("enabled", p.enabled,
+    "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
   v("every", p.every, 1, 1000, "frames between two looks at the shape, at first");
   v("every_later", p.every_later, 1, 100000, "frames between two looks after `eager_looks`");
   v("eager_looks", p.eager_looks, 0, 100000, "looks in quick succession at the start");
@@ -30,7 +31,7 @@ void visit(V& v, ShapeFitParams& p) {
   v("memory_looks", p.memory_looks, 1.0, 1e6, "looks, never more count");
   v("first_rebuild", p.first_rebuild, 1, 100000, "looks before a new skin is made, then twice as many each time");
   v("scan_after", p.scan_after, 32, 100000, "tracked frames before the skin is scanned, then twice as many each time");
-  v("scans", p.scans, 0, 10, "how often the skin is scanned, 0: never");
+  v("scans", p.scans, 0, 10, "how often the skin is scanned, if the profile has none of its own; 0: never");
 }
 
 /// Collects what frames say about a person's hand, each at its own best pose and with that pose's uncertainty

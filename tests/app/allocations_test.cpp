@@ -39,11 +39,12 @@ struct Counts {
 };
 
 /// Of a swaying hand, the first of those looked for: mean over the frames after a warm-up.
-Counts allocations_per_frame(const TrackerParams& params, int hands = 1) {
+Counts allocations_per_frame(TrackerParams params, int hands = 1) {
+  params.shape_fit.scans = 0;                 // learning a hand is no steady state
   constexpr int kWarmUp = 40, kCounted = 20;  // twice and once to and fro
   const Intrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
   auto measured = std::make_shared<HandProfile>(*test::adult_hand());
-  measured->origin = ProfileOrigin::measured;  // fitting a mean hand to the person is no steady state
+  measured->origin = ProfileOrigin::measured;  // nor is fitting a mean hand to the person
   const std::shared_ptr<const HandProfile> profile = measured;
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);

@@ -48,6 +48,27 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
   }
 }
 
+TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
+  TrackerParams params = test::quick_tracker();
+  params.skin_cell = 0.008;  // m: few unknowns
+  params.shape_fit.scan_after = 32;
+  auto profile = std::make_shared<HandProfile>(*test::adult_hand());
+  profile->origin = ProfileOrigin::measured;
+  const Skin skin = make_blended_skin(scaled(*profile, 1.02), 0.004);
+  Workers workers(2);
+  HandTracker tracker(params, profile, 1, workers);
+  std::int64_t utime = 1'000'000;
+  tracker.start_at(test::facing_pose(*profile, 0.5));
+  for (int i = 0; !tracker.profile().scanned_skin; ++i) {
+    ASSERT_LT(i, 2 * params.shape_fit.scan_after);
+    const HandPose pose = test::facing_pose(*profile, 0.5, 0.02 * i);
+    tracker.process(*test::stamped(*test::observe_skin(skin, pose), utime += 33'000));
+    ASSERT_EQ(tracker.status(), TrackStatus::tracking);
+  }
+  tracker.reset();
+  EXPECT_FALSE(tracker.profile().scanned_skin);
+}
+
 /// A hand that is tracked, goes away and comes back, or a larger one in its place.
 class Return : public testing::Test {
  protected:

@@ -19,12 +19,20 @@ class PersonScanTest : public ::testing::Test {
     params_.shape_fit.scan_after = 60;
     params_.shape_fit.scans = 2;
   }
-  static HandShape shape_of_the_person() {
+  static HandShape shape_of_the_person(double fingers_thickness = 0.1) {
     HandShape shape = HandShape::Zero();
     shape[0] = 0.05;
     for (int k = 0; k < kShapeCount; ++k)
-      if (shape_parameters()[k].name == "fingers_thickness") shape[k] = 0.1;
+      if (shape_parameters()[k].name == "fingers_thickness") shape[k] = fingers_thickness;
     return shape;
+  }
+  /// Mean distance of a phalanx' skin from its bone [m].
+  static double thickness(const Skin& skin, int segment) {
+    double sum = 0;
+    int count = 0;
+    for (const SkinVertex& v : skin.vertices)
+      if (v.a == segment && v.weight_b < 0.1f) sum += v.in_a.head<2>().norm(), ++count;
+    return sum / count;
   }
   void show(PersonScan& scan, int frames) {
     for (int i = 0; i < frames; ++i, ++shown_) {
@@ -62,6 +70,26 @@ TEST_F(PersonScanTest, ARecordingHasTheHandAtOnce) {
   EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
   const double error = std::abs(hand->hand_length() - person_.hand_length());
   EXPECT_LT(error, 0.5 * std::abs(mean_->hand_length() - person_.hand_length()));
+}
+
+TEST_F(PersonScanTest, AMeasuredHandKeepsItsJointsAndGetsASkin) {
+  auto measured = std::make_shared<HandProfile>(reshaped(*mean_, shape_of_the_person(0)));
+  measured->origin = ProfileOrigin::measured;
+  PersonScan scan(params_, measured, workers_);
+  show(scan, params_.shape_fit.scan_after);
+  const auto hand = scan.take();
+  ASSERT_TRUE(hand && hand->scanned_skin);
+  EXPECT_EQ(hand->origin, ProfileOrigin::measured);
+  const Skin before = make_blended_skin(*measured, params_.skin_cell);
+  double error = 0, error_before = 0;
+  for (int s = 1; s < kSegmentCount; ++s) {
+    EXPECT_LT((hand->rest_relative(s).t - measured->rest_relative(s).t).norm(), 1e-5) << kSegmentNames[s];
+    if (finger_of(s) == 0 || parent_of(s) == kPalm || is_tip(s)) continue;
+    const double truth = thickness(persons_skin_, s);
+    error += std::abs(thickness(*hand->scanned_skin, s) - truth);
+    error_before += std::abs(thickness(before, s) - truth);
+  }
+  EXPECT_LT(error, 0.5 * error_before);
 }
 
 TEST_F(PersonScanTest, ScansAsOftenAsItIsTold) {
