@@ -94,11 +94,6 @@ std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int 
     std::puts("too short a scan for a skin of its own");
     return std::nullopt;
   }
-  // A mean hand gains by any scan; what was measured is better than a skin seen in part.
-  if (scan.profile->origin == ProfileOrigin::measured && !scan.report.missing().empty()) {
-    std::puts("not all was shown: the measured hand stays as it was");
-    return std::nullopt;
-  }
   Workers workers(threads);
   const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
     std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
