@@ -41,7 +41,7 @@ ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrame
   // Relative to what is left of a joint's equations: their poses explain nearly all.
   Eigen::VectorXd damping = kDamping * H_.diagonal();
   damping.head(kJoints) = kDamping * joints.diagonal();
-  H_.diagonal() += damping;
+  H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // also where nothing was said about an unknown
   joints.diagonal() += damping.head(kJoints);
   joints_.compute(joints);
   skin_.compute(augmented(H_, means_));
