@@ -48,7 +48,7 @@ void HandTracker::reset() {
 }
 
 void HandTracker::forget_person() {
-  model_ = std::make_unique<HandModel>(params_, given_, workers_, log_);
+  if (model_->profile != given_) model_ = std::make_unique<HandModel>(params_, given_, workers_, log_);
   meet_person();
 }
 
@@ -257,7 +257,7 @@ void HandTracker::learn_person(const HandObservation& observation, const HandPos
   if (change == PersonFit::Change::large) {
     model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);
     log_->info("hand fitted to the person after {} looks: {:.0f} mm long, the mean hand {:.0f} mm",
-               person_->fit().looks(), 1e3 * person_->profile()->hand_length(), 1e3 * person_->mean()->hand_length());
+               person_->fit().looks(), 1e3 * person_->profile()->hand_length(), 1e3 * given_->hand_length());
   } else if (change == PersonFit::Change::small) {
     model_ =
         std::make_unique<HandModel>(params_, person_->profile(), person_->skin(), model_->initialiser, workers_, log_);

@@ -24,7 +24,6 @@ class PersonFit {
   /// The hand that is tracked with gets a new skin, made for `profile`.
   void expect_new_skin() { basis_.reset(); }
 
-  std::shared_ptr<const HandProfile> mean() const { return mean_; }
   std::shared_ptr<const HandProfile> profile() const { return profile_; }
   std::shared_ptr<const Skin> skin() const { return skin_; }
   const ShapeFit& fit() const { return fit_; }

@@ -11,12 +11,12 @@ constexpr int kSettling = 8, kMost = 32;  // frames before the first that is kep
 constexpr int kPasses = 4;                // over all frames, while the mean hand is fitted to them
 constexpr int kIterations = 8;            // of a pose
 
-/// Fits the mean hand to frames, and poses to the hand.
+/// Fits poses of frames to the given hand; a mean one may be fitted to the frames before.
 class BatchFit {
  public:
-  BatchFit(const TrackerParams& params, std::shared_ptr<const HandProfile> mean)
-      : params_(params), fit_(every_frame(params.shape_fit), mean) {
-    use(mean, std::make_shared<const Skin>(make_skin(*mean, params.skin_cell)));
+  BatchFit(const TrackerParams& params, std::shared_ptr<const HandProfile> given)
+      : params_(params), fit_(every_frame(params.shape_fit), given) {
+    use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell)));
   }
 
   void look(ScanFrame& frame) {
@@ -53,7 +53,8 @@ std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::sha
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
   BatchFit fit(params, given);
-  for (int pass = 0; given->origin == ProfileOrigin::mean && pass < kPasses; ++pass)
+  const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
+  for (int pass = 0; pass < passes; ++pass)
     for (ScanFrame& frame : frames) {
       if (stop.stop_requested()) return nullptr;
       fit.look(frame);
