@@ -8,8 +8,11 @@
 namespace barehand {
 
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment) {
+  return linearise_joint(profile.rest_relative(segment), pose, segment);
+}
+
+JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment) {
   const SE3& parent = pose[parent_of(segment)];
-  const SE3 rest = profile.rest_relative(segment);
   JointLinearisation joint;
   joint.lever = parent.R * rest.t;
   joint.gap = parent.t + joint.lever - pose[segment].t;

@@ -25,5 +25,7 @@ struct JointLinearisation {
 };
 /// At the joint between `segment`, which is not the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);
+/// The same with `rest`: T_parent_segment at rest.
+JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment);
 
 }  // namespace barehand

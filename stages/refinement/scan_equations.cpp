@@ -51,11 +51,6 @@ void ScanEquations::set_zero(int count) {
   g.setZero(count);
 }
 
-void ScanEquations::add(int first, const Eigen::Matrix<double, 6, 6>& block) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j <= i; ++j) add(first + i, first + j, block(i, j));
-}
-
 bool ScanFrameEquations::linearise(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
                                    const std::array<JointLimits, kSegmentCount>& limits, bool hold_pose) {
   GaussianTree tree;
@@ -132,17 +127,26 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     const Eigen::Matrix<double, 3, 6> J_parent = point_jacobian(lever_parent), J_child = -point_jacobian(lever_child);
     const Eigen::Matrix<double, 3, 6> J = (Eigen::Matrix<double, 3, 6>() << parent.R, -child.R).finished();
     tree.add<3>(s, J_child, J_parent, gap, w_gap * Matrix3d::Identity());
-    joints_[s] = {w_gap * J.transpose() * J, -w_gap * J.transpose() * gap};
-    joint_parent_[s] = w_gap * J_parent.transpose() * J;
-    joint_child_[s] = w_gap * J_child.transpose() * J;
+    JointSums& sums = joints_[s];
+    sums.H.setZero();
+    sums.H.topLeftCorner<6, 6>() = w_gap * J.transpose() * J;
+    sums.g.head<6>() = -w_gap * J.transpose() * gap;
+    sums.parent.leftCols<6>() = w_gap * J_parent.transpose() * J;
+    sums.child.leftCols<6>() = w_gap * J_child.transpose() * J;
 
-    const JointLinearisation joint = linearise_joint(model.profile, pose, s);
+    const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const JointLimits& limit = limits[s];
     const Vector3d excess(beyond(joint.angles.flexion, limit.flexion_lo, limit.flexion_hi),
                           beyond(joint.angles.abduction, limit.abduction_lo, limit.abduction_hi), joint.angles.twist);
     const Vector3d counts(excess[0] != 0, excess[1] != 0, 1);
-    tree.add<3>(s, J_angles.child, J_angles.parent, excess, Matrix3d(counts.asDiagonal()) / sq(kSigmaAngle));
+    const Matrix3d W = Matrix3d(counts.asDiagonal()) / sq(kSigmaAngle);
+    const Matrix3d J_rest = -joint.d_angles;  // what rest turns further, the joint turns less
+    tree.add<3>(s, J_angles.child, J_angles.parent, excess, W);
+    sums.H.bottomRightCorner<3, 3>() = J_rest.transpose() * W * J_rest;
+    sums.g.tail<3>() = -J_rest.transpose() * (W * excess);
+    sums.parent.rightCols<3>() = J_angles.parent.transpose() * W * J_rest;
+    sums.child.rightCols<3>() = J_angles.child.transpose() * W * J_rest;
     tree.add<3>(s, J_turn.child, J_turn.parent, Vector3d::Zero(), Matrix3d::Identity() / sq(kSigmaTurn));
   }
 }
@@ -153,15 +157,14 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
     for (int i = 0; i < 6; ++i) entries.emplace_back(6 * segment + i, unknown, column[i]);
   };
   for (int s = 1; s < kSegmentCount; ++s)
-    for (int k = 0; k < 6; ++k) {
-      add(parent_of(s), variables.joint(s) + k, joint_parent_[s].col(k));
-      add(s, variables.joint(s) + k, joint_child_[s].col(k));
+    for (int k = 0; k < kJoint; ++k) {
+      add(parent_of(s), variables.joint(s) + k, joints_[s].parent.col(k));
+      add(s, variables.joint(s) + k, joints_[s].child.col(k));
     }
   for (const VertexSums& sums : sums_) {
     const SkinVertex& v = model.skin.vertices[sums.vertex];
     add(v.a, sums.offset, sums.ao);
     add(v.b, sums.offset, sums.bo);
-    if (sums.share < 0) continue;
     add(v.a, sums.share, sums.as);
     add(v.b, sums.share, sums.bs);
   }
@@ -181,14 +184,13 @@ bool ScanFrameEquations::factorise_pose(const GaussianTree& tree, bool hold_pose
 
 void ScanFrameEquations::add_to(ScanEquations& equations, double weight) const {
   for (int s = 1; s < kSegmentCount; ++s) {
-    const int first = 6 * (s - 1);
-    equations.add(first, weight * joints_[s].H);
-    equations.g.segment<6>(first) += weight * joints_[s].g;
+    const int first = ScanVariables::joint(s);
+    equations.add<kJoint>(first, weight * joints_[s].H);
+    equations.g.segment<kJoint>(first) += weight * joints_[s].g;
   }
   for (const VertexSums& sums : sums_) {
     equations.add(sums.offset, sums.offset, weight * sums.oo);
     equations.g[sums.offset] += weight * sums.g_o;
-    if (sums.share < 0) continue;
     equations.add(sums.share, sums.share, weight * sums.ss);
     equations.add(sums.share, sums.offset, weight * sums.os);
     equations.g[sums.share] += weight * sums.g_s;

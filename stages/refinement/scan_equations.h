@@ -31,7 +31,11 @@ struct ScanEquations {
   void set_zero(int count);
   void add(int i, int j, double value) { H.emplace_back(std::max(i, j), std::min(i, j), value); }
   /// A symmetric block on the diagonal.
-  void add(int first, const Eigen::Matrix<double, 6, 6>& block);
+  template <int N>
+  void add(int first, const Eigen::Matrix<double, N, N>& block) {
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j <= i; ++j) add(first + i, first + j, block(i, j));
+  }
 };
 
 /// What one frame says: normal equations of its pose, 96 numbers, and of the shared unknowns that it touches. The
@@ -60,13 +64,15 @@ class ScanFrameEquations {
   // Sums over the residuals at one vertex: products of the changes by its offset (o), its share (s) and the poses of
   // its two segments (a, b), and their gradients.
   struct VertexSums {
-    int vertex, offset, share;  // the latter two: number of the unknown; share -1: none
+    int vertex, offset, share;  // the latter two: number of the unknown
     double oo = 0, os = 0, ss = 0, g_o = 0, g_s = 0;
     PoseColumn ao = PoseColumn::Zero(), bo = PoseColumn::Zero(), as = PoseColumn::Zero(), bs = PoseColumn::Zero();
   };
+  static constexpr int kJoint = ScanVariables::kJoint;
   struct JointSums {
-    Eigen::Matrix<double, 6, 6> H;
-    Eigen::Matrix<double, 6, 1> g;
+    Eigen::Matrix<double, kJoint, kJoint> H;
+    Eigen::Matrix<double, kJoint, 1> g;
+    Eigen::Matrix<double, 6, kJoint> parent, child;  // with the twists of the joint's two segments
   };
 
   void add_skin(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables, GaussianTree& tree);
@@ -77,8 +83,7 @@ class ScanFrameEquations {
 
   std::vector<VertexSums> sums_;
   std::array<JointSums, kSegmentCount> joints_;
-  std::array<Eigen::Matrix<double, 6, 6>, kSegmentCount> joint_parent_, joint_child_;  // rows: twist; columns: unknowns
-  Eigen::SparseMatrix<double> coupling_;                                               // pose x shared unknowns
+  Eigen::SparseMatrix<double> coupling_;  // pose x shared unknowns
   Eigen::LLT<Eigen::MatrixXd> pose_;
   Eigen::VectorXd g_pose_;
   double squares_ = 0;

@@ -25,11 +25,6 @@ int partner(const ImplicitHand& hand, const HandProfile& profile, const SkinVert
   return nearest;
 }
 
-bool in_middle_of_bone(const SkinVertex& v) {
-  const int thumb_root = segment_of(0, 0);
-  return v.weight_b == 0 && v.a != kPalm && v.a != thumb_root;
-}
-
 struct TipGrowth {
   double longer = 0, thicker = 0;  // how far the skin's end moved along the bone, and its sides away from it [m]
 };
@@ -68,10 +63,12 @@ void put_in_order(SkinVertex& v) {
 
 }  // namespace
 
+bool in_middle_of_bone(const SkinVertex& v) { return v.weight_b == 0 && v.a != kPalm && v.a != segment_of(0, 0); }
+
 ScanModel make_scan_model(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const HandPose& bind = hand.pose();  // in which both bones of a vertex carry it to the same place
-  ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}};
+  ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}, {}};
   for (SkinVertex& v : model.skin.vertices) {
     if (v.a == v.b) {
       v.b = static_cast<std::int16_t>(partner(hand, profile, v));
@@ -80,14 +77,12 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
     const Eigen::Matrix3d R_b_a = bind[v.b].R.transpose() * bind[v.a].R;
     model.normal_in_b.push_back(R_b_a.cast<float>() * v.normal_in_a);
   }
-  for (int s = 1; s < kSegmentCount; ++s) model.in_parent[s] = profile.rest_relative(s).t;
+  for (int s = 1; s < kSegmentCount; ++s) {
+    model.in_parent[s] = profile.rest_relative(s).t;
+    model.rest[s] = profile.rest_relative(s).R;
+  }
   for (Vector3d& joint : model.in_segment) joint.setZero();
   return model;
-}
-
-ScanVariables::ScanVariables(const ScanModel& model) : vertices_(static_cast<int>(model.skin.vertices.size())) {
-  for (const SkinVertex& v : model.skin.vertices)
-    share_.push_back(in_middle_of_bone(v) ? -1 : kJoints + vertices_ + shares_++);
 }
 
 void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
@@ -96,13 +91,13 @@ void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
   for (int s = 1; s < kSegmentCount; ++s) {
     model.in_parent[s] += step.segment<3>(joint(s));
     model.in_segment[s] += step.segment<3>(joint(s) + 3);
+    model.rest[s] = orthonormalised(model.rest[s] * exp_so3(step.segment<3>(joint(s) + 6)));
   }
   for (int i = 0; i < vertices_; ++i) {
     SkinVertex& v = model.skin.vertices[i];
     const float out = std::clamp(static_cast<float>(step[offset(i)]), -kOffset, kOffset);
     v.in_a += out * v.normal_in_a;
     v.in_b += out * model.normal_in_b[i];
-    if (share(i) < 0) continue;
     const float change = std::clamp(static_cast<float>(step[share(i)]), -kShare, kShare);
     v.weight_b = std::clamp(v.weight_b + change, 0.0f, 1.0f);
   }
@@ -113,7 +108,7 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
   hand.origin = ProfileOrigin::measured;
   for (int s = 1; s < kSegmentCount; ++s) {
     const int parent = parent_of(s);
-    const SE3 joint{model.profile.rest_relative(s).R, model.in_parent[s] - model.in_segment[parent]};
+    const SE3 joint{model.rest[s], model.in_parent[s] - model.in_segment[parent]};
     hand.segments[s].T_hand_segment = hand.segments[parent].T_hand_segment * joint;
   }
   for (int s = 0; s < kSegmentCount; ++s) {

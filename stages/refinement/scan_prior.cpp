@@ -7,20 +7,23 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // About as far as a fit to sections may be off.
-constexpr double kAcrossBone = 0.001;    // m, of a joint
+constexpr double kAcrossBone = 0.002;    // m, of a joint
 constexpr double kAlongBone = 0.003;     // and of the thumb's root, which lies deep in flesh, in every direction
 constexpr double kBetweenBones = 0.001;  // m, of the two points of a joint
+constexpr double kRestTurn = 0.015;      // of a joint's axes
 
-constexpr double kOffset = 0.1;          // m, of a vertex: only so that unseen ones have a place
-constexpr double kSmoothOffset = 0.002;  // m, difference along an edge
-constexpr double kMeanOffset = 0.0001;   // m, of a segment's skin as a whole
-constexpr double kMeanLever = 0.02;      // m, at which its turn counts as much
-constexpr double kSmoothShare = 1;       // difference along an edge
+constexpr double kOffset = 0.1;           // m, of a vertex: only so that unseen ones have a place
+constexpr double kSmoothOffset = 0.0025;  // m, difference along an edge
+constexpr double kMeanOffset = 0.0002;    // m, of a segment's skin as a whole
+constexpr double kMeanLever = 0.02;       // m, at which its turn counts as much
+constexpr double kMiddleShare = 0.3;      // of the share of skin in the middle of a bone
+constexpr double kSmoothShare = 0.3;      // difference along an edge
 
 double sq(double x) { return x * x; }
 
 // How freely the share of a vertex may change: less at the hinges of fingers than in the flesh of the palm.
 double share_deviation(const SkinVertex& v) {
+  if (in_middle_of_bone(v)) return kMiddleShare;
   const int thumb_root = segment_of(0, 0);
   return v.a == kPalm || v.b == kPalm || v.a == thumb_root || v.b == thumb_root ? 1.0 : 0.5;
 }
@@ -49,16 +52,22 @@ class Prior {
       Eigen::Matrix<double, 3, 6> J;
       J << Matrix3d::Identity(), -model_.profile.rest_relative(s).R;
       const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
-      out_.add(first, J.transpose() * J / sq(kBetweenBones));
+      out_.add<6>(first, J.transpose() * J / sq(kBetweenBones));
       out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
-      if (hold) out_.add(first, kHeld * Eigen::Matrix<double, 6, 6>::Identity());
+      const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
+      for (int axis = 0; axis < 3; ++axis) add_one(first + 6 + axis, turn[axis], kRestTurn);
+      if (hold)
+        out_.add<ScanVariables::kJoint>(
+            first, kHeld * Eigen::Matrix<double, ScanVariables::kJoint, ScanVariables::kJoint>::Identity());
     }
   }
 
-  void add_vertices() {
+  // Where joints are right, skin in the middle of bones need not make up for them.
+  void add_vertices(bool joints_held) {
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i) {
       add_one(variables_.offset(i), offset_[i], kOffset);
-      if (variables_.share(i) >= 0) add_one(variables_.share(i), share_change(i), share_deviation(vertex(i)));
+      add_one(variables_.share(i), share_change(i), share_deviation(vertex(i)));
+      if (joints_held && in_middle_of_bone(vertex(i))) out_.add(variables_.share(i), variables_.share(i), kHeld);
     }
   }
 
@@ -67,7 +76,6 @@ class Prior {
       for (int k = 0; k < 3; ++k) {
         const int i = t[k], j = t[(k + 1) % 3];  // an edge comes twice, once from either side
         add_difference(variables_.offset(i), variables_.offset(j), offset_[i], offset_[j], 1, kSmoothOffset);
-        if (variables_.share(i) < 0 || variables_.share(j) < 0) continue;
         const SkinVertex &a = vertex(i), &b = vertex(j);
         if (a.a == b.a && a.b == b.b)
           add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), 1, kSmoothShare);
@@ -136,7 +144,7 @@ void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVa
                     ScanEquations& equations) {
   Prior prior(model, start, variables, equations);
   prior.add_joints(hold_joints);
-  prior.add_vertices();
+  prior.add_vertices(hold_joints);
   prior.add_smoothness();
   for (int s = 0; s < kSegmentCount; ++s) prior.add_mean(s);
 }

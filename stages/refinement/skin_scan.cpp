@@ -11,10 +11,10 @@
 namespace barehand {
 namespace {
 
-constexpr int kRounds = 16;
-constexpr int kSkinRounds = 2;              // first ones, in which the skin alone settles: it is farthest off
-constexpr double kFullScan = 46;            // frames: more or fewer of them say as much, as all err alike
-constexpr double kWidening = 20 * kDegree;  // of joint limits
+constexpr int kRounds = 24, kRoundsOfSkin = 16;  // the latter where the joints stay
+constexpr int kSkinRounds = 2;                   // first ones, in which the skin alone settles: it is farthest off
+constexpr double kFullScan = 46;                 // frames: more of them say no more, as all err alike
+constexpr double kWidening = 20 * kDegree;       // of joint limits
 
 class Scan {
  public:
@@ -35,7 +35,7 @@ class Scan {
     workers_.for_each_index(
         frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
-    const double weight = kFullScan / frames;
+    const double weight = std::min(1.0, kFullScan / frames);
     ScanEquations shared;
     shared.set_zero(variables_.count());
     add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared);
@@ -74,14 +74,15 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
                                      const std::stop_token& stop) {
   if (frames.empty()) return std::nullopt;
   Scan scan(start, cell, std::move(frames), workers);
+  const int rounds = start.origin == ProfileOrigin::measured ? kRoundsOfSkin : kRounds;
   double first = 0, last = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     if (stop.stop_requested()) return std::nullopt;
     const auto mismatch = scan.round(round < kSkinRounds);
     if (!mismatch) return std::nullopt;
     last = *mismatch;
     if (round == 0) first = last;
-    if (progress) progress({round + 1, kRounds, last});
+    if (progress) progress({round + 1, rounds, last});
   }
   if (last > first) return std::nullopt;
   return scan.hand();

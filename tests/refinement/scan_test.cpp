@@ -94,6 +94,22 @@ TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
   for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT((before[i] - after[i]).norm(), 1e-5f) << i;
 }
 
+TEST_F(ScanTest, ABoneThatStandsOtherwiseAtRestTakesItsSkinAlong) {
+  ScanModel model = make_scan_model(*start_, kCell);
+  const int s = segment_of(2, 1);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(ScanVariables(model).count());
+  step.segment<3>(ScanVariables::joint(s) + 6) << 0.01, -0.02, 0.03;
+  ScanVariables(model).apply(step, model);
+  const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
+  const Eigen::Matrix3d turned = start_->rest_relative(s).R * exp_so3({0.01, -0.02, 0.03});
+  EXPECT_LT((hand.rest_relative(s).R - turned).norm(), 1e-9);
+  EXPECT_LT((hand.rest_relative(s).t - start_->rest_relative(s).t).norm(), 1e-9);
+  EXPECT_LT((hand.rest_relative(s + 1).matrix() - start_->rest_relative(s + 1).matrix()).norm(), 1e-9);
+  const Skin before = make_blended_skin(*start_, kCell);
+  for (std::size_t i = 0; i < before.vertices.size(); ++i)
+    ASSERT_LT((hand.scanned_skin->vertices[i].in_a - before.vertices[i].in_a).norm(), 1e-7f) << i;
+}
+
 /// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
 /// is found back in one step.
 class ScanEquationsTest : public ScanTest {
@@ -189,6 +205,18 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
   EXPECT_NEAR(found.y(), -in_segment.y(), 2e-5);
 }
 
+/// Only frames in which the angles of a hinge are not what its axes allow tell how its bones stand to each other at
+/// rest.
+TEST_F(ScanEquationsTest, FindBackHowAHingeStoodAtRest) {
+  const int s = segment_of(2, 1);
+  const Vector3d turn(0, 0.012, -0.008);
+  const auto step = found_back(Unknown::joint, [&](ScanModel& model) { model.rest[s] *= exp_so3(turn); });
+  const Vector3d found = step.segment<3>(ScanVariables::joint(s) + 6);
+  EXPECT_NEAR(found.y(), -turn.y(), 2e-4);
+  EXPECT_NEAR(found.z(), -turn.z(), 2e-4);
+  EXPECT_LT(step.segment<3>(ScanVariables::joint(segment_of(3, 1)) + 6).norm(), 1e-6);  // its neighbour
+}
+
 /// What the poses of frames explain is as if they were unknowns, too.
 TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   const double cell = 0.012;
@@ -244,7 +272,7 @@ TEST_F(ScanTest, JointsOfAMeasuredHandStay) {
                               [&](const ScanProgress& progress) { mismatch.push_back(progress.mismatch); });
   ASSERT_TRUE(hand);
   for (int s = 1; s < kSegmentCount; ++s)
-    EXPECT_LT((hand->rest_relative(s).t - measured.rest_relative(s).t).norm(), 1e-6) << s;
+    EXPECT_LT((hand->rest_relative(s).matrix() - measured.rest_relative(s).matrix()).norm(), 1e-6) << s;
   EXPECT_LT(mismatch.back(), 0.6 * mismatch.front());
 }
 
