@@ -14,7 +14,7 @@ constexpr double kRestTurn = 0.015;      // of a joint's axes
 
 constexpr double kOffset = 0.1;           // m, of a vertex: only so that unseen ones have a place
 constexpr double kSmoothOffset = 0.0025;  // m, difference along an edge
-constexpr double kMeanOffset = 0.0002;    // m, of a segment's skin as a whole
+constexpr double kMeanOffset = 0.00012;   // m, of a segment's skin as a whole
 constexpr double kMeanLever = 0.02;       // m, at which its turn counts as much
 constexpr double kMiddleShare = 0.3;      // of the share of skin in the middle of a bone
 constexpr double kSmoothShare = 0.3;      // difference along an edge
