@@ -375,11 +375,13 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
 void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
   // A search bends what no data holds at random, and what is seen by a sliver nearly so: that goes with any bend.
   constexpr double kHeld = 0.5;
+  constexpr double kIndistinct = 0.1;  // of the sensor's noise: a mean distance that is less worse tells nothing
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHeld;
   const HandPose pose = with_hidden_at_ease(*model_->profile, found.pose, seen);
   const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
-  if (relaxed.score < found.score * (1 + params_.search_advantage)) found = relaxed;
+  const double worse = std::max(params_.search_advantage * found.score, kIndistinct * observation.noise);
+  if (relaxed.score < found.score + worse) found = relaxed;
 }
 
 double HandTracker::raw_gap(const HandPose& pose) const {
