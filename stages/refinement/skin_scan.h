@@ -15,8 +15,8 @@ struct ScanProgress {
   double mismatch = 0;        ///< root mean square distance of data and skin along the normal before the round [m]
 };
 
-/// Fuses the frames of a scan into a personal hand: Gauss-Newton on all poses, where the joints lie, how far every
-/// vertex of the skin stands out, and how skin near joints follows their two bones, all at once. `start`: the hand as
+/// Fuses the frames of a scan into a personal hand: Gauss-Newton on all poses, where the joints lie and how they
+/// bend, how far every vertex of the skin stands out, and how it follows two bones, all at once. `start`: the hand as
 /// fitted while it was tracked, or a measured one, whose joints stay; `cell` [m]: size of the skin's triangles. Same
 /// frames, same hand, whatever the number of threads. None: there are no frames, their equations cannot be solved, or
 /// the hand explains them worse than before, or it is to stop. Takes half a second a round.
