@@ -121,11 +121,11 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
   const auto beyond = [](double x, double lo, double hi) { return x < lo ? x - lo : (x > hi ? x - hi : 0.0); };
   const double w_gap = 1 / sq(kSigmaGap);
   for (int s = 1; s < kSegmentCount; ++s) {
-    const SE3 &parent = pose[parent_of(s)], &child = pose[s];
-    const Vector3d lever_parent = parent.R * model.in_parent[s], lever_child = child.R * model.in_segment[s];
-    const Vector3d gap = parent.t + lever_parent - child.t - lever_child;
-    const Eigen::Matrix<double, 3, 6> J_parent = point_jacobian(lever_parent), J_child = -point_jacobian(lever_child);
-    const Eigen::Matrix<double, 3, 6> J = (Eigen::Matrix<double, 3, 6>() << parent.R, -child.R).finished();
+    const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
+    const Matrix3d &R_parent = pose[parent_of(s)].R, &R_child = pose[s].R;
+    const Vector3d lever_child = R_child * model.in_segment[s], gap = joint.gap - lever_child;
+    const Eigen::Matrix<double, 3, 6> J_parent = point_jacobian(joint.lever), J_child = -point_jacobian(lever_child);
+    const Eigen::Matrix<double, 3, 6> J = (Eigen::Matrix<double, 3, 6>() << R_parent, -R_child).finished();
     tree.add<3>(s, J_child, J_parent, gap, w_gap * Matrix3d::Identity());
     JointSums& sums = joints_[s];
     sums.H.setZero();
@@ -134,7 +134,6 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     sums.parent.leftCols<6>() = w_gap * J_parent.transpose() * J;
     sums.child.leftCols<6>() = w_gap * J_child.transpose() * J;
 
-    const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const JointLimits& limit = limits[s];
     const Vector3d excess(beyond(joint.angles.flexion, limit.flexion_lo, limit.flexion_hi),
@@ -158,8 +157,8 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
   };
   for (int s = 1; s < kSegmentCount; ++s)
     for (int k = 0; k < kJoint; ++k) {
-      add(parent_of(s), variables.joint(s) + k, joints_[s].parent.col(k));
-      add(s, variables.joint(s) + k, joints_[s].child.col(k));
+      add(parent_of(s), ScanVariables::joint(s) + k, joints_[s].parent.col(k));
+      add(s, ScanVariables::joint(s) + k, joints_[s].child.col(k));
     }
   for (const VertexSums& sums : sums_) {
     const SkinVertex& v = model.skin.vertices[sums.vertex];

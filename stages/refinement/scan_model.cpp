@@ -63,8 +63,6 @@ void put_in_order(SkinVertex& v) {
 
 }  // namespace
 
-bool in_middle_of_bone(const SkinVertex& v) { return v.weight_b == 0 && v.a != kPalm && v.a != segment_of(0, 0); }
-
 ScanModel make_scan_model(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const HandPose& bind = hand.pose();  // in which both bones of a vertex carry it to the same place
@@ -78,8 +76,9 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
     model.normal_in_b.push_back(R_b_a.cast<float>() * v.normal_in_a);
   }
   for (int s = 1; s < kSegmentCount; ++s) {
-    model.in_parent[s] = profile.rest_relative(s).t;
-    model.rest[s] = profile.rest_relative(s).R;
+    const SE3 rest = profile.rest_relative(s);
+    model.in_parent[s] = rest.t;
+    model.rest[s] = rest.R;
   }
   for (Vector3d& joint : model.in_segment) joint.setZero();
   return model;

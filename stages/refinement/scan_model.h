@@ -21,9 +21,6 @@ struct ScanModel {
 /// `cell` [m]: size of the skin's triangles.
 ScanModel make_scan_model(const HandProfile& profile, double cell);
 
-/// Skin that follows one bone alone, away from the flesh of palm and thumb.
-bool in_middle_of_bone(const SkinVertex& v);
-
 /// Unknowns that all frames of a scan share, in this order: of every joint both points and a turn of its rest rotation,
 /// how far each vertex stands out along its normal, and each vertex's share of the second segment.
 class ScanVariables {

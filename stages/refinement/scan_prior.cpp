@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 constexpr double kAcrossBone = 0.002;    // m, of a joint
 constexpr double kAlongBone = 0.003;     // and of the thumb's root, which lies deep in flesh, in every direction
 constexpr double kBetweenBones = 0.001;  // m, of the two points of a joint
-constexpr double kRestTurn = 0.015;      // of a joint's axes
+constexpr double kRestTurn = 0.015;      // rad, of a joint's axes
 
 constexpr double kOffset = 0.1;           // m, of a vertex: only so that unseen ones have a place
 constexpr double kSmoothOffset = 0.0025;  // m, difference along an edge
@@ -20,6 +20,9 @@ constexpr double kMiddleShare = 0.3;      // of the share of skin in the middle 
 constexpr double kSmoothShare = 0.3;      // difference along an edge
 
 double sq(double x) { return x * x; }
+
+// Follows one bone alone, away from the flesh of palm and thumb.
+bool in_middle_of_bone(const SkinVertex& v) { return v.weight_b == 0 && v.a != kPalm && v.a != segment_of(0, 0); }
 
 // How freely the share of a vertex may change: less at the hinges of fingers than in the flesh of the palm.
 double share_deviation(const SkinVertex& v) {
@@ -40,7 +43,7 @@ class Prior {
 
   void add_joints(bool hold) {
     for (int s = 1; s < kSegmentCount; ++s) {
-      const int first = variables_.joint(s);
+      const int first = ScanVariables::joint(s);
       const Vector3d in_parent = model_.in_parent[s] - start_.in_parent[s];
       const Vector3d in_segment = model_.in_segment[s] - start_.in_segment[s];
       for (int axis = 0; axis < 3; ++axis) {
@@ -50,15 +53,14 @@ class Prior {
       }
       // Both points are the same place at rest.
       Eigen::Matrix<double, 3, 6> J;
-      J << Matrix3d::Identity(), -model_.profile.rest_relative(s).R;
+      J << Matrix3d::Identity(), -start_.rest[s];
       const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
       out_.add<6>(first, J.transpose() * J / sq(kBetweenBones));
       out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
       const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
       for (int axis = 0; axis < 3; ++axis) add_one(first + 6 + axis, turn[axis], kRestTurn);
       if (hold)
-        out_.add<ScanVariables::kJoint>(
-            first, kHeld * Eigen::Matrix<double, ScanVariables::kJoint, ScanVariables::kJoint>::Identity());
+        for (int k = first; k < first + ScanVariables::kJoint; ++k) out_.add(k, k, kHeld);
     }
   }
 

@@ -28,6 +28,7 @@ class Scan {
         equations_(frames_.size()),
         workers_(workers) {}
 
+  int rounds() const { return joints_are_known_ ? kRoundsOfSkin : kRounds; }
   /// Root mean square mismatch before the round; none: it cannot be solved.
   std::optional<double> round(bool skin_only) {
     const int frames = static_cast<int>(frames_.size());
@@ -74,15 +75,14 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
                                      const std::stop_token& stop) {
   if (frames.empty()) return std::nullopt;
   Scan scan(start, cell, std::move(frames), workers);
-  const int rounds = start.origin == ProfileOrigin::measured ? kRoundsOfSkin : kRounds;
   double first = 0, last = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < scan.rounds(); ++round) {
     if (stop.stop_requested()) return std::nullopt;
     const auto mismatch = scan.round(round < kSkinRounds);
     if (!mismatch) return std::nullopt;
     last = *mismatch;
     if (round == 0) first = last;
-    if (progress) progress({round + 1, rounds, last});
+    if (progress) progress({round + 1, scan.rounds(), last});
   }
   if (last > first) return std::nullopt;
   return scan.hand();

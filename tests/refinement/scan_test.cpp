@@ -97,9 +97,10 @@ TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
 TEST_F(ScanTest, ABoneThatStandsOtherwiseAtRestTakesItsSkinAlong) {
   ScanModel model = make_scan_model(*start_, kCell);
   const int s = segment_of(2, 1);
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(ScanVariables(model).count());
+  const ScanVariables variables(model);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(variables.count());
   step.segment<3>(ScanVariables::joint(s) + 6) << 0.01, -0.02, 0.03;
-  ScanVariables(model).apply(step, model);
+  variables.apply(step, model);
   const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
   const Eigen::Matrix3d turned = start_->rest_relative(s).R * exp_so3({0.01, -0.02, 0.03});
   EXPECT_LT((hand.rest_relative(s).R - turned).norm(), 1e-9);
@@ -189,8 +190,6 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
 }
 
 TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
-  const ScanModel truth = make_scan_model(*start_, kCell);
-  const ScanVariables variables(truth);
   const int s = segment_of(3, 1);
   const Vector3d in_parent(0.001, 0.0005, -0.002), in_segment(-0.0005, 0.001, 0.0015);
   const auto step = found_back(Unknown::joint, [&](ScanModel& model) {
@@ -198,7 +197,8 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
     model.in_segment[s] += in_segment;
   });
   // Of a hinge that bends about one axis, only the difference along that axis can be found.
-  const Vector3d found_parent = step.segment<3>(variables.joint(s)), found = step.segment<3>(variables.joint(s) + 3);
+  const Vector3d found_parent = step.segment<3>(ScanVariables::joint(s)),
+                 found = step.segment<3>(ScanVariables::joint(s) + 3);
   EXPECT_NEAR(found_parent.z(), -in_parent.z(), 2e-5);
   EXPECT_NEAR(found_parent.y(), -in_parent.y(), 2e-5);
   EXPECT_NEAR(found.z(), -in_segment.z(), 2e-5);
