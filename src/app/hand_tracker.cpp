@@ -5,6 +5,7 @@
 
 #include "app/clearly_better.h"
 #include "app/found_poses.h"
+#include "app/relaxed_pose.h"
 #include "stages/prediction/crossed_fingers.h"
 #include "stages/prediction/hidden_fingers.h"
 
@@ -349,7 +350,7 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
       observation,
       model_->initialiser->propose(observation, effort, seed, workers_, hiding, last_good_ ? &*last_good_ : nullptr),
       params_.search_iterations);
-  if (best) relax_hidden(observation, best->refined);
+  if (best) best->refined = relaxed_pose(observation, best->refined, *model_->profile, model_->refinement, params_);
   return best;
 }
 
@@ -370,18 +371,6 @@ std::optional<HandTracker::Fit> HandTracker::best_of(const HandObservation& obse
     if (!best || fit.refined.score < best->refined.score) best = fit;
   }
   return best;
-}
-
-void HandTracker::relax_hidden(const HandObservation& observation, RefinedPose& found) {
-  // A search bends what no data holds at random, and what is seen by a sliver nearly so: that goes with any bend.
-  constexpr double kHeld = 0.5;
-  constexpr double kIndistinct = 0.1;  // of the sensor's noise: a mean distance that is less worse tells nothing
-  std::array<bool, kSegmentCount> seen;
-  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHeld;
-  const HandPose pose = with_hidden_at_ease(*model_->profile, found.pose, seen);
-  const RefinedPose relaxed = model_->refinement.refine(observation, pose, pose, params_.search_iterations);
-  const double worse = std::max(params_.search_advantage * found.score, kIndistinct * observation.noise);
-  if (relaxed.score < found.score + worse) found = relaxed;
 }
 
 double HandTracker::raw_gap(const HandPose& pose) const {

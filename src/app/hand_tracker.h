@@ -83,7 +83,6 @@ class HandTracker {
   TrackEvidence evidence(const HandObservation& observation);
   HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
   void greet_new_hand();
-  void relax_hidden(const HandObservation& observation, RefinedPose& found);
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);
