@@ -50,7 +50,8 @@ void PoseUncertainty::restart() { hidden_for_.fill(kNeverSeen); }
 std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfile& profile, const RefinedPose& refined,
                                                                 const std::array<bool, kSegmentCount>& hidden,
                                                                 double dt) {
-  const double factor = profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor;
+  const double factor = (profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor) *
+                        (profile.scanned_skin ? params_.scanned_factor : 1.0);
   // A patch counts once, with the deviation of the skin instead of that of a pixel.
   const double scale =
       kReferenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);

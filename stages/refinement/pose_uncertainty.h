@@ -10,6 +10,7 @@ struct UncertaintyParams {
   double skin_patch = 0.010;        ///< m, side of such a patch: more pixels within it say no more
   double joint_deviation = 0.0005;  ///< m, per axis, of a joint's place within the skin, which no picture shows
   double mean_hand_factor = 3;      ///< on both, where the profile is a mean hand, fitted or not
+  double scanned_factor = 0.85;     ///< on both, where the skin was scanned
   double range_share = 0.4;         ///< deviation of a joint that was not seen for long, of that of its whole range
   double just_hidden_deg = 4;       ///< deviation of a joint when it vanishes
   double growth_deg = 30;           ///< growth of it in a second; with the square root of the time
@@ -21,6 +22,7 @@ void visit(V& v, UncertaintyParams& p) {
   v("skin_patch", p.skin_patch, 1e-3, 0.1, "m, side of such a patch: more pixels within it say no more");
   v("joint_deviation", p.joint_deviation, 0.0, 0.1, "m, per axis, of a joint's place within the skin");
   v("mean_hand_factor", p.mean_hand_factor, 1.0, 100.0, "on both, where the profile is a mean hand, fitted or not");
+  v("scanned_factor", p.scanned_factor, 0.01, 1.0, "on both, where the skin was scanned");
   v("range_share", p.range_share, 0.01, 10.0,
     "deviation of a joint that was not seen for long, relative to that of its whole range");
   v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0, "degrees, deviation of a joint when it vanishes");

@@ -43,7 +43,10 @@ TEST_F(PoseUncertaintyTest, AFingerInViewIsKnownToMillimetres) {
   EXPECT_GT(measured, std::sqrt(3) * params_.joint_deviation);
   EXPECT_LT(measured, 0.003);
   profile_->origin = ProfileOrigin::mean;
-  EXPECT_NEAR(tip_deviation(open_), params_.mean_hand_factor * measured, 0.2 * params_.mean_hand_factor * measured);
+  const double mean = tip_deviation(open_);
+  EXPECT_NEAR(mean, params_.mean_hand_factor * measured, 0.2 * params_.mean_hand_factor * measured);
+  profile_->scanned_skin = skin_;
+  EXPECT_NEAR(tip_deviation(open_), params_.scanned_factor * mean, 0.05 * mean);
 }
 
 TEST_F(PoseUncertaintyTest, AHiddenFingerIsKnownTheLessTheLongerItIsHidden) {
