@@ -51,4 +51,11 @@ JointJacobians JointLinearisation::of_angles() const {
   return J;
 }
 
+AngleExcess JointLinearisation::excess(const JointLimits& limits) const {
+  const auto beyond = [](double x, double lo, double hi) { return x < lo ? x - lo : (x > hi ? x - hi : 0.0); };
+  const double flexion = beyond(angles.flexion, limits.flexion_lo, limits.flexion_hi);
+  const double abduction = beyond(angles.abduction, limits.abduction_lo, limits.abduction_hi);
+  return {{flexion, abduction, angles.twist}, {flexion != 0 ? 1.0 : 0.0, abduction != 0 ? 1.0 : 0.0, 1}};
+}
+
 }  // namespace barehand

@@ -10,6 +10,12 @@ struct JointJacobians {
   Eigen::Matrix<double, 3, 6> child, parent;
 };
 
+/// What a joint's limits do not allow (Eq. 6): flexion and abduction beyond them, and all twist.
+struct AngleExcess {
+  Eigen::Vector3d angles;  ///< flexion, abduction, twist [rad]
+  Eigen::Vector3d counts;  ///< 1 of what is held back, 0 of an angle within its limits
+};
+
 /// State of one joint and its first-order change.
 struct JointLinearisation {
   Eigen::Vector3d gap;              ///< joint in the parent minus proximal end, camera frame [m] (Eq. 5)
@@ -22,6 +28,7 @@ struct JointLinearisation {
   JointJacobians of_gap() const;     ///< v_parent + w_parent x lever - v_segment
   JointJacobians of_turn() const;    ///< of R_joint_segment, a turn in the joint's frame
   JointJacobians of_angles() const;  ///< of flexion, abduction, twist
+  AngleExcess excess(const JointLimits& limits) const;
 };
 /// At the joint between `segment`, which is not the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);

@@ -108,7 +108,6 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
 
 double add_joint_terms(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree) {
-  const auto beyond = [](double x, double lo, double hi) { return x < lo ? x - lo : (x > hi ? x - hi : 0.0); };
   double total = 0;
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint(profile, pose, s);
@@ -117,13 +116,10 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
     tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
-    const JointLimits& limit = limits[s];
-    const Vector3d excess(beyond(joint.angles.flexion, limit.flexion_lo, limit.flexion_hi),
-                          beyond(joint.angles.abduction, limit.abduction_lo, limit.abduction_hi), joint.angles.twist);
-    const Matrix3d W_angle =
-        Vector3d(excess[0] != 0, excess[1] != 0, 1).asDiagonal().toDenseMatrix() / sq(params.sigma_angle_deg * kDegree);
-    tree.add<3>(s, J_angles.child, J_angles.parent, excess, W_angle);
-    total += excess.dot(W_angle * excess);
+    const AngleExcess excess = joint.excess(limits[s]);
+    const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / sq(params.sigma_angle_deg * kDegree);
+    tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W_angle);
+    total += excess.angles.dot(W_angle * excess.angles);
   }
   return total;
 }

@@ -118,7 +118,6 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
 
 void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model,
                                     const std::array<JointLimits, kSegmentCount>& limits, GaussianTree& tree) {
-  const auto beyond = [](double x, double lo, double hi) { return x < lo ? x - lo : (x > hi ? x - hi : 0.0); };
   const double w_gap = 1 / sq(kSigmaGap);
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
@@ -135,15 +134,12 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     sums.child.leftCols<6>() = w_gap * J_child.transpose() * J;
 
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
-    const JointLimits& limit = limits[s];
-    const Vector3d excess(beyond(joint.angles.flexion, limit.flexion_lo, limit.flexion_hi),
-                          beyond(joint.angles.abduction, limit.abduction_lo, limit.abduction_hi), joint.angles.twist);
-    const Vector3d counts(excess[0] != 0, excess[1] != 0, 1);
-    const Matrix3d W = Matrix3d(counts.asDiagonal()) / sq(kSigmaAngle);
+    const AngleExcess excess = joint.excess(limits[s]);
+    const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);
     const Matrix3d J_rest = -joint.d_angles;  // what rest turns further, the joint turns less
-    tree.add<3>(s, J_angles.child, J_angles.parent, excess, W);
+    tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W);
     sums.H.bottomRightCorner<3, 3>() = J_rest.transpose() * W * J_rest;
-    sums.g.tail<3>() = -J_rest.transpose() * (W * excess);
+    sums.g.tail<3>() = -J_rest.transpose() * (W * excess.angles);
     sums.parent.rightCols<3>() = J_angles.parent.transpose() * W * J_rest;
     sums.child.rightCols<3>() = J_angles.child.transpose() * W * J_rest;
     tree.add<3>(s, J_turn.child, J_turn.parent, Vector3d::Zero(), Matrix3d::Identity() / sq(kSigmaTurn));

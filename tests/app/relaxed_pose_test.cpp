@@ -28,17 +28,9 @@ class RelaxedPose : public testing::Test {
       rendered.vertex[i] = -1;
       return true;
     });
-    hand->nearest_hand = nearest_in(rendered.vertex);
-    hand->nearest_object = nearest_in(object);
+    hand->nearest_hand = test::nearest_in(rendered.vertex);
+    hand->nearest_object = test::nearest_in(object);
     hand_ = hand;
-  }
-  static Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
-    NearestCell nearest;
-    nearest.index(marked);
-    Image<std::int32_t> result(marked.width(), marked.height(), -1);
-    for (int v = 0; v < marked.height(); ++v)
-      for (int u = 0; u < marked.width(); ++u) result.at(u, v) = nearest.find(u, v);
-    return result;
   }
 
   /// As if a search had found the hand with this flexion of hidden joints, and knuckles bent too far by `error` [rad].

@@ -11,6 +11,16 @@ namespace barehand::test {
 
 inline Intrinsics small_camera() { return {320, 240, 262.0, 262.0, 159.5, 119.5}; }
 
+/// Of every pixel the nearest one that is marked, by 0 or more; -1: none is.
+inline Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
+  NearestCell nearest;
+  nearest.index(marked);
+  Image<std::int32_t> result(marked.width(), marked.height(), -1);
+  for (int v = 0; v < marked.height(); ++v)
+    for (int u = 0; u < marked.width(); ++u) result.at(u, v) = nearest.find(u, v);
+  return result;
+}
+
 /// What an ideal camera sees of a posed skin before a wall at `wall` [m]; the whole image is the region of interest.
 /// Unit tests of single stages use it; accuracy is only ever measured on hands that the tracker does not know.
 inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const HandPose& pose, double wall = 1.2) {
@@ -32,11 +42,7 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
     observation->normal[i] = rendered.normal[rendered.vertex[i]];
     observation->hand_pixels.push_back(static_cast<std::int32_t>(i));
   }
-  NearestCell nearest;
-  nearest.index(rendered.vertex);
-  observation->nearest_hand.reset(camera.width, camera.height, -1);
-  for (int v = 0; v < camera.height; ++v)
-    for (int u = 0; u < camera.width; ++u) observation->nearest_hand.at(u, v) = nearest.find(u, v);
+  observation->nearest_hand = nearest_in(rendered.vertex);
   for (std::size_t i = 0; i < observation->hand_pixels.size(); i += 7)
     observation->cloud.push_back(observation->point(observation->hand_pixels[i]));
   return observation;
