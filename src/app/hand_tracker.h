@@ -53,6 +53,10 @@ class HandTracker {
   /// As fitted to the person so far.
   const HandProfile& profile() const { return *model_->profile; }
   bool start_is_given() const { return requested_start_.has_value(); }
+  /// Where the next observation should show the hand (T_camera_segment); null: anywhere.
+  const HandPose* whereabouts() const {
+    return requested_start_ ? &*requested_start_ : (motion_.has_pose() ? &motion_.pose() : nullptr);
+  }
   /// A lost hand may have been found in the last observation; it is tracked if following it explains the next one, too.
   bool unconfirmed() const { return unconfirmed_; }
   /// The next observation is tracked from this pose (T_camera_segment).

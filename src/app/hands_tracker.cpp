@@ -12,6 +12,15 @@ namespace {
 // A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
 constexpr int kSearchEvery = 3;
 
+/// Of the palm from the middle of the hand that is seen [m].
+double distance(const HandPose& pose, const HandObservation& observation) {
+  constexpr double kNowhere = 10;
+  if (!observation.hand_present || observation.cloud.empty()) return kNowhere;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& p : observation.cloud) sum += p;
+  return (sum.cast<double>() / static_cast<double>(observation.cloud.size()) - pose[kPalm].t).norm();
+}
+
 }  // namespace
 
 HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
@@ -36,9 +45,10 @@ void HandsTracker::check_anew() {
   if (count() == 1) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
 }
 
-HandEstimates HandsTracker::process(const HandObservations& observations) {
-  if (count() == 1) return {process_only(*observations[0])};
+HandEstimates HandsTracker::process(const HandObservations& in_order) {
+  if (count() == 1) return {process_only(*in_order[0])};
   ++frame_;
+  const HandObservations observations = by_hand(in_order);
   HandEstimates out(hands_.size());
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
@@ -76,6 +86,16 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   else if (check_->is_other_side(observation, effort, attempts, score))
     found.reset();
   return hand.process(observation, std::move(found));
+}
+
+HandObservations HandsTracker::by_hand(const HandObservations& observations) const {
+  if (observations[0]->followed || observations[1]->followed) return observations;
+  const auto apart = [&](int k, int j) {
+    const HandPose* pose = hands_[k]->whereabouts();
+    return pose ? distance(*pose, *observations[j]) : 0;
+  };
+  if (apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1)) return {observations[1], observations[0]};
+  return observations;
 }
 
 /// Whether the observation may be anybody's.

@@ -48,10 +48,15 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     if (hand.followed) take_away(grid, hand);
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     CoarseHand& hand = hands_[k];
+    if (hand.found || !hints_[k] || tracked(k)) continue;
+    split_surfaces(grid, candidates_, surfaces_);
+    hand.found = hand.followed = follow(grid, *hints_[k], hint_age, hand);
+    if (hand.found) take_away(grid, hand);
+  }
+  for (CoarseHand& hand : hands_) {  // only now: a hand that is held may be the nearest of all
     if (hand.found) continue;
     split_surfaces(grid, candidates_, surfaces_);
-    hand.followed = hints_[k] && !tracked(k) && follow(grid, *hints_[k], hint_age, hand);
-    hand.found = hand.followed || start(grid, hand);
+    hand.found = start(grid, hand);
     if (hand.found) take_away(grid, hand);
   }
   return hands_;

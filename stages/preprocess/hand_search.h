@@ -21,8 +21,9 @@ struct CoarseHand {
   std::optional<WristPlane> wrist;          ///< what lies behind is forearm
 };
 
-/// Looks for one or several hands, each first where its hint says, moved by up to max_speed * age of the hint; those
-/// that are not there in what is left of the image. A cell belongs to one hand at most.
+/// Looks for one or several hands, each where its hint says, moved by up to max_speed * age of the hint: tracked ones
+/// first. Then for those that are not there, or have no hint, in what is left of the image. A cell belongs to one hand
+/// at most.
 class HandSearch {
  public:
   HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}

@@ -79,6 +79,21 @@ TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
   EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
 }
 
+TEST_F(HandsTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i)
+    found = next(tracker_, left_hand_, nothing(), {});
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking) << i;
+    EXPECT_EQ(found[kRight]->status, TrackStatus::searching) << i;
+    found = next(tracker_, left_hand_, nothing(), {});
+  }
+  // Now that the right hand is the nearer one, preprocess gives that first.
+  found = next(tracker_, right_hand_, left_hand_, {});
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+  EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
+}
+
 TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
   HandsTracker only_left(test::quick_tracker(), {left_}, 1, workers_),
       only_right(test::quick_tracker(), {right_}, 1, workers_);

@@ -307,6 +307,14 @@ TEST(PreprocessTwoHands, TheForearmOfATrackedHandIsNoHand) {
   EXPECT_FALSE(o[1]->hand_present);
 }
 
+TEST(PreprocessTwoHands, AHandThatIsHeldIsItsOwnAlsoIfItIsTheOnlyOne) {
+  HandEstimate held = painted_hand_estimate(0, kY, kZ);
+  held.status = TrackStatus::holding;
+  const auto o = observe_two(PaintedScene().hand(0, kY, kZ), nullptr, &held);
+  EXPECT_TRUE(o[1]->followed);
+  EXPECT_FALSE(o[0]->hand_present);
+}
+
 TEST(PreprocessTwoHands, AHandThatIsGoneDoesNotTakeTheOtherOnesPlace) {
   const HandEstimate gone = painted_hand_estimate(0.02, kY, kZ), tracked = painted_hand_estimate(-0.06, kY, kZ);
   const auto o = observe_two(PaintedScene().hand(-0.06, kY, kZ), &gone, &tracked);
