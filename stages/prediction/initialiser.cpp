@@ -160,10 +160,11 @@ void Initialiser::for_each_trial(Trials& trials, const PoseCost& cost, int toget
 
 /// The templates in all orientations, not yet placed.
 Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, double turn) const {
-  // With few shapes every second or third template is taken, so that open and closed hands both stay.
-  const std::size_t stride = std::max<std::size_t>(1, shapes_.size() / effort.shapes);
+  // Few shapes are spread over all templates, so that open and closed hands both stay.
+  const std::size_t count = std::min<std::size_t>(effort.shapes, shapes_.size());
   Trials trials;
-  for (std::size_t i = 0; i < shapes_.size(); i += stride) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = n * shapes_.size() / count;
     for (int r = 0; r < effort.rolls; ++r) {
       for (int p = 0; p < effort.pitches; ++p) {
         const double pitch = effort.pitches > 1 ? kMaxPitch * (2.0 * p / (effort.pitches - 1) - 1) : 0.0;

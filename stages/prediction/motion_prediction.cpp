@@ -110,10 +110,4 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   return result;
 }
 
-Proposals proposals_at(const HandPose& pose, const std::array<Vector6d, kSegmentCount>& half_width) {
-  Proposals proposals;
-  for (int s = 0; s < kSegmentCount; ++s) proposals[s] = {Kernel{pose[s], half_width[s]}};
-  return proposals;
-}
-
 }  // namespace barehand

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/frame_memory.h"
-#include "hand/samples.h"
+#include "hand/hand_pose.h"
 #include "stages/prediction/observed_cloud.h"
 #include "stages/prediction/rigid_icp.h"
 #include "stages/prediction/visible_points.h"
@@ -72,9 +72,6 @@ class MotionModel {
   /// Equal stamps are a standstill; a recording played backwards has falling stamps and moves all the same.
   Prediction predict(const HandObservation& observation, const HandSurface& surface);
 
-  /// Per second, relative to the global motion: of the origin, then angular, camera frame.
-  const std::array<Vector6d, kSegmentCount>& relative_velocity() const { return velocity_; }
-
  private:
   HandPose with_velocity(const HandPose& moved, const SE3& motion, double dt) const;
   double damping_of(int segment, double dt) const;
@@ -85,16 +82,13 @@ class MotionModel {
   std::int64_t utime_ = 0;
   HandPose pose_;
   std::array<bool, kSegmentCount> seen_{};
-  std::array<Vector6d, kSegmentCount> velocity_{};
-  Vector6d global_velocity_ = Vector6d::Zero();  // of the palm's frame under the global motion, per second
+  std::array<Vector6d, kSegmentCount> velocity_{};  // per second, relative to the global motion; camera frame
+  Vector6d global_velocity_ = Vector6d::Zero();     // of the palm's frame under the global motion, per second
   ObservedCloud cloud_;
   VisiblePoints visible_points_;
 };
 
 /// The pose moved rigidly: every segment by `motion` (camera frame).
 HandPose moved(const SE3& motion, const HandPose& pose);
-
-/// Proposals of level 0: one kernel at the pose for every segment (Sec. 4.4).
-Proposals proposals_at(const HandPose& pose, const std::array<Vector6d, kSegmentCount>& half_width);
 
 }  // namespace barehand

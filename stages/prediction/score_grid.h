@@ -16,9 +16,7 @@ struct ScoreGrid {
   Eigen::Vector3d palm_centre = Eigen::Vector3d::Zero();  ///< surface point where the hand is widest (maximum of
                                                           ///< the distance transform inside the hand)
   bool empty() const { return hand_cells == 0; }
-  /// Within the camera's image, hence observable even where the grid ends.
-  bool in_image(int i, int j) const { return i >= i_lo && j >= j_lo && i < i_hi && j < j_hi; }
-  int i_lo = 0, j_lo = 0, i_hi = 0, j_hi = 0;  ///< the image's borders
+  int i_lo = 0, j_lo = 0, i_hi = 0, j_hi = 0;  ///< the image's borders: what lies within is observable
 };
 
 /// Cells of about `cell` [m] at the median distance of the hand. Empty when the observation has no hand pixels.

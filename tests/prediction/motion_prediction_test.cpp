@@ -134,17 +134,6 @@ TEST_F(VelocityRules, WithFewPointsThePoseIsHeld) {
   EXPECT_LT(test::mean_error(*profile_, prediction.primary(), first_), 1e-12);
 }
 
-TEST_F(VelocityRules, ProposalsAreCentredAtThePose) {
-  std::array<Vector6d, kSegmentCount> width;
-  width.fill(Vector6d::Constant(0.01));
-  const Proposals proposals = proposals_at(first_, width);
-  for (int s = 0; s < kSegmentCount; ++s) {
-    ASSERT_EQ(proposals[s].size(), 1u);
-    EXPECT_EQ(proposals[s][0].T_camera_segment.t, first_[s].t);
-    EXPECT_EQ(proposals[s][0].half_width, width[s]);
-  }
-}
-
 TEST(MotionModel, FollowsASteadyHandWithIcp) {
   const auto profile = test::adult_hand();
   ASSERT_TRUE(profile);
