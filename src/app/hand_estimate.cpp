@@ -45,7 +45,9 @@ void HandTracker::fill_segments(HandEstimate& out, const Fit& fit) {
   const double dt = last_tracked_ ? std::abs(out.utime - last_tracked_->utime) * kMicro : 0;
   std::array<bool, kSegmentCount> hidden;
   for (int s = 0; s < kSegmentCount; ++s) hidden[s] = refined.matched[s] < params_.seen_fraction;
-  if (!fit.prediction) uncertainty_.restart();
+  // A pose that was found or given anew since then is no motion from there.
+  const bool same_track = fit.prediction && dt == fit.prediction->dt;
+  if (!same_track) uncertainty_.restart();
   const auto covariance = fit.belief ? *fit.belief : uncertainty_.covariance(*model_->profile, refined, hidden, dt);
   for (int s = 0; s < kSegmentCount; ++s) {
     SegmentState& state = out.segments[s];
@@ -54,8 +56,7 @@ void HandTracker::fill_segments(HandEstimate& out, const Fit& fit) {
     state.visible = refined.visible[s];
     state.seen = !hidden[s];
     state.confidence = confidence(*model_->profile, state, s);
-    // Velocity needs a pose of the same track shortly before.
-    if (fit.prediction && dt > 0 && dt < params_.prediction.max_interval)
+    if (same_track && dt > 0 && dt < params_.prediction.max_interval)
       state.velocity = boxminus(state.T_camera_segment, last_tracked_->segments[s].T_camera_segment) / dt;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/clearly_better.h"
 #include "app/found_poses.h"
@@ -43,9 +44,10 @@ void HandTracker::reset() {
   unconfirmed_ = false;
   last_good_.reset();
   requested_start_.reset();
+  last_tracked_.reset();
   search_frames_ = 0;
   usual_score_.reset();
-  if (scan_) forget_person();  // whoever comes next may be somebody else
+  if (params_.shape_fit.enabled) forget_person();  // whoever comes next may be somebody else
 }
 
 void HandTracker::forget_person() {
@@ -69,21 +71,27 @@ void HandTracker::change(const TrackerParams& params) {
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation) {
-  if (requested_start_) {
-    motion_.restart(*requested_start_, observation.frame->utime);
-    loss_.start_tracking();
-    greet_new_hand();
-    unconfirmed_ = false;
-    requested_start_.reset();
-  }
   const TrackEvidence seen = evidence(observation);
+  const bool enough = seen.hand_pixels >= params_.loss.min_hand_pixels;
+  if (const auto start = std::exchange(requested_start_, std::nullopt)) {
+    if (enough)
+      begin_at(*start, observation.frame->utime);
+    else
+      log_->warn("the given pose is not used: its frame shows no hand, which is searched for now");
+  }
   std::optional<Fit> fit;
-  if (seen.hand_pixels >= params_.loss.min_hand_pixels) fit = explain(observation, loss_.bad_threshold(seen));
+  if (enough) fit = explain(observation, loss_.bad_threshold(seen));
   return judge(observation, fit, seen);
 }
 
+void HandTracker::begin_at(const HandPose& pose, std::int64_t utime) {
+  motion_.restart(pose, utime);
+  loss_.start_tracking();
+  greet_new_hand();
+  unconfirmed_ = false;
+}
+
 HandEstimatePtr HandTracker::process(const HandObservation& observation, std::optional<Fit> found) {
-  ++search_frames_;
   TrackEvidence seen = evidence(observation);
   if (!found) seen.hand_pixels = 0;
   return judge(observation, found, seen);
@@ -110,17 +118,14 @@ TrackEvidence HandTracker::evidence(const HandObservation& observation) {
 HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std::optional<Fit>& fit,
                                    TrackEvidence evidence) {
   ++frame_;
+  if (std::exchange(searched_, false)) ++search_frames_;
   const bool unconfirmed = fit && needs_confirmation(*fit);
   if (fit && !unconfirmed && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
   unconfirmed_ = unconfirmed && status == TrackStatus::lost;
   if (status == TrackStatus::tracking && fit) {
     remember(observation, *fit);
-    if (size_check_) check_size(observation, fit->refined);
-    if (fit->refined.score < loss_.good_threshold(evidence)) {
-      last_good_ = fit->refined.pose;
-      learn_person(observation, fit->refined.pose);
-    }
+    if (fit->refined.score < loss_.good_threshold(evidence)) last_good_ = fit->refined.pose;
   } else if (unconfirmed_) {
     motion_.restart(fit->refined.pose, observation.frame->utime);
   } else if (status == TrackStatus::searching) {
@@ -129,7 +134,12 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
     last_good_.reset();
   }
   HandEstimatePtr result = estimate(observation, fit);
-  use_scan();  // between two frames: what a search found in a frame was found with the hand it is judged with
+  // What is learnt counts from the next frame on: this one was explained with the hand as it was.
+  if (status == TrackStatus::tracking && fit) {
+    if (size_check_) check_size(observation, fit->refined);
+    if (fit->refined.score < loss_.good_threshold(evidence)) learn_person(observation, fit->refined.pose);
+  }
+  use_scan();
   return result;
 }
 
@@ -146,7 +156,6 @@ std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& obse
       found = search_doubtful(observation, fit->refined.pose);
   } else {  // nothing to follow, or following fails: the hand may be anywhere
     found = look(observation, effort(), attempts(effort()));
-    ++search_frames_;
   }
   if (!fit || !found) return fit ? fit : found;
   const bool elsewhere =
@@ -246,6 +255,7 @@ void HandTracker::use_scan() {
     if (!hand) return;
     model_ = std::make_unique<HandModel>(params_, hand, hand->scanned_skin, model_->initialiser, workers_, log_);
     log_->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
+    if (person_ && scan_->of_hand_before()) size_check_.emplace(params_.refinement, model_->profile, model_->skin);
   } catch (const std::exception& e) {  // most likely memory: the hand as it is does, too
     log_->warn("the hand could not be scanned: {}", e.what());
   }
@@ -332,6 +342,7 @@ bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sam
 }
 
 std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
+  searched_ = true;
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
   std::optional<Fit> best;
   FoundPoses poses(*model_->profile, params_.search_settled, params_.loss.recovered_score);

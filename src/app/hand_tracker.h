@@ -59,15 +59,18 @@ class HandTracker {
   }
   /// A lost hand may have been found in the last observation; it is tracked if following it explains the next one, too.
   bool unconfirmed() const { return unconfirmed_; }
-  /// The next observation is tracked from this pose (T_camera_segment).
+  /// The next observation, if it shows a hand, is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
   /// Goes on with other parameters: the same hand from its last pose, as fitted to the person so far. What fits it
   /// stays as it is (`shape_fit`).
   void change(const TrackerParams& params);
   /// Forgets the hand and the person; the next observation is searched.
   void reset();
+  /// For a tracker that takes this one's place: no id is given twice.
+  HandIds further_ids() const { return {hand_id_ ? hand_id_ + ids_.step : ids_.first, ids_.step}; }
 
  private:
+  void begin_at(const HandPose& pose, std::int64_t utime);
   /// The best pose for this frame: followed from the last one, or found anew where that explains too little.
   std::optional<Fit> explain(const HandObservation& observation, double bad_score);
   bool was_followed() const { return last_good_ || motion_.has_pose(); }
@@ -115,7 +118,8 @@ class HandTracker {
   PoseUncertainty uncertainty_;
 
   std::uint32_t frame_ = 1;  // of the next observation: keys the random numbers
-  int search_frames_ = 0;    // since the last hand
+  bool searched_ = false;    // for the hand in this frame
+  int search_frames_ = 0;    // in which it was, since the last hand
   int doubtful_frames_ = 0;
   UsualScore usual_score_;
   std::int64_t last_utime_ = 0;

@@ -86,6 +86,7 @@ void PersonScan::add(const HandObservation& observation, const HandPose& pose) {
 
 void PersonScan::start() {
   next_ *= 2;
+  of_hand_before_ = false;
   scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
                              Workers& workers) { return scanned(params, given, frames, workers, stop); });
   if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};  // they are large
@@ -93,6 +94,7 @@ void PersonScan::start() {
 
 void PersonScan::restart() {
   frames_ = {kSettling, kMost};
+  of_hand_before_ = scan_.valid();
   next_ = params_.shape_fit.scan_after;
   if (scans_ == 0) return;
   scans_ = params_.shape_fit.scans - 1;

@@ -27,6 +27,8 @@ class PersonScan {
   void restart();
   /// The hand of a scan that has ended, once; throws what the scan threw.
   std::shared_ptr<const HandProfile> take();
+  /// Whether the scan taken last began before the last restart: it may show another person's hand.
+  bool of_hand_before() const { return of_hand_before_; }
 
  private:
   using Hand = std::shared_ptr<const HandProfile>;  // null: the frames tell none
@@ -37,6 +39,7 @@ class PersonScan {
   Workers& workers_;
   ScanFrames frames_;
   int scans_ = 0, next_;
+  bool of_hand_before_ = false;
   std::stop_source stop_;
   std::future<Hand> scan_;
 };

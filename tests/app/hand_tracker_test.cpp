@@ -69,6 +69,38 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   EXPECT_FALSE(tracker.profile().scanned_skin);
 }
 
+/// A pose is given from outside.
+class GivenStart : public testing::Test {
+ protected:
+  HandEstimatePtr next(const HandObservation& observation) {
+    return tracker_.process(*test::stamped(observation, utime_ += 33'000));
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5);
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  Workers workers_{1};
+  HandTracker tracker_{test::quick_tracker(), profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(GivenStart, IsNoPoseWhereNoHandIsSeen) {
+  tracker_.start_at(pose_);
+  EXPECT_EQ(next(HandObservation{})->status, TrackStatus::searching);
+}
+
+TEST_F(GivenStart, ElsewhereIsNoMotion) {
+  tracker_.start_at(pose_);
+  for (int i = 0; i < 3; ++i) next(*hand_);
+  const Eigen::Vector3d by(0.05, 0, 0);
+  HandPose moved = pose_;
+  for (SE3& T : moved) T.t += by;
+  tracker_.start_at(moved);
+  const HandEstimatePtr estimate = next(*test::observe_skin(make_blended_skin(*profile_, 0.004), moved));
+  ASSERT_EQ(estimate->status, TrackStatus::tracking);
+  EXPECT_LT(estimate->segments[kPalm].velocity.head<3>().norm(), 0.1);
+}
+
 /// A hand that is tracked, goes away and comes back, or a larger one in its place.
 class Return : public testing::Test {
  protected:

@@ -130,12 +130,15 @@ TEST_F(PersonScanTest, ALiveHandIsScannedMeanwhileAndAlike) {
     ASSERT_EQ(hand->scanned_skin->vertices[i].in_a, expected->scanned_skin->vertices[i].in_a);
 }
 
-TEST_F(PersonScanTest, EndsWhileAScanIsUnderWay) {
-  Workers live(2);
-  live.go_live();
-  auto scan = std::make_unique<PersonScan>(params_, mean_, live);
-  show(*scan, params_.shape_fit.scan_after);
-  scan.reset();
+TEST_F(PersonScanTest, SaysThatItsHandIsOfTheHandBefore) {
+  PersonScan scan(params_, mean_, workers_);
+  show(scan, params_.shape_fit.scan_after);
+  scan.restart();  // before the scan is taken
+  EXPECT_TRUE(scan.take());
+  EXPECT_TRUE(scan.of_hand_before());
+  show(scan, params_.shape_fit.scan_after << 1);
+  EXPECT_TRUE(scan.take());
+  EXPECT_FALSE(scan.of_hand_before());
 }
 
 }  // namespace
