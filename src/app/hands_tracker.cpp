@@ -12,6 +12,9 @@ namespace {
 // A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
 constexpr int kSearchEvery = 3;
 
+// A hand that was lost a moment ago most likely is the one that comes back; half of it fits the other side as well.
+constexpr double kOverReturning = 0.3;
+
 /// Of the palm from the middle of the hand that is seen [m].
 double distance(const HandPose& pose, const HandObservation& observation) {
   constexpr double kNowhere = 10;
@@ -30,8 +33,8 @@ HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles
 }
 
 void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
-  hands_[k] =
-      std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
+  const HandIds ids = hands_[k] ? hands_[k]->further_ids() : HandIds{k + 1, count()};
+  hands_[k] = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, ids);
   check_anew();
 }
 
@@ -42,7 +45,11 @@ void HandsTracker::change(const TrackerParams& params) {
 }
 
 void HandsTracker::check_anew() {
-  if (count() == 1) check_ = std::make_unique<ProfileCheck>(params_, hands_[0]->profile(), seed_, workers_, log_);
+  checks_.clear();
+  for (const auto& hand : hands_)  // of two hands the other one is tracked: nothing to say about profiles
+    if (hand)
+      checks_.push_back(std::make_unique<ProfileCheck>(params_, hand->profile(), seed_, workers_,
+                                                       count() == 1 ? log_ : make_silent_logger()));
 }
 
 HandEstimates HandsTracker::process(const HandObservations& in_order) {
@@ -53,10 +60,14 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
     if (!searched(k, *observations[k])) tracked.push_back(k);
-  workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
-    const int k = tracked[i];
-    out[k] = hands_[k]->process(*observations[k]);
+  workers_.for_each_index(2 * static_cast<int>(tracked.size()), [&](int i) {
+    const int k = tracked[i / 2];
+    if (i % 2 == 0)
+      out[k] = hands_[k]->process(*observations[k]);
+    else if (checks_[k]->on_trial())
+      checks_[k]->track_mirrored(*observations[k]);
   });
+  for (const int k : tracked) judge_trial(k, *out[k]);
   if (tracked.empty())
     search_both(observations, out);
   else
@@ -65,16 +76,27 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   return out;
 }
 
+/// A hand that was tracked alone may turn out to be the other one, which goes on from there.
+void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
+  HandTracker& other = *hands_[1 - k];
+  ProfileCheck& check = *checks_[k];
+  if (other.status() == TrackStatus::tracking) check.end_trial();
+  if (!check.on_trial() || !check.turns_out_other_side(estimate)) return;
+  hands_[k]->reset();
+  other.start_at(check.mirrored_pose());
+}
+
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
+  ProfileCheck& check = *checks_[0];
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
-    if (!check_->on_trial()) return hand.process(observation);
+    if (!check.on_trial()) return hand.process(observation);
     HandEstimatePtr estimate;
     workers_.for_each_index(2, [&](int i) {
       if (i == 0) estimate = hand.process(observation);
-      if (i == 1) check_->track_mirrored(observation);
+      if (i == 1) check.track_mirrored(observation);
     });
-    if (check_->turns_out_other_side(*estimate)) hand.reset();
+    if (check.turns_out_other_side(*estimate)) hand.reset();
     return estimate;
   }
   const Effort effort = hand.effort();
@@ -82,8 +104,8 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   std::optional<Fit> found = hand.look(observation, effort, attempts);
   const double score = found ? found->refined.score : INFINITY;
   if (score > params_.loss.lost_score)
-    check_->nothing_found(observation, score);
-  else if (check_->is_other_side(observation, effort, attempts, score))
+    check.nothing_found(observation, score);
+  else if (check.is_other_side(observation, effort, attempts, score))
     found.reset();
   return hand.process(observation, std::move(found));
 }
@@ -114,7 +136,9 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
-  const auto score = [&](int k, int j) { return found[k][j] ? found[k][j]->refined.score : INFINITY; };
+  // What is no hand at all to one side must not count for more than what is badly explained by it.
+  const double none = params_.loss.lost_score;
+  const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->refined.score, none) : none; };
   const auto convincing = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;
   };
@@ -135,11 +159,15 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
     if (clearly_better(crossed, straight)) owned = {1, 0};
   } else {
     const int j = observations[0]->hand_present ? 0 : 1;
-    if (clearly_better(score(0, j), score(1, j))) owned[0] = j;
-    if (clearly_better(score(1, j), score(0, j))) owned[1] = j;
+    for (int k = 0; k < 2; ++k) {
+      const bool other_returns =
+          hands_[1 - k]->status() == TrackStatus::lost && hands_[k]->status() != TrackStatus::lost;
+      if (clearly_better(score(k, j), score(1 - k, j), other_returns ? kOverReturning : kHandAdvantage)) owned[k] = j;
+    }
   }
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
+    if (j >= 0 && owned[1 - k] < 0) checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
                    : hands_[k]->process(*observations[j], std::move(found[k][j]));
   }

@@ -34,6 +34,7 @@ class HandsTracker {
  private:
   using Fit = HandTracker::Fit;
   void check_anew();
+  void judge_trial(int k, const HandEstimate& estimate);
   HandEstimatePtr process_only(const HandObservation& observation);
   HandObservations by_hand(const HandObservations& observations) const;
   bool searched(int k, const HandObservation& observation) const;
@@ -45,7 +46,7 @@ class HandsTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::vector<std::unique_ptr<HandTracker>> hands_;
-  std::unique_ptr<ProfileCheck> check_;  // of a hand that is tracked alone
+  std::vector<std::unique_ptr<ProfileCheck>> checks_;  // one a hand
   std::int64_t frame_ = 0;
 };
 

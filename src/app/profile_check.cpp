@@ -44,21 +44,27 @@ void ProfileCheck::say_side() {
              seen, to_string(profile_.handedness), seen);
 }
 
-bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
+HandTracker& ProfileCheck::other_side() {
   if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
+  return *mirrored_;
+}
+
+void ProfileCheck::begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found) {
+  other_side().reset();
+  other_side().process(observation, std::move(found));
+  trial_.emplace();
+}
+
+bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   trial_.reset();
   const bool convincing = score < params_.search_convincing;
-  auto other = mirrored_->look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
+  auto other = other_side().look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->refined.score : INFINITY;
   const bool worse = clearly_better(other_score, score);
   if (worse) say_side();
   if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
   if (worse || suspected_ > 0) return true;
-  if (!convincing) {
-    mirrored_->reset();
-    mirrored_->process(observation, std::move(other));
-    trial_.emplace();
-  }
+  if (!convincing) begin_trial(observation, std::move(other));
   return false;
 }
 
@@ -72,8 +78,8 @@ void ProfileCheck::track_mirrored(const HandObservation& observation) {
 
 bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
   Trial& trial = *trial_;
-  const bool lost = own.status != TrackStatus::tracking;  // it is searched anew then
-  if (!lost && mirrored_->status() == TrackStatus::tracking) {
+  const bool lost = !own.has_pose();  // it is searched anew then
+  if (own.status == TrackStatus::tracking && mirrored_->status() == TrackStatus::tracking) {
     ++trial.compared;
     trial.own_sum += own.score;
     trial.mirrored_sum += trial.mirrored->score;
@@ -89,7 +95,7 @@ bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
 }
 
 void ProfileCheck::nothing_found(const HandObservation& observation, double score) {
-  if (said_size_) return;
+  if (said_size_ || !observation.hand_present) return;
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
   const double size = kSizes[tries_++ % kSizes.size()];

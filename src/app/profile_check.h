@@ -21,19 +21,25 @@ class ProfileCheck {
   /// begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
-  /// A trial: the mirrored profile is tracked, too, in the frames after a start. A single frame seldom tells a hand
-  /// from one of the other side that is bent to it; what moves does.
+  /// A trial: the mirrored profile is tracked, too, in the frames after a start, from where it was `found` at best. A
+  /// single frame seldom tells a hand from one of the other side that is bent to it; what moves does.
+  void begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found);
+  void end_trial() { trial_.reset(); }
   bool on_trial() const { return trial_.has_value(); }
   /// The mirrored profile's part of one frame.
   void track_mirrored(const HandObservation& observation);
   /// After that and the profile's own part: whether the trial ends with the other side.
   bool turns_out_other_side(const HandEstimate& own);
+  /// Where that ended: the hand of the other side (T_camera_segment).
+  const HandPose& mirrored_pose() const { return *mirrored_->whereabouts(); }
 
-  /// A search found no hand, at best with `score` (infinite: nothing at all). Now and then another size is tried.
+  /// A search found no hand in what looks like one, at best with `score` (infinite: nothing at all). Now and then
+  /// another size is tried.
   void nothing_found(const HandObservation& observation, double score);
 
  private:
   HandTracker tracker_of(const HandProfile& profile) const;
+  HandTracker& other_side();
   void say_side();
 
   TrackerParams params_;

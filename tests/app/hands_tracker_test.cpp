@@ -123,6 +123,39 @@ TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   EXPECT_GT(frames, 10);
 }
 
+TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater) {
+  HandEstimates last;
+  for (int i = 0; i < 6 && (i == 0 || last[kRight]->status != TrackStatus::tracking); ++i)
+    last = next(tracker_, right_hand_, nothing(), {});
+  ASSERT_EQ(last[kRight]->status, TrackStatus::tracking);
+  // The same place, palm for palm: a right hand that is bent to it explains it badly, but is tracked.
+  const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
+  int frames = 0;
+  while (++frames < 60 && last[kLeft]->status != TrackStatus::tracking) last = next(tracker_, left_hand, nothing(), {});
+  EXPECT_EQ(last[kLeft]->status, TrackStatus::tracking);
+  EXPECT_NE(last[kRight]->status, TrackStatus::tracking);
+  EXPECT_GT(frames, 10);
+}
+
+TEST_F(HandsTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
+  auto patch = std::make_shared<HandObservation>(*left_hand_);
+  patch->hand_pixels.resize(50);  // fewer than any search looks at
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
+    found = next(tracker_, right_hand_, patch, {});
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, AnotherPersonsHandGetsAnIdOfItsOwn) {
+  const HandEstimates before = next_times(4, tracker_, right_hand_, left_hand_);
+  tracker_.use(kRight, right_);
+  const HandEstimates after = next_times(4, tracker_, right_hand_, left_hand_);
+  ASSERT_EQ(before[kRight]->status, TrackStatus::tracking);
+  ASSERT_EQ(after[kRight]->status, TrackStatus::tracking);
+  EXPECT_NE(after[kRight]->hand_id, before[kRight]->hand_id);
+  EXPECT_NE(after[kRight]->hand_id, after[kLeft]->hand_id);
+}
+
 TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
   next_times(4, tracker_, right_hand_, nothing());
   const HandEstimates alone = next_times(2, tracker_, right_hand_, nothing(), {true, false});

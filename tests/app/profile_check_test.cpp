@@ -69,7 +69,16 @@ TEST_F(ProfileOnTrial, AHandOfItsOwnSideIsLeftAlone) {
 
 TEST_F(ProfileOnTrial, EndsWithAHandThatIsLost) {
   ASSERT_FALSE(refused(kGood));
-  EXPECT_FALSE(trial(kBad, TrackStatus::holding));
+  EXPECT_FALSE(trial(kBad, TrackStatus::lost));
+}
+
+TEST_F(ProfileOnTrial, GoesOnAfterAFrameWithoutTheHand) {
+  ASSERT_FALSE(refused(kGood));
+  HandEstimate held;
+  held.status = TrackStatus::holding;
+  check_.track_mirrored(*seen());
+  EXPECT_FALSE(check_.turns_out_other_side(held));
+  EXPECT_TRUE(trial(kBad));
 }
 
 TEST_F(ProfileOnTrial, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
@@ -80,6 +89,13 @@ TEST_F(ProfileOnTrial, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
   EXPECT_TRUE(refused(kGood));
   EXPECT_TRUE(refused(kGood));
   EXPECT_FALSE(refused(kGood));
+}
+
+TEST_F(ProfileOnTrial, AnotherSizeIsFoundOutHoweverLongNoHandWasThere) {
+  ProfileCheck check(params(), scaled(*left_, 0.8), 1, workers_, test::text_logger(said_));
+  for (int i = 0; i < 500; ++i) check.nothing_found(HandObservation{}, INFINITY);
+  for (int i = 0; i < 40; ++i) check.nothing_found(*seen(), kBad);
+  EXPECT_NE(said_.str().find("% larger"), std::string::npos) << said_.str();
 }
 
 TEST_F(ProfileOnTrial, NoneIsNeededWhereTheStartConvinces) {
