@@ -38,14 +38,13 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
       std::int32_t& i = out.part_of_root[out.sets.root(out.id.at(u, v))];
       if (i < 0) {
         i = static_cast<std::int32_t>(out.parts.size());
-        out.parts.push_back({.nearest = grid.z.at(u, v)});
+        out.parts.emplace_back();
       }
       out.id.at(u, v) = i;
       Components::Part& part = out.parts[i];
       const Eigen::Vector3f p = grid.point(u, v);
       ++part.cells;
       part.area += grid.cell_area(p.z());
-      part.nearest = std::min(part.nearest, p.z());
       part.centre += p;
     }
   for (Components::Part& part : out.parts) {

@@ -13,9 +13,8 @@ namespace barehand {
 struct Components {
   struct Part {
     int cells = 0;
-    float area = 0;     ///< [m^2] facing the camera
-    float nearest = 0;  ///< smallest z [m]
-    float mean_z = 0;   ///< [m]
+    float area = 0;    ///< [m^2] facing the camera
+    float mean_z = 0;  ///< [m]
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();
   };
   Image<std::int32_t> id;                  ///< index into parts; -1 where the mask is empty

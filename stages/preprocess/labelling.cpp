@@ -20,7 +20,7 @@ void HandMask::tabulate(const Intrinsics& camera, const CoarseGrid& grid, const 
   for (int v = 0; v < region.height; ++v) row_[v] = std::min((v + region.v0) / grid.step, grid.z.height() - 1);
 }
 
-void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
+void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands) {
   const int width = grid.z.width(), height = grid.z.height();
   const float fx = static_cast<float>(grid.camera.fx);
   lowest_.reset(width, height, INFINITY);
@@ -35,6 +35,11 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand) {
           highest_.at(x, y) = std::max(highest_.at(x, y), z + step);
         }
     }
+  for (const CoarseHand& other : hands) {
+    if (&other == &hand || !other.found) continue;
+    for (std::size_t i = 0; i < other.cells.size(); ++i)
+      if (other.cells[i]) lowest_[i] = INFINITY, highest_[i] = -INFINITY;
+  }
 }
 
 void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
@@ -113,10 +118,10 @@ void HandMask::judge_colour(const Image<float>& depth) {
 }
 
 void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
-                       const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
-                       Image<std::uint8_t>& mask) {
+                       std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
+                       const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask) {
   tabulate(frame.camera, grid, region);
-  support(grid, hand);
+  support(grid, hand, hands);
   find_supported(depth);
   evidence_.reset(region.width, region.height, Evidence::none);
   if (grid.coloured) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "observe/observation.h"
 #include "observe/pixel_rays.h"
 #include "stages/preprocess/depth_map.h"
@@ -15,14 +17,14 @@ class HandMask {
   explicit HandMask(const PreprocessParams& params) : params_(params) {}
   /// `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel lies at the depth of a
   /// neighbouring hand cell, on the hand's side of the wrist; its colour, averaged over `skew_px`, is skin. Beside
-  /// depth edges and without colour, the depth-connected neighbours decide.
+  /// depth edges and without colour, the depth-connected neighbours decide. Cells of the other `hands` are theirs.
   void compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
-               const Region& region, const Image<float>& depth, const Image<std::uint8_t>& edge,
-               Image<std::uint8_t>& mask);
+               std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
+               const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask);
 
  private:
   void tabulate(const Intrinsics& camera, const CoarseGrid& grid, const Region& region);
-  void support(const CoarseGrid& grid, const CoarseHand& hand);
+  void support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
   void find_supported(const Image<float>& depth);
   void judge_depth(const Image<float>& depth);

@@ -45,7 +45,7 @@ void visit(V& v, PreprocessParams& p) {
   v("learned_share", p.learned_share, 0.0, 0.99, "weight of the learned against the generic skin colour");
   v("normal_radius", p.normal_radius, 0.001, 0.02, "m, half width of the window a normal is fitted in");
   v("noise_floor", p.noise_floor, 1e-5, 0.01, "m, smallest depth noise ever reported");
-  v("cloud_points", p.cloud_points, 50, 20000, "largest number of thinned hand points");
+  v("cloud_points", p.cloud_points, 50, 20000, "about how many hand points are kept for ICP");
 }
 
 }  // namespace barehand

@@ -30,10 +30,10 @@ Result<void> check(const RgbdFrame& frame) {
   return {};
 }
 
-/// Every su-th column and sv-th row, chosen so that at most `most` points remain, hardly fewer.
-void thin_cloud(int most, HandObservation& out) {
+/// Every su-th column and sv-th row, chosen so that about `many` points remain.
+void thin_cloud(int many, HandObservation& out) {
   out.cloud.clear();
-  const double share = static_cast<double>(out.hand_pixels.size()) / most;
+  const double share = static_cast<double>(out.hand_pixels.size()) / many;
   const int su = std::max(1, static_cast<int>(std::sqrt(share)));
   const int sv = std::max(1, static_cast<int>(std::ceil(share / su)));
   for (const std::int32_t i : out.hand_pixels) {
@@ -53,12 +53,14 @@ Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<
   const double age = hints.empty() ? 0 : std::abs(static_cast<double>(frame->utime - hints[0]->utime)) * 1e-6;
   const std::span<const CoarseHand> hands = search_.find(grid_, hints, age);
   HandObservations result;
-  for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand));
+  if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
+  for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands));
   learn_skin(hands, hints, result);
   return result;
 }
 
-HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand& hand) {
+HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand& hand,
+                                         std::span<const CoarseHand> hands) {
   const std::shared_ptr<HandObservation> out = pool_.take();
   out->frame = frame;
   const Region region = hand.found ? region_of_interest(*frame, hand) : Region{};
@@ -66,12 +68,23 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
   out->v0 = region.v0;
   cleaner_.clean(*frame, params_, region, out->depth, edge_);
   if (hand.found)
-    masker_.compute(*frame, skin_, grid_, hand, region, out->depth, edge_, mask_);
+    masker_.compute(*frame, skin_, grid_, hand, hands, region, out->depth, edge_, mask_);
   else
     mask_.reset(0, 0);
+  if (hands.size() > 1) leave_out_taken(*out);
   describe_hand(*out);
   out->followed = out->hand_present && hand.followed;
   return out;
+}
+
+/// A pixel beside the cells of two hands is the first one's.
+void Preprocessor::leave_out_taken(const HandObservation& out) {
+  for (int v = 0; v < mask_.height(); ++v)
+    for (int u = 0; u < mask_.width(); ++u) {
+      std::uint8_t &mask = mask_.at(u, v), &taken = taken_.at(u + out.u0, v + out.v0);
+      mask &= !taken;
+      taken |= mask;
+    }
 }
 
 void Preprocessor::describe_hand(HandObservation& out) {

@@ -29,7 +29,8 @@ class Preprocessor {
   Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> hints);
 
  private:
-  HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand);
+  HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands);
+  void leave_out_taken(const HandObservation& out);
   Region region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const;
   void describe_hand(HandObservation& out);
   void learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> hints,
@@ -47,6 +48,7 @@ class Preprocessor {
   ObservationPool pool_;
   CoarseGrid grid_;
   Image<std::uint8_t> edge_, mask_, object_;
+  Image<std::uint8_t> taken_;                // of the frame, by its hands before this one
   std::vector<const CoarseHand*> teachers_;  // of the current frame
   std::vector<Rgb> skin_colours_, other_colours_;
 };

@@ -29,9 +29,9 @@ void masks(benchmark::State& state) {
   Image<std::uint8_t> edge, mask;
   for (auto _ : state) {
     sample_coarsely(*w.frame, w.preprocess, skin, grid);
-    const CoarseHand& hand = search.find(grid, before, 0.03).front();
+    const std::span<const CoarseHand> hands = search.find(grid, before, 0.03);
     cleaner.clean(*w.frame, w.preprocess, region, depth, edge);
-    masker.compute(*w.frame, skin, grid, hand, region, depth, edge, mask);
+    masker.compute(*w.frame, skin, grid, hands.front(), hands, region, depth, edge, mask);
     benchmark::DoNotOptimize(mask.data());
   }
 }

@@ -51,7 +51,7 @@ TEST(SplitSurfaces, AStepInDepthPartsThem) {
   ASSERT_EQ(found.parts.size(), 2u);
   EXPECT_EQ(found.parts[0].cells, 10 * 30);
   EXPECT_EQ(found.parts[1].cells, 30 * 30);
-  EXPECT_FLOAT_EQ(found.parts[0].nearest, 0.4f);
+  EXPECT_NEAR(found.parts[0].mean_z, 0.4f, 1e-4f);
   EXPECT_NEAR(found.parts[1].mean_z, 0.5f, 1e-4f);
   EXPECT_NEAR(found.parts[0].area, 10 * 30 * 0.4 * 0.4 / (60 * 60), 1e-4);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/preprocess/painted_scene.h"
 
 namespace barehand {
@@ -278,6 +280,22 @@ TEST(PreprocessTwoHands, HandsSideBySideAtOneDepthAreToldApartByTheirHints) {
     EXPECT_EQ(label_at(*o[k], own, kY - 0.04, kZ), PixelLabel::hand);
     EXPECT_EQ(label_at(*o[k], own + 0.0315, kY - 0.15, kZ), PixelLabel::hand) << "finger";
     EXPECT_NE(label_at(*o[k], -own, kY - 0.04, kZ), PixelLabel::hand);
+  }
+}
+
+TEST(PreprocessTwoHands, NoPixelIsAHandTwice) {
+  for (const double gap : {0.10, 0.125}) {
+    const HandEstimate left = painted_hand_estimate(-gap / 2, kY, kZ), right = painted_hand_estimate(gap / 2, kY, kZ);
+    const auto o = observe_two(PaintedScene().hand(-gap / 2, kY, kZ).hand(gap / 2, kY, kZ), &left, &right);
+    std::set<std::pair<int, int>> seen;
+    std::size_t pixels = 0;
+    for (const HandObservationPtr& one : o)
+      for (const std::int32_t i : one->hand_pixels) {
+        seen.insert({i % one->depth.width() + one->u0, i / one->depth.width() + one->v0});
+        ++pixels;
+      }
+    EXPECT_GT(pixels, 2000u);
+    EXPECT_EQ(seen.size(), pixels) << gap;
   }
 }
 
