@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/format.h"
+
 namespace barehand::synthetic {
 namespace {
 
@@ -42,6 +44,10 @@ Simulator::Simulator(const SimulatorParams& params, const Intrinsics& camera) : 
 Result<Simulator> Simulator::create(const SimulatorParams& params, const std::string& mesh_folder) {
   const auto info = sequence_info(params.sequence);
   if (!info) return tl::unexpected(info.error());
+  constexpr double kSlowest = 0.1;
+  if (params.fps > 0 && params.fps < kSlowest)
+    return fail(formatted("%g frames per second", params.fps), "sim:" + params.sequence,
+                formatted("give 0 for the sequence's own or %g at least", kSlowest));
   const auto sides = sides_of(*info, params);
   if (!sides) return tl::unexpected(sides.error());
   Simulator simulator(params, camera_of(params));
@@ -55,7 +61,7 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
   simulator.fps_ = params.fps > 0 ? params.fps : info->fps;
-  simulator.frame_count_ = std::lround(info->frames / info->fps * simulator.fps_ / params.speed);
+  simulator.frame_count_ = std::max(1L, std::lround(info->frames / info->fps * simulator.fps_ / params.speed));
   if (params.frames > 0) simulator.frame_count_ = std::min<std::int64_t>(simulator.frame_count_, params.frames);
   return simulator;
 }

@@ -23,15 +23,6 @@ HandPose pose_segments(const HandProfile& profile, const SkeletonPose& skeleton)
   return forward_kinematics(profile, skeleton.T_camera_palm, joints);
 }
 
-HandAngles blend(const HandAngles& a, const HandAngles& b, double t) {
-  HandAngles result;
-  for (int finger = 0; finger < kFingerCount; ++finger) {
-    result[finger].abduction = (1 - t) * a[finger].abduction + t * b[finger].abduction;
-    for (int k = 0; k < 3; ++k) result[finger].flexion[k] = (1 - t) * a[finger].flexion[k] + t * b[finger].flexion[k];
-  }
-  return result;
-}
-
 HandAngles open_joined() {
   return {degrees(0, 0, 5, 5), degrees(-2, 3, 4, 3), degrees(0, 2, 4, 3), degrees(-7, 3, 4, 3), degrees(-9, 4, 4, 3)};
 }

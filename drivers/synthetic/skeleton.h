@@ -23,9 +23,6 @@ struct SkeletonPose {
 /// All segments of an animated hand; every joint closed.
 HandPose pose_segments(const HandProfile& profile, const SkeletonPose& skeleton);
 
-/// (1 - t) a + t b.
-HandAngles blend(const HandAngles& a, const HandAngles& b, double t);
-
 /// Named shapes of the hand.
 HandAngles open_joined();
 HandAngles open_spread();

@@ -59,10 +59,10 @@ FramePtr SyntheticSource::deliver() {
   frame->utime = (spec_.live ? start_utime_ : Simulator::kFirstUtime) + since_start;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     hands_[i].pose = simulated.hands[i].pose;
-    if (auto& table = simulated.hands[i].table) {
-      table->number = number;
-      table->timestamp = 1e-6 * static_cast<double>(frame->utime);
-      hands_[i].truth.push_back(*table);
+    hands_[i].truth = std::move(simulated.hands[i].table);
+    if (hands_[i].truth) {
+      hands_[i].truth->number = number;
+      hands_[i].truth->timestamp = 1e-6 * static_cast<double>(frame->utime);
     }
   }
   return frame;

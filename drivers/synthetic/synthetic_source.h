@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,11 @@
 
 namespace barehand::synthetic {
 
-/// A hand in view of the simulator.
+/// A hand of the simulator.
 struct SimulatedHand {
-  HandProfile profile;  ///< as measured on it
-  std::vector<TableFrame>
-      truth;      ///< of the frames delivered so far, in order; those without this hand in view left out
-  HandPose pose;  ///< in the frame delivered last
+  HandProfile profile;              ///< as measured on it
+  std::optional<TableFrame> truth;  ///< of the frame delivered last; none if the hand is not in view there
+  HandPose pose;                    ///< in that frame
 };
 
 /// The simulator as a camera. Replayed: every frame once, stamped from 1 s on. Live: a frame becomes due at its time by

@@ -134,12 +134,10 @@ class SpecLister : public ConfigVisitor {
 };
 
 Result<void> check_sequence(const std::string& name, const std::string& where) {
-  std::string known;
-  for (const SequenceInfo& info : sequence_list()) {
-    if (info.name == name) return {};
-    known += (known.empty() ? "" : ", ") + info.name;
-  }
-  return fail("there is no sequence \"" + name + "\"", where, "choose one of: " + known);
+  auto info = sequence_info(name);
+  if (info) return {};
+  info.error().where = where;
+  return tl::unexpected(info.error());
 }
 
 }  // namespace

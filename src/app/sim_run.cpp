@@ -42,10 +42,10 @@ class HandFiles {
     return HandFiles(std::move(*truth), path("start_pose.json"));
   }
   Result<void> write(const SimulatedHand& hand, std::int64_t number) {
-    if (hand.truth.empty() || hand.truth.back().number != number) return {};  // not in view
+    if (!hand.truth) return {};  // not in view
     if (number == 0)
       if (auto ok = save_pose(hand.pose, start_pose_); !ok) return ok;
-    return truth_.write(hand.truth.back());
+    return truth_.write(*hand.truth);
   }
 
  private:
