@@ -286,6 +286,17 @@ TEST_F(ScanTest, TheNumberOfThreadsChangesNothing) {
     ASSERT_EQ(one->scanned_skin->vertices[i].in_a, other->scanned_skin->vertices[i].in_a);
 }
 
+TEST_F(ScanTest, EndsWhereItIsToldTo) {
+  std::stop_source stop;
+  int rounds = 0;
+  const auto stop_now = [&](const ScanProgress&) {
+    ++rounds;
+    stop.request_stop();
+  };
+  EXPECT_FALSE(scan_hand(*start_, 0.012, scan_of(*start_, *start_), workers_, stop_now, stop.get_token()));
+  EXPECT_EQ(rounds, 1);
+}
+
 TEST_F(ScanTest, NoFramesAreNoScan) { EXPECT_FALSE(scan_hand(*start_, kCell, {}, workers_)); }
 
 }  // namespace
