@@ -1,7 +1,5 @@
 #include "app/hand_model.h"
 
-#include "stages/segment_tracker/make_observer.h"
-
 namespace barehand {
 namespace {
 
@@ -15,18 +13,17 @@ std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, con
 }  // namespace
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person, Workers& workers,
-                     std::shared_ptr<spdlog::logger> log)
+                     std::shared_ptr<Observer> observer)
     : HandModel(params, person, std::make_shared<const Skin>(make_skin(*person, params.skin_cell)),
-                std::make_shared<Initialiser>(person, params.initialiser), workers, std::move(log)) {}
+                std::make_shared<Initialiser>(person, params.initialiser), workers, std::move(observer)) {}
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person,
                      std::shared_ptr<const Skin> its_skin, std::shared_ptr<Initialiser> search, Workers& workers,
-                     std::shared_ptr<spdlog::logger> log)
+                     std::shared_ptr<Observer> observer)
     : profile(std::move(person)),
       skin(std::move(its_skin)),
       surface(make_surface(params, *profile, *skin)),
-      segment_tracker(params.segment_tracker, surface, workers,
-                      make_observer(params.segment_tracker, surface, workers, std::move(log))),
+      segment_tracker(params.segment_tracker, surface, workers, std::move(observer)),
       fusion(params.fusion, profile, workers),
       refinement(params.refinement, profile, skin),
       initialiser(std::move(search)) {}

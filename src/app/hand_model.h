@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/tracker_params.h"
-#include "core/log.h"
 #include "core/parallel.h"
 #include "stages/fusion/fusion.h"
 #include "stages/segment_tracker/segment_tracker.h"
@@ -12,12 +11,12 @@ namespace barehand {
 
 /// One person's hand and the parts of the tracker that are made for it. Another hand is another model.
 struct HandModel {
-  /// `workers` outlives it; `log` hears what compares samples with the data, and when that is lost.
+  /// `workers` outlives it; `observer` compares samples with the data, as it did for the model before; none: the CPU.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers,
-            std::shared_ptr<spdlog::logger> log);
+            std::shared_ptr<Observer> observer);
   /// The same with a skin and a search that are there already; the search may be that of a similar hand.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin,
-            std::shared_ptr<Initialiser> initialiser, Workers& workers, std::shared_ptr<spdlog::logger> log);
+            std::shared_ptr<Initialiser> initialiser, Workers& workers, std::shared_ptr<Observer> observer);
 
   std::shared_ptr<const HandProfile> profile;
   std::shared_ptr<const Skin> skin;

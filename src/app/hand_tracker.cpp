@@ -9,6 +9,7 @@
 #include "app/relaxed_pose.h"
 #include "stages/prediction/crossed_fingers.h"
 #include "stages/prediction/hidden_fingers.h"
+#include "stages/segment_tracker/make_observer.h"
 
 namespace barehand {
 namespace {
@@ -30,7 +31,8 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       workers_(workers),
       log_(std::move(log)),
       given_(std::move(profile)),
-      model_(std::make_unique<HandModel>(params_, given_, workers_, log_)),
+      observer_(make_observer(params_.segment_tracker, workers_, log_)),
+      model_(std::make_unique<HandModel>(params_, given_, workers_, observer_)),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
       uncertainty_(params_.uncertainty, params_.refinement.energy),
@@ -51,13 +53,15 @@ void HandTracker::reset() {
 }
 
 void HandTracker::forget_person() {
-  if (model_->profile != given_) model_ = std::make_unique<HandModel>(params_, given_, workers_, log_);
+  if (model_->profile != given_) model_ = std::make_unique<HandModel>(params_, given_, workers_, observer_);
   meet_person();
 }
 
 void HandTracker::change(const TrackerParams& params) {
-  auto model = std::make_unique<HandModel>(params, model_->profile, workers_, log_);  // if that throws, nothing changed
+  std::shared_ptr<Observer> observer = make_observer(params.segment_tracker, workers_, log_);
+  auto model = std::make_unique<HandModel>(params, model_->profile, workers_, observer);  // until here it may throw
   params_ = params;
+  observer_ = std::move(observer);
   model_ = std::move(model);
   if (person_) person_->expect_new_skin();
   if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
@@ -253,7 +257,7 @@ void HandTracker::use_scan() {
   try {
     const auto hand = scan_->take();
     if (!hand) return;
-    model_ = std::make_unique<HandModel>(params_, hand, hand->scanned_skin, model_->initialiser, workers_, log_);
+    model_ = std::make_unique<HandModel>(params_, hand, hand->scanned_skin, model_->initialiser, workers_, observer_);
     log_->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
     if (person_ && scan_->of_hand_before()) size_check_.emplace(params_.refinement, model_->profile, model_->skin);
   } catch (const std::exception& e) {  // most likely memory: the hand as it is does, too
@@ -266,12 +270,12 @@ void HandTracker::learn_person(const HandObservation& observation, const HandPos
   if (!person_ || model_->profile->scanned_skin) return;
   const PersonFit::Change change = person_->look(observation, pose, model_->refinement, model_->skin);
   if (change == PersonFit::Change::large) {
-    model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, log_);
+    model_ = std::make_unique<HandModel>(params_, person_->profile(), workers_, observer_);
     log_->info("hand fitted to the person after {} looks: {:.0f} mm long, the mean hand {:.0f} mm",
                person_->fit().looks(), 1e3 * person_->profile()->hand_length(), 1e3 * given_->hand_length());
   } else if (change == PersonFit::Change::small) {
-    model_ =
-        std::make_unique<HandModel>(params_, person_->profile(), person_->skin(), model_->initialiser, workers_, log_);
+    model_ = std::make_unique<HandModel>(params_, person_->profile(), person_->skin(), model_->initialiser, workers_,
+                                         observer_);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "app/person_fit.h"
 #include "app/person_scan.h"
 #include "app/size_check.h"
+#include "core/log.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "stages/prediction/usual_score.h"
@@ -109,6 +110,7 @@ class HandTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::shared_ptr<const HandProfile> given_;  // before anything is learnt of the person
+  std::shared_ptr<Observer> observer_;        // lasts while models change: it may be a GPU
   std::unique_ptr<HandModel> model_;
   std::optional<PersonFit> person_;      // if the given hand is a mean hand
   std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before

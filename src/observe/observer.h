@@ -2,10 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/error.h"
-#include "hand/segments.h"
+#include "hand/surface.h"
 #include "math/se3.h"
 #include "observe/pixel_map.h"
 
@@ -24,8 +25,9 @@ struct PatchDistance {
 
 /// All samples of one level and the frame they are compared with.
 struct SampleBatch {
+  const std::shared_ptr<const HandSurface>& surface;  ///< the skin; the same pointer, the same skin
   const PixelMap& map;
-  std::uint64_t map_id;                                      ///< equal ids, equal maps: no need to copy it again
+  std::uint64_t map_id;                                      ///< equal ids with one skin, equal maps: no need to copy
   const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, equally many per segment
   int first_segment = 0;                                     ///< those before it are not looked at
 };

@@ -19,7 +19,7 @@ void CpuObserver::compare(const SampleBatch& batch, PatchDistances& distances) {
   workers_.for_each_index((kSegmentCount - first) * chunks, [&](int task) {
     const int s = first + task / chunks, begin = task % chunks * kSampleChunk;
     for (int i = begin; i < std::min(begin + kSampleChunk, count); ++i)
-      distances[s][i] = patch_distance((*surface_)[s], batch.poses[s][i], s, batch.map, cap_);
+      distances[s][i] = patch_distance((*batch.surface)[s], batch.poses[s][i], s, batch.map, cap_);
   });
 }
 

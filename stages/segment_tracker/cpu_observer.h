@@ -1,9 +1,6 @@
 #pragma once
 
-#include <memory>
-
 #include "core/parallel.h"
-#include "hand/surface.h"
 #include "observe/observer.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
@@ -18,12 +15,10 @@ float distance_cap(const SegmentTrackerParams& params);
 /// Compares on the cores of `workers`, which outlive it; results do not depend on their number.
 class CpuObserver final : public Observer {
  public:
-  CpuObserver(std::shared_ptr<const HandSurface> surface, float cap, Workers& workers)
-      : surface_(std::move(surface)), cap_(cap), workers_(workers) {}
+  CpuObserver(float cap, Workers& workers) : cap_(cap), workers_(workers) {}
   void compare(const SampleBatch& batch, PatchDistances& distances) override;
 
  private:
-  std::shared_ptr<const HandSurface> surface_;
   float cap_;
   Workers& workers_;
 };

@@ -6,13 +6,13 @@
 
 namespace barehand {
 
-std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface,
-                                        Workers& workers, std::shared_ptr<spdlog::logger> log) {
+std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
+                                        std::shared_ptr<spdlog::logger> log) {
   const float cap = distance_cap(params);
-  auto cpu = std::make_unique<CpuObserver>(surface, cap, workers);
+  auto cpu = std::make_unique<CpuObserver>(cap, workers);
   if (params.observer == "cpu") return cpu;
   const bool by_name = params.observer == "egl";
-  auto device = EglObserver::open(*surface, cap, by_name ? DeviceChoice::any : DeviceChoice::hardware);
+  auto device = EglObserver::open(cap, by_name ? DeviceChoice::any : DeviceChoice::hardware);
   if (!device) {
     log->log(by_name ? spdlog::level::warn : spdlog::level::debug, "the CPU compares samples, not a GPU: {}",
              device.error().message());

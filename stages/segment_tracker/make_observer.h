@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "core/parallel.h"
-#include "hand/surface.h"
 #include "observe/observer.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
@@ -13,7 +12,7 @@ namespace barehand {
 
 /// The observer that `params.observer` asks for; the CPU where that is not to be had, with a warning if it was asked
 /// for by name. `workers` outlives it.
-std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface,
-                                        Workers& workers, std::shared_ptr<spdlog::logger> log);
+std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
+                                        std::shared_ptr<spdlog::logger> log);
 
 }  // namespace barehand

@@ -1,7 +1,6 @@
 #include "stages/segment_tracker/segment_tracker.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "math/schedule.h"
 #include "stages/segment_tracker/cpu_observer.h"
@@ -9,12 +8,6 @@
 
 namespace barehand {
 namespace {
-
-void copy_labels(const Image<std::uint16_t>& hidden, PixelMap& map) {
-  assert(hidden.width() + 2 == map.width && hidden.height() + 2 == map.height);
-  for (int v = 0; v < hidden.height(); ++v)
-    for (int u = 0; u < hidden.width(); ++u) map.hidden[map.index(u + 1, v + 1)] = hidden.at(u, v);
-}
 
 /// Eq. 3. A sample without evidence gets the mean distance of its siblings: neither punished nor preferred.
 void log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha, double sigma_obs,
@@ -40,9 +33,9 @@ void log_likelihood(const std::vector<PatchDistance>& patches, double min_counte
 }  // namespace
 
 SegmentTracker::SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface,
-                               Workers& workers, std::unique_ptr<Observer> observer)
+                               Workers& workers, std::shared_ptr<Observer> observer)
     : params_(params), surface_(std::move(surface)), workers_(workers), observer_(std::move(observer)) {
-  if (!observer_) observer_ = std::make_unique<CpuObserver>(surface_, distance_cap(params_), workers_);
+  if (!observer_) observer_ = std::make_unique<CpuObserver>(distance_cap(params_), workers_);
 }
 
 PatchDistance SegmentTracker::compare(const PreparedObservation& prepared, int segment,
@@ -50,15 +43,11 @@ PatchDistance SegmentTracker::compare(const PreparedObservation& prepared, int s
   return patch_distance((*surface_)[segment], T_camera_segment, segment, prepared.map, distance_cap(params_));
 }
 
-const PreparedObservation& SegmentTracker::prepare(const HandObservation& observation, const HandPose& predicted,
-                                                   const Image<std::uint16_t>* hidden) {
+const PreparedObservation& SegmentTracker::prepare(const HandObservation& observation, const HandPose& predicted) {
   PixelMap& map = prepared_.map;
   ++prepared_.id;
   map = make_pixel_map(observation, params_.missing_depth == "background", workers_, std::move(map));
-  if (hidden)
-    copy_labels(*hidden, map);
-  else
-    self_occlusion_.label(*surface_, predicted, params_, map, workers_);
+  self_occlusion_.label(*surface_, predicted, params_, map, workers_);
   for (int s = 0; s < kSegmentCount; ++s)
     prepared_.unoccluded[s] = compare(prepared_, s, predicted[s]).counted_fraction();
   return prepared_;
@@ -72,7 +61,8 @@ const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared
     const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
     for (int i = begin; i < end; ++i) samples_.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
-  observer_->compare({prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1}, distances_);
+  observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1},
+                     distances_);
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);
   samples_.unoccluded = prepared.unoccluded;
   for (int s = 0; s < kSegmentCount; ++s)

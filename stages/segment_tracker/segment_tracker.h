@@ -25,16 +25,14 @@ struct PreparedObservation {
 /// the same is called again: their memory is kept.
 class SegmentTracker {
  public:
-  /// `observer` compares the samples with the data; none: the CPU does.
+  /// `observer` compares the samples with the data; none: the CPU does. It may go on to the next tracker.
   SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface, Workers& workers,
-                 std::unique_ptr<Observer> observer = nullptr);
+                 std::shared_ptr<Observer> observer = nullptr);
 
   const SegmentTrackerParams& params() const { return params_; }
 
-  /// Once per frame. `hidden`, when given, replaces this stage's own labels of self-occlusion: the size of the region
-  /// of interest, bit s set where the hand hides segment s.
-  const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted,
-                                     const Image<std::uint16_t>* hidden = nullptr);
+  /// Once per frame.
+  const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted);
 
   /// Once per level: S samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment without
   /// observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
@@ -47,7 +45,7 @@ class SegmentTracker {
   SegmentTrackerParams params_;
   std::shared_ptr<const HandSurface> surface_;
   Workers& workers_;
-  std::unique_ptr<Observer> observer_;
+  std::shared_ptr<Observer> observer_;
   SelfOcclusion self_occlusion_;
   PreparedObservation prepared_;
   SegmentSamples samples_;

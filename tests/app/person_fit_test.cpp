@@ -32,10 +32,10 @@ class PersonFitTest : public ::testing::Test {
       const RefinedPose refined = model_->refinement.refine(*observation, truth, truth, 5);
       const auto change = fit_.look(*observation, refined.pose, model_->refinement, model_->skin);
       if (change == PersonFit::Change::large)
-        model_ = std::make_unique<HandModel>(params_, fit_.profile(), workers_, make_silent_logger());
+        model_ = std::make_unique<HandModel>(params_, fit_.profile(), workers_, nullptr);
       if (change == PersonFit::Change::small)
-        model_ = std::make_unique<HandModel>(params_, fit_.profile(), fit_.skin(), model_->initialiser, workers_,
-                                             make_silent_logger());
+        model_ =
+            std::make_unique<HandModel>(params_, fit_.profile(), fit_.skin(), model_->initialiser, workers_, nullptr);
     }
   }
   double length_error(const HandProfile& hand) const {
@@ -50,7 +50,7 @@ class PersonFitTest : public ::testing::Test {
   const std::shared_ptr<const HandProfile> person_ =
       std::make_shared<const HandProfile>(reshaped(*mean_, shape_of_the_person()));
   const Skin persons_skin_ = make_blended_skin(*person_, 0.004);
-  std::unique_ptr<HandModel> model_ = std::make_unique<HandModel>(params_, mean_, workers_, make_silent_logger());
+  std::unique_ptr<HandModel> model_ = std::make_unique<HandModel>(params_, mean_, workers_, nullptr);
   PersonFit fit_{params_.shape_fit, mean_};
 };
 

@@ -6,13 +6,13 @@ namespace barehand::bench {
 namespace {
 
 SampleBatch batch_of(const Level& level, std::uint64_t map_id) {
-  return {level.prepared.map, map_id, level.samples.poses};
+  return {level.w.surface, level.prepared.map, map_id, level.samples.poses};
 }
 
 void compare_on_cpu(benchmark::State& state) {
   const Level level(state);
   Workers workers(static_cast<int>(state.range(1)));
-  CpuObserver observer(level.w.surface, distance_cap(level.w.tracker.segment_tracker), workers);
+  CpuObserver observer(distance_cap(level.w.tracker.segment_tracker), workers);
   PatchDistances distances;
   for (auto _ : state) observer.compare(batch_of(level, 0), distances);
   state.SetItemsProcessed(Level::drawn(state));
@@ -28,7 +28,7 @@ BENCHMARK(compare_on_cpu)
 void compare_by_egl(benchmark::State& state) {
   const Level level(state);
   const float cap = distance_cap(level.w.tracker.segment_tracker);
-  const auto observer = EglObserver::open(*level.w.surface, cap, DeviceChoice::any);
+  const auto observer = EglObserver::open(cap, DeviceChoice::any);
   if (!observer) return state.SkipWithError(observer.error().message().c_str());
   state.SetLabel((*observer)->device().renderer);
   const auto levels_per_map = static_cast<std::uint64_t>(level.w.tracker.fusion.levels);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kCap = 0.008f, kUncapped = std::numeric_limits<float>::infinity();
 
-std::unique_ptr<EglObserver> open(const HandSurface& surface, float cap = kCap) {
-  auto observer = EglObserver::open(surface, cap, DeviceChoice::any);
+std::unique_ptr<EglObserver> open(float cap = kCap) {
+  auto observer = EglObserver::open(cap, DeviceChoice::any);
   if (!observer) throw std::runtime_error(observer.error().message());
   return std::move(*observer);
 }
@@ -30,7 +30,7 @@ PatchDistances by_egl(EglObserver& observer, const SampleBatch& batch) {
 PatchDistances by_cpu(const RandomBatch& world, float cap = kCap, int first_segment = 0) {
   Workers workers(1);
   PatchDistances distances;
-  CpuObserver(world.surface, cap, workers).compare(world.batch(1, first_segment), distances);
+  CpuObserver(cap, workers).compare(world.batch(1, first_segment), distances);
   return distances;
 }
 
@@ -58,7 +58,7 @@ TEST(EglObserver, AgreesWithTheCpu) {
   for (const auto& [cap, skin_points] : {std::pair{kCap, 83}, {kUncapped, 83}, {kCap, 3}, {kCap, 256}}) {
     const RandomBatch world = random_batch(1, 150, skin_points);
     const PatchDistances expected = by_cpu(world, cap);
-    EXPECT_LE(disagreement(by_egl(*open(*world.surface, cap), world.batch()), expected), kNearAnEdge)
+    EXPECT_LE(disagreement(by_egl(*open(cap), world.batch()), expected), kNearAnEdge)
         << skin_points << " points, cap " << cap;
     EXPECT_GT(disagreement(by_cpu(world, 0.9f * kCap), expected), 0.5);  // what differs is noticed
   }
@@ -66,24 +66,32 @@ TEST(EglObserver, AgreesWithTheCpu) {
 
 TEST(EglObserver, SegmentsBeforeTheFirstAreLeftOut) {
   const RandomBatch world = random_batch(2, 20);
-  const PatchDistances distances = by_egl(*open(*world.surface), world.batch(1, 3));
+  const PatchDistances distances = by_egl(*open(), world.batch(1, 3));
   for (int s = 0; s < 3; ++s)
     for (const PatchDistance& patch : distances[s]) EXPECT_EQ(patch.total, 0);
   EXPECT_LE(disagreement(distances, by_cpu(world, kCap, 3)), kNearAnEdge);
 }
 
 TEST(EglObserver, ANewIdBringsTheNewMap) {
-  const RandomBatch first = random_batch(3, 20), second = random_batch(4, 60);
-  const auto observer = open(*first.surface);
+  RandomBatch first = random_batch(3, 20), second = random_batch(4, 60);
+  second.surface = first.surface;
+  const auto observer = open();
   by_egl(*observer, first.batch(1));
   EXPECT_LE(disagreement(by_egl(*observer, second.batch(2)), by_cpu(second)), kNearAnEdge);
   EXPECT_GT(disagreement(by_egl(*observer, first.batch(2)), by_cpu(first)), 0.5);  // the second map is still there
   EXPECT_LE(disagreement(by_egl(*observer, first.batch(1)), by_cpu(first)), kNearAnEdge);
 }
 
+TEST(EglObserver, ANewSkinBringsItsMap) {
+  const RandomBatch first = random_batch(3, 20, 50), second = random_batch(4, 20, 90);
+  const auto observer = open();
+  by_egl(*observer, first.batch(1));
+  EXPECT_LE(disagreement(by_egl(*observer, second.batch(1)), by_cpu(second)), kNearAnEdge);
+}
+
 TEST(EglObserver, ThreadsMayTakeTurns) {
   const RandomBatch world = random_batch(5, 30);
-  const auto observer = open(*world.surface);
+  const auto observer = open();
   const PatchDistances here = by_egl(*observer, world.batch());
   PatchDistances there;
   std::jthread([&] { there = by_egl(*observer, world.batch()); }).join();
@@ -92,15 +100,14 @@ TEST(EglObserver, ThreadsMayTakeTurns) {
 
 TEST(EglObserver, TwoInOneProcessKeepApart) {
   const RandomBatch a = random_batch(6, 20, 50), b = random_batch(7, 20, 90);
-  const auto observer_a = open(*a.surface), observer_b = open(*b.surface);
+  const auto observer_a = open(), observer_b = open();
   by_egl(*observer_a, a.batch());
   by_egl(*observer_b, b.batch());
   EXPECT_LE(disagreement(by_egl(*observer_a, a.batch()), by_cpu(a)), kNearAnEdge);
 }
 
 TEST(EglObserver, WithoutEglThereIsNone) {
-  const RandomBatch world = random_batch(8, 1);
-  const auto observer = EglObserver::open(*world.surface, kCap, DeviceChoice::any, "libnone.so.1");
+  const auto observer = EglObserver::open(kCap, DeviceChoice::any, "libnone.so.1");
   ASSERT_FALSE(observer);
   EXPECT_THAT(observer.error().message(), ::testing::HasSubstr("libnone.so.1"));
 }

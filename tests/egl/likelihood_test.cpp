@@ -18,7 +18,7 @@ SegmentSamples sample_by(const std::string& observer, bool observe_palm) {
   params.observe_palm = observe_palm;
   Workers workers(1);
   const auto surface = std::make_shared<HandSurface>(make_cylinder_surface(capsule_profile(), 100));
-  SegmentTracker tracker(params, surface, workers, make_observer(params, surface, workers, make_silent_logger()));
+  SegmentTracker tracker(params, surface, workers, make_observer(params, workers, make_silent_logger()));
   HandPose predicted;
   predicted.fill(upright_pose());
   Vector6d box;

@@ -53,7 +53,7 @@ class LostDevice : public ::testing::Test {
     return distances;
   }
   PatchDistances by_cpu() {
-    CpuObserver cpu(world_.surface, kCap, workers_);
+    CpuObserver cpu(kCap, workers_);
     return compared(cpu);
   }
   const RandomBatch world_ = random_batch(1, 40);
@@ -76,8 +76,8 @@ class FailingDevice final : public DeviceObserver {
 };
 
 TEST_F(LostDevice, ItsBatchAndAllLaterOnesGoToTheOtherObserver) {
-  FallbackObserver observer(std::make_unique<FailingDevice>(1),
-                            std::make_unique<CpuObserver>(world_.surface, kCap, workers_), log_.logger);
+  FallbackObserver observer(std::make_unique<FailingDevice>(1), std::make_unique<CpuObserver>(kCap, workers_),
+                            log_.logger);
   EXPECT_FALSE(same(compared(observer), by_cpu()));
   EXPECT_EQ(log_.warnings(), 0);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(same(compared(observer), by_cpu()));
@@ -89,7 +89,7 @@ TEST_F(LostDevice, ContextThatIsLostInMidStream) {
   SegmentTrackerParams params;
   params.observer = "egl";
   params.pixel_distance_cap = kCap;
-  const auto observer = make_observer(params, world_.surface, workers_, log_.logger);
+  const auto observer = make_observer(params, workers_, log_.logger);
   compared(*observer);
   EXPECT_EQ(log_.warnings(), 0) << log_.text.str();
   take_displays_away();
@@ -101,7 +101,7 @@ TEST_F(LostDevice, AutoNeverTakesSoftware) {
   SegmentTrackerParams params;
   ASSERT_EQ(params.observer, "auto");
   params.pixel_distance_cap = kCap;
-  const auto observer = make_observer(params, world_.surface, workers_, log_.logger);
+  const auto observer = make_observer(params, workers_, log_.logger);
   const bool gpu = find_graphics_device(DeviceChoice::hardware).has_value();
   EXPECT_EQ(dynamic_cast<CpuObserver*>(observer.get()) == nullptr, gpu);
   EXPECT_EQ(log_.text.str().empty(), !gpu);

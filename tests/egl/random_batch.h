@@ -16,7 +16,7 @@ struct RandomBatch {
   std::array<std::vector<SE3>, kSegmentCount> poses;
 
   SampleBatch batch(std::uint64_t map_id = 1, int first_segment = 0) const {
-    return {map, map_id, poses, first_segment};
+    return {surface, map, map_id, poses, first_segment};
   }
 };
 

@@ -178,15 +178,6 @@ TEST(SegmentTracker, PalmIsFlatWhereItIsNotObserved) {
   EXPECT_EQ(samples.log_likelihood[kPalm], std::vector<double>(samples.poses[kPalm].size(), 0.0));
 }
 
-TEST(SegmentTracker, CallersMaskReplacesTheOwnLabels) {
-  Workers workers(1);
-  SegmentTracker tracker = make_tracker(workers);
-  Image<std::uint16_t> mask(96, 96, std::uint16_t{1u << kTip});
-  const PreparedObservation prepared = tracker.prepare(covered_capsule(0), prediction(), &mask);
-  EXPECT_EQ(prepared.unoccluded[kTip], 0);
-  EXPECT_GT(prepared.unoccluded[kTip - 1], 0.9);
-}
-
 TEST(SegmentTracker, ResultDoesNotDependOnTheNumberOfWorkers) {
   Workers one(1), four(4);
   const SegmentSamples a = sample(one, covered_capsule(48)), b = sample(four, covered_capsule(48));

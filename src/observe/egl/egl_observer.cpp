@@ -35,7 +35,8 @@ struct EglObserver::State {
   std::unique_ptr<HeadlessContext> context;
   const Gl& gl;
   std::array<GLuint, kShaderBufferCount> buffers{};  // with the program, they go when the context does
-  std::optional<std::uint64_t> map_id;               // of the map on the device
+  std::shared_ptr<const HandSurface> surface;        // on the device
+  std::optional<std::uint64_t> map_id;               // of the map there
   std::vector<float> pose_rows;                      // kept for its memory
 
   explicit State(std::unique_ptr<HeadlessContext> c) : context(std::move(c)), gl(context->gl()) {}
@@ -44,14 +45,14 @@ struct EglObserver::State {
     gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[buffer]);
     gl.BufferData(GL_SHADER_STORAGE_BUFFER, size, data, usage);
   }
-  Result<void> set_up(const HandSurface& surface, float cap);
+  Result<void> set_up(float cap);
   void upload_skin(const HandSurface& surface);
   void upload_map(const PixelMap& map);
   void upload_poses(const SampleBatch& batch);
   Result<void> read_results(int first_segment, PatchDistances& distances);
 };
 
-Result<void> EglObserver::State::set_up(const HandSurface& surface, float cap) {
+Result<void> EglObserver::State::set_up(float cap) {
   GLint storage_buffers = 0;
   gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage_buffers);
   if (storage_buffers < kShaderBufferCount)
@@ -63,8 +64,7 @@ Result<void> EglObserver::State::set_up(const HandSurface& surface, float cap) {
   gl.GenBuffers(kShaderBufferCount, buffers.data());
   for (GLuint i = 0; i < kShaderBufferCount; ++i) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
   gl.Uniform1f(kCapUniform, std::min(cap, std::numeric_limits<float>::max()));  // GLSL need not know infinity
-  upload_skin(surface);
-  return check_gl(gl, "uploading the skin");
+  return check_gl(gl, "setting up");
 }
 
 void EglObserver::State::upload_skin(const HandSurface& surface) {
@@ -123,14 +123,13 @@ EglObserver::~EglObserver() = default;
 
 const GraphicsDevice& EglObserver::device() const { return state_->context->device(); }
 
-Result<std::unique_ptr<EglObserver>> EglObserver::open(const HandSurface& surface, float cap, DeviceChoice choice,
-                                                       const std::string& egl_library) {
+Result<std::unique_ptr<EglObserver>> EglObserver::open(float cap, DeviceChoice choice, const std::string& egl_library) {
   auto context = HeadlessContext::open(choice, egl_library);
   if (!context) return tl::unexpected(context.error());
   std::unique_ptr<EglObserver> observer(new EglObserver(std::move(*context)));
   const auto current = observer->state_->context->make_current();
   if (!current) return tl::unexpected(current.error());
-  const auto ready = observer->state_->set_up(surface, cap);
+  const auto ready = observer->state_->set_up(cap);
   if (!ready) return tl::unexpected(ready.error());
   return observer;
 }
@@ -141,6 +140,11 @@ Result<void> EglObserver::compare(const SampleBatch& batch, PatchDistances& dist
   if (count == 0) return {};
   const auto current = state_->context->make_current();
   if (!current) return tl::unexpected(current.error());
+  if (state_->surface != batch.surface) {
+    state_->upload_skin(*batch.surface);
+    state_->surface = batch.surface;
+    state_->map_id.reset();
+  }
   if (state_->map_id != batch.map_id) state_->upload_map(batch.map);
   state_->map_id = batch.map_id;
   state_->upload_poses(batch);
