@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <thread>
 
 #include "drivers/openni2/openni_devices.h"
 #include "openni2/source_reader.h"
@@ -198,6 +201,20 @@ TEST(OpenNiDevices, AreListed) {
   EXPECT_EQ((*devices)[0].vendor, "Barehand");
   EXPECT_EQ((*devices)[0].name, "Virtual Sensor");
   EXPECT_EQ((*devices)[1].uri, "virtual/2");
+}
+
+TEST(OpenNiDevices, AreListedWithoutMovingOtherThreadsToAnotherFolder) {
+  VirtualSensor sensor;
+  const std::string here = std::filesystem::current_path();
+  std::atomic<bool> done = false, moved = false;
+  std::thread other([&] {
+    while (!done)
+      if (std::filesystem::current_path() != here) moved = true;
+  });
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(list_openni_devices());
+  done = true;
+  other.join();
+  EXPECT_FALSE(moved);
 }
 
 }  // namespace
