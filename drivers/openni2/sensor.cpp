@@ -5,6 +5,7 @@
 
 #include "drivers/openni2/library.h"
 #include "drivers/openni2/video_modes.h"
+#include "math/camera_limits.h"
 
 namespace barehand {
 namespace {
@@ -120,14 +121,17 @@ void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const c
 Result<void> OpenNiSensor::choose_intrinsics() {
   const int width = depth_mode_.getResolutionX(), height = depth_mode_.getResolutionY();
   camera_ = {width, height, params_.fx, params_.fy, params_.cx, params_.cy};
-  if (params_.intrinsics_given()) return {};
+  if (params_.intrinsics_given()) {
+    if (plausible(camera_)) return {};
+    return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
+  }
   // Registered depth is what the colour camera would measure.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);
   camera_.fy = height / 2.0 / std::tan(eye.getVerticalFieldOfView() / 2.0);
   camera_.cx = (width - 1) / 2.0;
   camera_.cy = (height - 1) / 2.0;
-  if (!(std::isfinite(camera_.fx) && std::isfinite(camera_.fy) && camera_.valid()))
+  if (!plausible(camera_))
     return fail("does not tell its field of view", where_,
                 "set fx, fy, cx and cy in the configuration's openni2 group");
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)

@@ -111,6 +111,15 @@ TEST(OpenNiLiveSource, ConfiguredIntrinsicsReplaceTheSensorsOwn) {
   EXPECT_EQ(frame->camera, (Intrinsics{160, 120, 150, 151, 79, 61}));
 }
 
+TEST(OpenNiLiveSource, IntrinsicsThatNoCameraHasAreRefused) {
+  OpenNiParams params = Stream::sized();
+  params.fx = 0.5, params.fy = 151, params.cx = 79, params.cy = 61;
+  Stream stream({}, params);
+  EXPECT_TRUE(stream.reader.told("virtual/1 cannot have the fx, fy, cx and cy that are given"))
+      << stream.reader.notices;
+  EXPECT_EQ(stream.reader.delivered, 0);
+}
+
 TEST(OpenNiLiveSource, TurnsRoundWhatTheSensorMirrors) {
   Stream stream(Settings{{"mirror_fixed", "1"}});
   const FramePtr frame = stream.reader.frame([](const RgbdFrame& f) { return !f.colour.empty(); });
