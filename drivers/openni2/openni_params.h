@@ -23,7 +23,8 @@ void visit(V& v, OpenNiParams& p) {
   v("height", p.height, 48, 8192, "px");
   v("fps", p.fps, 1, 1000, "Hz, wanted rate; the sensor's nearest is taken");
   v("colour", p.colour, {"registered", "always", "never"},
-    "registered: only if the sensor confirms that colour lies over depth; always: take its word for it");
+    "registered: only if the sensor confirms that colour lies over depth; always: unconfirmed, too; never: depth "
+    "alone");
   v("fx", p.fx, 0.0, 1e5,
     "px, focal length; fx, fy, cx and cy together replace the sensor's own intrinsics; all 0 = they do not");
   v("fy", p.fy, 0.0, 1e5, "px, vertical focal length");
