@@ -79,6 +79,24 @@ TEST_F(OpenNiFaults, StallWithoutAnError) {
   EXPECT_TRUE(reader_->frame()) << "opening it again cures it";
 }
 
+TEST_F(OpenNiFaults, AHiccupOfBothCamerasIsNoReasonToDoubtThatTheyAreInStep) {
+  stream();
+  inject("stall");
+  reader_->frames_within(milliseconds(750));  // more than half the patience, less than all of it
+  inject("none");
+  reader_->frames(20);
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("in step")));
+}
+
+TEST_F(OpenNiFaults, ASlowStartIsNoReasonEither) {
+  open({{"fault", "stall"}});
+  ASSERT_TRUE(reader_->told("opened"));
+  reader_->frames_within(milliseconds(2000));
+  inject("none");
+  reader_->frames(20);
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("not exposed in step")));
+}
+
 /// Faults whose frames must not reach the tracker.
 class Useless : public OpenNiFaults, public ::testing::WithParamInterface<std::pair<const char*, const char*>> {};
 TEST_P(Useless, IsKeptBackSaidAndOpenedAgain) {
