@@ -15,7 +15,7 @@ OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, UsbBu
 Result<void> OpenNiFinder::load() {
   library_.reset();
   bus_when_loaded_ = bus_state();
-  loaded_us_ = clock_.steady_us();
+  loaded_us_ = looked_us_;
   auto library = OpenNiLibrary::load([this](bool came, const std::string& uri) {
     if (came) return came_();
     {
@@ -30,6 +30,7 @@ Result<void> OpenNiFinder::load() {
 }
 
 Result<std::string> OpenNiFinder::find() {
+  looked_us_ = clock_.steady_us();  // not later: OpenNI2 may hang until the clock is gone
   if (!library_)
     if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
   {
@@ -62,7 +63,7 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
 
 void OpenNiFinder::distrust() {
   const bool changed = bus_state() != bus_when_loaded_;
-  if (changed || clock_.steady_us() - loaded_us_ > kReloadEvery) library_.reset();  // loaded again by `find`
+  if (changed || looked_us_ - loaded_us_ > kReloadEvery) library_.reset();  // loaded again by `find`
 }
 
 bool OpenNiFinder::gone(const std::string& uri) const {

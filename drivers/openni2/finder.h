@@ -42,7 +42,7 @@ class OpenNiFinder {
   std::vector<std::string> gone_;  // guarded by the mutex
   std::unique_ptr<OpenNiLibrary> library_;
   std::string bus_when_loaded_;
-  std::int64_t loaded_us_ = 0;
+  std::int64_t looked_us_ = 0, loaded_us_ = 0;
 };
 
 }  // namespace barehand
