@@ -12,7 +12,8 @@
 namespace barehand {
 
 /// Finds a sensor on a bus that changes. Drivers that do not watch the bus themselves see a change only when OpenNI2 is
-/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, or rarely.
+/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, and else once a
+/// day, or every ten minutes where the bus does not tell.
 class OpenNiFinder {
  public:
   /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again. `usb`
