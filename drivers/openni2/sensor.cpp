@@ -11,6 +11,8 @@ namespace barehand {
 namespace {
 
 constexpr double kMostPixelStretch = 0.05;  // fx against fy; more is a field of view of another mode
+constexpr const char* kGiveIntrinsics =
+    "give fx, fy, cx and cy in the configuration's openni2 group; record and convert take --fx --fy --cx --cy";
 
 }  // namespace
 
@@ -38,7 +40,7 @@ OpenNiSensor::~OpenNiSensor() {
 Result<void> OpenNiSensor::open_device() {
   if (device_.open(where_.c_str()) != openni::STATUS_OK)
     return fail("cannot be opened: " + openni_error(), where_,
-                "is another program using it? has this user the permission (deploy/udev)?");
+                unless_file("is another program using it? has this user the permission (deploy/udev)?"));
   playback_ = device_.getPlaybackControl();
   if (!playback_) return {};
   playback_->setRepeatEnabled(false);
@@ -47,9 +49,12 @@ Result<void> OpenNiSensor::open_device() {
   return {};
 }
 
+std::string OpenNiSensor::unless_file(const char* remedy) const { return where_.starts_with('/') ? "" : remedy; }
+
 Result<void> OpenNiSensor::create_depth() {
   if (!device_.hasSensor(openni::SENSOR_DEPTH) || depth_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK)
-    return fail("has no depth: " + openni_error(), where_, "choose a depth camera: barehand doctor lists them");
+    return fail("has no depth: " + openni_error(), where_,
+                unless_file("choose a depth camera: barehand doctor lists them"));
   if (!playback_) {
     const auto mode = choose_depth_mode(depth_.getSensorInfo(), params_);
     if (mode && depth_.setVideoMode(*mode) != openni::STATUS_OK)
@@ -59,7 +64,7 @@ Result<void> OpenNiSensor::create_depth() {
   depth_mode_ = depth_.getVideoMode();
   if (depth_unit(depth_mode_.getPixelFormat()) == 0)
     return fail("its depth format " + std::to_string(depth_mode_.getPixelFormat()) + " is not known", where_,
-                "use a sensor or a mode with depth in millimetres or tenths");
+                unless_file("use a sensor or a mode with depth in millimetres or tenths"));
   const bool as_wanted =
       playback_ || (depth_mode_.getResolutionX() == params_.width && depth_mode_.getResolutionY() == params_.height &&
                     depth_mode_.getFps() == params_.fps);
@@ -131,18 +136,17 @@ Result<void> OpenNiSensor::choose_intrinsics() {
   camera_.fy = height / 2.0 / std::tan(eye.getVerticalFieldOfView() / 2.0);
   camera_.cx = (width - 1) / 2.0;
   camera_.cy = (height - 1) / 2.0;
-  if (!plausible(camera_))
-    return fail("does not tell its field of view", where_,
-                "set fx, fy, cx and cy in the configuration's openni2 group");
+  if (!plausible(camera_)) return fail("does not tell its field of view", where_, kGiveIntrinsics);
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)
     shortfalls_.push_back("states fields of view that make pixels oblong (fx " + std::to_string(camera_.fx) + ", fy " +
-                          std::to_string(camera_.fy) + "); set fx, fy, cx and cy in the configuration's openni2 group");
+                          std::to_string(camera_.fy) + "); " + kGiveIntrinsics);
   return {};
 }
 
 Result<void> OpenNiSensor::start() {
   if (depth_.start() != openni::STATUS_OK)
-    return fail("depth does not start: " + openni_error(), where_, "re-plug the sensor, into a port of its own");
+    return fail("depth does not start: " + openni_error(), where_,
+                unless_file("re-plug the sensor, into a port of its own"));
   if (has_colour() && colour_.start() != openni::STATUS_OK) drop_colour("it does not start: " + openni_error());
   // Only now: before both run, OpenNI2 does not pair them. A file is paired by its time stamps instead.
   if (has_colour() && !playback_ && !pair_streams(true))

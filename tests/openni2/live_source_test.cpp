@@ -120,6 +120,12 @@ TEST(OpenNiLiveSource, IntrinsicsThatNoCameraHasAreRefused) {
   EXPECT_EQ(stream.reader.delivered, 0);
 }
 
+TEST(OpenNiLiveSource, ASensorThatTellsNoFieldOfViewNeedsItsIntrinsics) {
+  Stream without(Settings{{"field_of_view", "0"}});
+  EXPECT_TRUE(without.reader.told("virtual/1 does not tell its field of view (give fx, fy, cx and cy"))
+      << without.reader.notices;
+}
+
 TEST(OpenNiLiveSource, TurnsRoundWhatTheSensorMirrors) {
   Stream stream(Settings{{"mirror_fixed", "1"}});
   const FramePtr frame = stream.reader.frame([](const RgbdFrame& f) { return !f.colour.empty(); });

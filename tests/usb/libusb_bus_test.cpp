@@ -11,27 +11,15 @@
 #include <filesystem>
 #include <thread>
 
+#include "support/ordinary_user.h"
 #include "usb/mock_bus.h"
 
 namespace barehand {
 namespace {
 
 using test::MockBus;
+using test::OrdinaryUser;
 using ::testing::HasSubstr;
-
-/// A user for whom permissions count, which they do not for root.
-class OrdinaryUser {
- public:
-  OrdinaryUser() {
-    if (was_ == 0 && seteuid(65534) != 0) throw std::runtime_error("cannot become an ordinary user");
-  }
-  ~OrdinaryUser() {
-    if (was_ == 0 && seteuid(0) != 0) std::abort();
-  }
-
- private:
-  const uid_t was_ = geteuid();
-};
 
 bool comes_true(const std::function<bool()>& condition) {
   for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
