@@ -38,7 +38,7 @@ TEST_F(LibUsb, AnEmptyBusHasNoSensors) {
   EXPECT_TRUE(bus_.sensors()->empty());
 }
 
-TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfAMouse) {
+TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
   usb_.plug({.port = "1-2", .number = 4});
   usb_.plug({.port = "1-3", .number = 9, .vendor = 0x1d6b, .product = 2});  // a hub
   usb_.plug(
@@ -46,6 +46,7 @@ TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfAMouse) {
   usb_.plug({.port = "1-4", .number = 6, .vendor = 0x046d, .product = 0xc077, .megabits = 12});
   usb_.plug({.port = "1-5", .number = 7, .vendor = 0x045e, .product = 0x02ae});
   usb_.plug({.port = "1-6", .number = 8, .vendor = 0x045e, .product = 0x0745});
+  usb_.plug({.port = "1-7", .number = 10, .vendor = 0x045e, .product = 0x02b0, .megabits = 12});  // a Kinect's motor
   const auto sensors = bus_.sensors();
   ASSERT_TRUE(sensors);
   std::vector<std::string> texts;
