@@ -193,6 +193,13 @@ TEST(OpenNiLiveSource, TakesTheNearestModeAndSaysSo) {
   EXPECT_THAT(stream.reader.notices, HasSubstr("has no depth of 640x480 at 30 Hz; it runs 160x120 at 30 Hz"));
 }
 
+TEST(OpenNiLiveSource, AnUprightModeIsNotTheNearest) {
+  Stream stream(Settings{{"upright", "1"}});
+  ASSERT_TRUE(stream.reader.frame());
+  EXPECT_THAT(stream.reader.notices, HasSubstr("160x120 at 30 Hz, 1 mm"));
+  EXPECT_THAT(stream.reader.notices, Not(HasSubstr("120x160")));
+}
+
 TEST(OpenNiLiveSource, FindsTheSensorThatIsMeant) {
   Stream stream(Settings{{"second_uri", "virtual/2@7"}}, Stream::sized(), "@7");
   ASSERT_TRUE(stream.reader.frame());
