@@ -80,11 +80,6 @@ std::optional<VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, co
   });
 }
 
-bool same_mode(const VideoMode& a, const VideoMode& b) {
-  return a.getPixelFormat() == b.getPixelFormat() && a.getResolutionX() == b.getResolutionX() &&
-         a.getResolutionY() == b.getResolutionY() && a.getFps() == b.getFps();
-}
-
 std::string to_text(const VideoMode& mode) {
   return std::to_string(mode.getResolutionX()) + "x" + std::to_string(mode.getResolutionY()) + " at " +
          std::to_string(mode.getFps()) + " Hz";
