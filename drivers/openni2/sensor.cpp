@@ -174,7 +174,8 @@ std::optional<OpenNiSensor::Picture> OpenNiSensor::read(std::chrono::millisecond
 
 std::string OpenNiSensor::description() const {
   const openni::DeviceInfo& info = device_.getDeviceInfo();
-  std::string text = std::string(info.getVendor()) + " " + info.getName() + ": " + to_text(depth_mode_);
+  std::string text =
+      std::string(info.getVendor()) + " " + info.getName() + " at " + where_ + ": " + to_text(depth_mode_);
   text += depth_unit(depth_mode_.getPixelFormat()) < 5e-4 ? ", 0.1 mm" : ", 1 mm";
   if (!has_colour()) return text + ", no colour";
   text += registered_ ? ", colour registered" : ", colour not registered";

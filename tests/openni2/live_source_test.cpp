@@ -72,7 +72,9 @@ TEST(OpenNiLiveSource, DeliversEveryPixelWithItsColourAndCamera) {
     const Image<Rgb>& colour = pictures().frames[static_cast<std::size_t>(shown)]->colour;
     EXPECT_TRUE(std::equal(colour.data(), colour.data() + colour.size(), frame->colour.data())) << frame->number;
   }
-  EXPECT_THAT(stream.reader.notices, HasSubstr("160x120 at 30 Hz, 0.1 mm, colour registered, in step"));
+  EXPECT_THAT(
+      stream.reader.notices,
+      HasSubstr("opened Barehand Virtual Sensor at virtual/1: 160x120 at 30 Hz, 0.1 mm, colour registered, in step"));
 }
 
 TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
