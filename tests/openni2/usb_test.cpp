@@ -82,6 +82,23 @@ TEST_F(OpenNiOnUsb, ASensorThatOpensAndNeverAnswersIsReset) {
   EXPECT_THAT(reader_->notices, HasSubstr("its USB port was reset"));
 }
 
+TEST_F(OpenNiOnUsb, ASensorThatNoResetHelpsIsResetThreeTimes) {
+  class Hurried : public SystemClock {
+   public:
+    std::int64_t steady_us() const override { return 10 * SystemClock::steady_us(); }
+  } hurried;
+  sensor_.set({{"uri", kUri}, {"fault", "stall"}});
+  bus_.cure = [] {};
+  OpenNiLiveSource source("", params_, 8, hurried, std::make_unique<RecordingBus>(bus_));
+  SourceReader reader(source);
+  for (int opened = 0; opened < 9; ++opened) {  // every second time in vain, the port would be reset
+    reader.notices.clear();
+    ASSERT_TRUE(reader.told("opened Barehand")) << opened;
+    bus_.changed();  // no need to wait before the next attempt
+  }
+  EXPECT_EQ(bus_.resets, 3);
+}
+
 TEST_F(OpenNiOnUsb, ASensorThatStallsAfterItAnsweredIsOnlyOpenedAgain) {
   open({{"uri", kUri}});
   ASSERT_TRUE(reader_->frame());
