@@ -22,8 +22,6 @@ class DeviceClock {
 
   /// How much faster than the host's the sensor's clock runs, parts per million; 0 until it can be told.
   double drift_ppm() const { return -1e6 * slope_; }
-  /// Forgets everything: the sensor was opened again.
-  void restart() { *this = {}; }
 
  private:
   /// Earliest arrival of a window: x since the first stamp, y = arrival - stamp, both since the first frame.

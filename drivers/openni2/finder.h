@@ -12,7 +12,8 @@
 namespace barehand {
 
 /// Finds a sensor on a bus that changes. Drivers that do not watch the bus themselves see a change only when OpenNI2 is
-/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, or rarely.
+/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, and else once a
+/// day, or every ten minutes where the bus does not tell.
 class OpenNiFinder {
  public:
   /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again. `usb`
@@ -42,7 +43,7 @@ class OpenNiFinder {
   std::vector<std::string> gone_;  // guarded by the mutex
   std::unique_ptr<OpenNiLibrary> library_;
   std::string bus_when_loaded_;
-  std::int64_t loaded_us_ = 0;
+  std::int64_t looked_us_ = 0, loaded_us_ = 0;
 };
 
 }  // namespace barehand

@@ -1,5 +1,7 @@
 #include "drivers/openni2/library.h"
 
+#include <sched.h>
+
 #include <sstream>
 
 namespace barehand {
@@ -12,6 +14,9 @@ std::string openni_error() {
 }
 
 Result<std::unique_ptr<OpenNiLibrary>> OpenNiLibrary::load(Changed changed) {
+  // OpenNI2 goes into its drivers' folder and back while it loads them: that must not move threads which open relative
+  // paths meanwhile. Where a container forbids it, they are moved.
+  static_cast<void>(unshare(CLONE_FS));
   if (openni::OpenNI::initialize() != openni::STATUS_OK) {
     const std::string reason = openni_error();
     openni::OpenNI::shutdown();

@@ -17,6 +17,7 @@ class OpenNiLibrary {
   /// A sensor came (or went, with its address). Called on a thread of the sensor's driver.
   using Changed = std::function<void(bool came, const std::string& uri)>;
 
+  /// From then on the calling thread, and those that it starts, have a working directory of their own.
   static Result<std::unique_ptr<OpenNiLibrary>> load(Changed changed = {});
   ~OpenNiLibrary();
   OpenNiLibrary(const OpenNiLibrary&) = delete;

@@ -12,7 +12,8 @@ LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& cl
     : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
-  const auto kept_back = filter_.admit(kind);
+  // What is well again is always said: the last word must not be a trouble that is over.
+  const auto kept_back = trouble ? filter_.admit(kind) : 0;
   if (!kept_back) return;
   const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";
   box_.tell(SourceNotice{{what + more, source_, remedy}, trouble});

@@ -18,6 +18,7 @@ class LiveOutput {
   /// A frame with arbitrary content.
   std::shared_ptr<RgbdFrame> frame() { return pool_.take(); }
   void put(FramePtr frame) { box_.put(std::move(frame)); }
+  /// A trouble of a kind that was said within the last two seconds is kept back, and counted.
   void notice(const std::string& kind, const std::string& what, const std::string& remedy = "", bool trouble = true);
   /// A frame that came and cannot be used.
   void skip(const std::string& what, const std::string& remedy);

@@ -93,6 +93,7 @@ void LiveReader::reset(const std::string& uri) {
   silent_ = 0;
   ++resets_;
   finder_.unload();  // or its driver holds the device
+  if (stop_) return;
   if (auto done = usb_->reset(*address); !done)
     output_.notice("not reset", done.error().message(), done.error().remedy);
   else

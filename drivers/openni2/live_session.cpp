@@ -68,7 +68,7 @@ std::int64_t LiveSession::wait_us() const {
 void LiveSession::take(OpenNiSensor::Picture picture) {
   Pairing::Stamped stamped{static_cast<std::int64_t>(picture.frame.getTimestamp()), now_us_, picture.frame};
   if (picture.colour) {
-    if (pairing_held_all_ && any_depth_ && !colour_missing_) give_up_step();  // both were there all the time
+    if (pairing_held_all_ && any_depth_ && !colour_missing_) resume_step();  // both are there
     last_colour_us_ = now_us_;
     depth_since_colour_ = 0;
     if (auto pair = pairing_.add_colour(std::move(stamped))) deliver(*pair);
@@ -129,8 +129,21 @@ void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture
 void LiveSession::verify_step(bool matched) {
   // OpenNI2 pairs by the pictures' numbers, and claims to even where the driver cannot expose in step.
   const bool colour_runs = now_us_ - last_colour_us_ < kColourGone / 4;
+  in_step_ += matched && sensor_->paired();
   out_of_step_ = matched || !colour_runs || !sensor_->paired() ? 0 : out_of_step_ + 1;
   if (out_of_step_ >= kOutOfStep) give_up_step();
+}
+
+void LiveSession::pair_again() {
+  in_step_ = 0;
+  if (pair_wanted_ && pairings_left_-- > 0) sensor_->pair_streams(true);
+}
+
+/// Both cameras deliver, each on its own, after none did in step: the sensor was slow, or pairing held all pictures up.
+void LiveSession::resume_step() {
+  pairing_held_all_ = false;
+  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // paired again they stopped at once
+  pair_again();
 }
 
 void LiveSession::give_up_step() {
@@ -176,7 +189,7 @@ void LiveSession::watch_colour() {
   } else if (!missing && colour_missing_) {
     colour_missing_ = false;
     output_.notice("colour is back", "colour is back", "", false);
-    if (pair_wanted_ && pairings_left_-- > 0) sensor_->pair_streams(true);
+    pair_again();
   }
 }
 

@@ -39,6 +39,8 @@ class LiveSession {
   void stamp(const Pairing::Stamped& depth, RgbdFrame& frame);
   void add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame);
   void verify_step(bool matched);
+  void pair_again();
+  void resume_step();
   void give_up_step();
   void judge(DepthFault fault);
   void watch_colour();
@@ -59,8 +61,10 @@ class LiveSession {
 
   std::int64_t now_us_, last_depth_us_, last_colour_us_;  // steady clock
   int depth_since_colour_ = 0, out_of_step_ = 0;
+  int in_step_ = 0;  ///< frames with colour since the streams were paired
   bool any_depth_ = false, colour_missing_ = false, pairing_held_all_ = false;
-  int pairings_left_ = 3;  ///< a colour camera that comes and goes must not stop depth each time
+  static constexpr int kPairings = 3;
+  int pairings_left_ = kPairings;  ///< a colour camera that comes and goes must not stop depth each time
   DepthFault fault_ = DepthFault::none;
   std::int64_t fault_since_us_ = 0, black_since_us_ = 0;
   std::optional<std::int64_t> epoch_us_;  ///< host time at the steady clock's zero

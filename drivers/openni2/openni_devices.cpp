@@ -9,7 +9,7 @@ Result<std::vector<OpenNiDevice>> list_openni_devices() {
   if (!library) return tl::unexpected(library.error());
   std::vector<OpenNiDevice> devices;
   for (const openni::DeviceInfo& info : (*library)->sensors())
-    devices.push_back({info.getUri(), info.getVendor(), info.getName(), info.getUsbVendorId(), info.getUsbProductId()});
+    devices.push_back({info.getUri(), info.getVendor(), info.getName()});
   return devices;
 }
 

@@ -10,7 +10,6 @@ namespace barehand {
 /// A sensor as OpenNI2 lists it.
 struct OpenNiDevice {
   std::string uri, vendor, name;
-  int usb_vendor = 0, usb_product = 0;  ///< 0: not on USB
 };
 
 /// Error: OpenNI2 does not start.

@@ -1,9 +1,11 @@
 #include "drivers/openni2/openni_file_player.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -29,6 +31,8 @@ std::string name_of_its_own(const std::string& path) {
 }  // namespace
 
 Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::string& path, const OpenNiParams& params) {
+  if (eaccess(path.c_str(), R_OK) != 0 && errno == EACCES)
+    return fail("this user may not read it", path, "give the user the permission");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     return fail("no such file", path, "give the path of an .oni file");
@@ -38,9 +42,9 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   if (std::string_view(head.data(), head.size()) != kMagic) return fail("is no OpenNI recording", path, kWhole);
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
-  auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
-  if (!sensor) return fail(sensor.error().what, path, kWhole);
   static_cast<void>(library->release());  // unloaded it would destroy the player's streams: see OpenNiSensor
+  auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
+  if (!sensor) return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kWhole : sensor.error().remedy);
   std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
   if (player->frames() <= 0) return fail("the recording holds no depth pictures", path, "record it again");
   return player;

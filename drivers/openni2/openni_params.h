@@ -13,7 +13,9 @@ struct OpenNiParams {
   double stall_timeout = 1;
   double reopen_after = 3;
 
-  bool intrinsics_given() const { return fx > 0 && fy > 0; }
+  bool intrinsics_given() const { return fx > 0 && fy > 0 && cx > 0 && cy > 0; }
+  /// Some of them, or such as no camera has.
+  bool intrinsics_half_given() const { return !intrinsics_given() && (fx != 0 || fy != 0 || cx != 0 || cy != 0); }
 };
 template <class V>
 void visit(V& v, OpenNiParams& p) {
@@ -21,8 +23,10 @@ void visit(V& v, OpenNiParams& p) {
   v("height", p.height, 48, 8192, "px");
   v("fps", p.fps, 1, 1000, "Hz, wanted rate; the sensor's nearest is taken");
   v("colour", p.colour, {"registered", "always", "never"},
-    "registered: only if the sensor confirms that colour lies over depth; always: take its word for it");
-  v("fx", p.fx, 0.0, 1e5, "px, focal length instead of the sensor's own; 0 = the sensor's own intrinsics");
+    "registered: only if the sensor confirms that colour lies over depth; always: unconfirmed, too; never: depth "
+    "alone");
+  v("fx", p.fx, 0.0, 1e5,
+    "px, focal length; fx, fy, cx and cy together replace the sensor's own intrinsics; all 0 = they do not");
   v("fy", p.fy, 0.0, 1e5, "px, vertical focal length");
   v("cx", p.cx, 0.0, 1e5, "px, principal point");
   v("cy", p.cy, 0.0, 1e5, "px, vertical principal point");

@@ -5,11 +5,14 @@
 
 #include "drivers/openni2/library.h"
 #include "drivers/openni2/video_modes.h"
+#include "math/camera_limits.h"
 
 namespace barehand {
 namespace {
 
 constexpr double kMostPixelStretch = 0.05;  // fx against fy; more is a field of view of another mode
+constexpr const char* kGiveIntrinsics =
+    "give fx, fy, cx and cy in the configuration's openni2 group; record and convert take --fx --fy --cx --cy";
 
 }  // namespace
 
@@ -37,7 +40,7 @@ OpenNiSensor::~OpenNiSensor() {
 Result<void> OpenNiSensor::open_device() {
   if (device_.open(where_.c_str()) != openni::STATUS_OK)
     return fail("cannot be opened: " + openni_error(), where_,
-                "is another program using it? has this user the permission (deploy/udev)?");
+                unless_file("is another program using it? has this user the permission (deploy/udev)?"));
   playback_ = device_.getPlaybackControl();
   if (!playback_) return {};
   playback_->setRepeatEnabled(false);
@@ -46,9 +49,12 @@ Result<void> OpenNiSensor::open_device() {
   return {};
 }
 
+std::string OpenNiSensor::unless_file(const char* remedy) const { return where_.starts_with('/') ? "" : remedy; }
+
 Result<void> OpenNiSensor::create_depth() {
   if (!device_.hasSensor(openni::SENSOR_DEPTH) || depth_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK)
-    return fail("has no depth: " + openni_error(), where_, "choose a depth camera: barehand doctor lists them");
+    return fail("has no depth: " + openni_error(), where_,
+                unless_file("choose a depth camera: barehand doctor lists them"));
   if (!playback_) {
     const auto mode = choose_depth_mode(depth_.getSensorInfo(), params_);
     if (mode && depth_.setVideoMode(*mode) != openni::STATUS_OK)
@@ -58,7 +64,7 @@ Result<void> OpenNiSensor::create_depth() {
   depth_mode_ = depth_.getVideoMode();
   if (depth_unit(depth_mode_.getPixelFormat()) == 0)
     return fail("its depth format " + std::to_string(depth_mode_.getPixelFormat()) + " is not known", where_,
-                "use a sensor or a mode with depth in millimetres or tenths");
+                unless_file("use a sensor or a mode with depth in millimetres or tenths"));
   const bool as_wanted =
       playback_ || (depth_mode_.getResolutionX() == params_.width && depth_mode_.getResolutionY() == params_.height &&
                     depth_mode_.getFps() == params_.fps);
@@ -120,25 +126,27 @@ void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const c
 Result<void> OpenNiSensor::choose_intrinsics() {
   const int width = depth_mode_.getResolutionX(), height = depth_mode_.getResolutionY();
   camera_ = {width, height, params_.fx, params_.fy, params_.cx, params_.cy};
-  if (params_.intrinsics_given()) return {};
+  if (params_.intrinsics_given()) {
+    if (plausible(camera_)) return {};
+    return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
+  }
   // Registered depth is what the colour camera would measure.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);
   camera_.fy = height / 2.0 / std::tan(eye.getVerticalFieldOfView() / 2.0);
   camera_.cx = (width - 1) / 2.0;
   camera_.cy = (height - 1) / 2.0;
-  if (!(std::isfinite(camera_.fx) && std::isfinite(camera_.fy) && camera_.valid()))
-    return fail("does not tell its field of view", where_,
-                "set fx, fy, cx and cy in the configuration's openni2 group");
+  if (!plausible(camera_)) return fail("does not tell its field of view", where_, kGiveIntrinsics);
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)
     shortfalls_.push_back("states fields of view that make pixels oblong (fx " + std::to_string(camera_.fx) + ", fy " +
-                          std::to_string(camera_.fy) + "); set fx, fy, cx and cy in the configuration's openni2 group");
+                          std::to_string(camera_.fy) + "); " + kGiveIntrinsics);
   return {};
 }
 
 Result<void> OpenNiSensor::start() {
   if (depth_.start() != openni::STATUS_OK)
-    return fail("depth does not start: " + openni_error(), where_, "re-plug the sensor, into a port of its own");
+    return fail("depth does not start: " + openni_error(), where_,
+                unless_file("re-plug the sensor, into a port of its own"));
   if (has_colour() && colour_.start() != openni::STATUS_OK) drop_colour("it does not start: " + openni_error());
   // Only now: before both run, OpenNI2 does not pair them. A file is paired by its time stamps instead.
   if (has_colour() && !playback_ && !pair_streams(true))
@@ -166,7 +174,8 @@ std::optional<OpenNiSensor::Picture> OpenNiSensor::read(std::chrono::millisecond
 
 std::string OpenNiSensor::description() const {
   const openni::DeviceInfo& info = device_.getDeviceInfo();
-  std::string text = std::string(info.getVendor()) + " " + info.getName() + ": " + to_text(depth_mode_);
+  std::string text =
+      std::string(info.getVendor()) + " " + info.getName() + " at " + where_ + ": " + to_text(depth_mode_);
   text += depth_unit(depth_mode_.getPixelFormat()) < 5e-4 ? ", 0.1 mm" : ", 1 mm";
   if (!has_colour()) return text + ", no colour";
   text += registered_ ? ", colour registered" : ", colour not registered";

@@ -20,7 +20,7 @@ namespace barehand {
 class OpenNiSensor {
  public:
   /// `where`: the sensor's address, or a file's path. Errors: it cannot be opened, has no depth, no known depth format
-  /// or no intrinsics, does not start.
+  /// or no intrinsics, does not start. What helps with a file that OpenNI2 does not play its player knows.
   static Result<std::unique_ptr<OpenNiSensor>> open(const std::string& where, const OpenNiParams& params);
   ~OpenNiSensor();
   OpenNiSensor(const OpenNiSensor&) = delete;
@@ -54,6 +54,7 @@ class OpenNiSensor {
  private:
   OpenNiSensor(std::string where, const OpenNiParams& params) : where_(std::move(where)), params_(params) {}
   Result<void> open_device();
+  std::string unless_file(const char* remedy) const;
   Result<void> create_depth();
   void create_colour();
   void register_colour();

@@ -61,12 +61,11 @@ int colour_bytes_per_pixel(openni::PixelFormat format) {
 }
 
 std::optional<VideoMode> choose_depth_mode(const openni::SensorInfo& sensor, const OpenNiParams& wanted) {
-  using Cost = std::optional<std::tuple<long, int, double>>;
+  using Cost = std::optional<std::tuple<int, int, double>>;
   return best(sensor, [&](const VideoMode& mode) -> Cost {
     const double unit = depth_unit(mode.getPixelFormat());
     if (unit == 0) return std::nullopt;
-    const long pixels = static_cast<long>(mode.getResolutionX()) * mode.getResolutionY();
-    const long off = std::labs(pixels - static_cast<long>(wanted.width) * wanted.height);
+    const int off = std::abs(mode.getResolutionX() - wanted.width) + std::abs(mode.getResolutionY() - wanted.height);
     return std::tuple(off, std::abs(mode.getFps() - wanted.fps), unit);
   });
 }
@@ -79,11 +78,6 @@ std::optional<VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, co
     if (!same_size || colour_bytes_per_pixel(mode.getPixelFormat()) == 0) return std::nullopt;
     return std::tuple(std::abs(mode.getFps() - depth.getFps()), rank(mode.getPixelFormat()));
   });
-}
-
-bool same_mode(const VideoMode& a, const VideoMode& b) {
-  return a.getPixelFormat() == b.getPixelFormat() && a.getResolutionX() == b.getResolutionX() &&
-         a.getResolutionY() == b.getResolutionY() && a.getFps() == b.getFps();
 }
 
 std::string to_text(const VideoMode& mode) {

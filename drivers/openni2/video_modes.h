@@ -14,7 +14,6 @@ std::optional<openni::VideoMode> choose_depth_mode(const openni::SensorInfo& sen
 /// A colour mode of exactly the depth image's size, the rate nearest to its rate; none: there is no such mode.
 std::optional<openni::VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, const openni::VideoMode& depth);
 
-bool same_mode(const openni::VideoMode& a, const openni::VideoMode& b);
 /// [m] per count; 0: not a depth format.
 double depth_unit(openni::PixelFormat format);
 /// 0: a format that is not known.

@@ -68,13 +68,14 @@ class Copy {
     return true;
   }
 
-  /// Gaps in the numbers of a live source.
+  /// Gaps in the numbers of a live source, less those of skipped frames, which may be told before their turn.
   void count_missing(std::int64_t number) {
-    const bool gap = source_.live() && seen_ && number > last_number_ + 1;
-    if (gap) result_.missing += number - last_number_ - 1;
+    if (source_.live() && seen_ && number > last_number_ + 1) gaps_ += number - last_number_ - 1;
     last_number_ = number;
     seen_ = true;
-    if (!gap) return;
+    const std::int64_t before = result_.missing;
+    result_.missing = std::max<std::int64_t>(0, gaps_ - result_.skipped);
+    if (result_.missing <= before) return;
     result_.dropped = 0;
     for (const QueueHealth& queue : source_.queues())
       if (queue.capacity > 0) result_.dropped += queue.dropped;
@@ -128,7 +129,7 @@ class Copy {
   std::ostream& report_;
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
-  std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0;
+  std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0, gaps_ = 0;
   bool line_open_ = false, seen_ = false, losing_ = false;
 };
 

@@ -94,6 +94,16 @@ TEST_F(CopyFrames, GapsInALiveSourceAreCounted) {
   EXPECT_EQ(copy(replay, *writer("b.lcmlog")).missing, 0) << "its step may be 4";
 }
 
+TEST_F(CopyFrames, ASkippedFrameIsNotMissingAsWell) {
+  const SkippedFrame skipped{{"noise", "", ""}};
+  ListSource between({frame_event(7), skipped, frame_event(9), frame_event(10)}, true);
+  EXPECT_EQ(copy(between, *writer("a.lcmlog")).missing, 0);
+  ListSource early({skipped, frame_event(7), frame_event(9)}, true);
+  EXPECT_EQ(copy(early, *writer("b.lcmlog")).missing, 0) << "it overtook frame 7, which waited";
+  ListSource among({frame_event(7), skipped, frame_event(11)}, true);
+  EXPECT_EQ(copy(among, *writer("c.lcmlog")).missing, 2);
+}
+
 TEST_F(CopyFrames, AFullDiskEndsTheCopyWithAnError) {
   ListSource source({frame_event(0), frame_event(1), frame_event(2)});
   FullDisk disk(1);

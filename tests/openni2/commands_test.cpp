@@ -84,6 +84,21 @@ TEST(OpenNiCommands, RefusesAnOniFileThatIsNotThere) {
   EXPECT_THAT(outcome.output, HasSubstr("no such file"));
 }
 
+TEST(OpenNiCommands, RefuseHalfOfTheIntrinsics) {
+  const test::TempFolder folder;
+  const std::vector<std::vector<std::string>> halves{{"--fx", "500", "--fy", "500"},
+                                                     {"--fx", "500", "--cx", "320", "--cy", "240"},
+                                                     {"--cx", "320", "--cy", "240"},
+                                                     {"--fx", "-500", "--fy", "500", "--cx", "320", "--cy", "240"}};
+  for (const std::vector<std::string>& half : halves) {
+    std::vector<std::string> record{"record", "--source", "openni2", "--seconds", "0.1", "--out", folder / "log"};
+    record.insert(record.end(), half.begin(), half.end());
+    const Outcome outcome = barehand(record);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("fx, fy, cx and cy go together"));
+  }
+}
+
 /// "6 frames in 1.0 s (6.0 frames/s): 5 published, 1 dropped, 0 failed".
 struct Counts {
   long captured = -1, published = 0, dropped = 0, failed = 0;

@@ -1,6 +1,8 @@
 // Everything that goes wrong with a sensor, injected into the virtual one while it streams.
 #include <gmock/gmock.h>
 
+#include <atomic>
+
 #include "drivers/openni2/openni_live_source.h"
 #include "openni2/source_reader.h"
 #include "openni2/virtual_sensor.h"
@@ -11,6 +13,13 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+/// A machine whose clock is set.
+class SettableClock : public SystemClock {
+ public:
+  std::int64_t utime() const override { return SystemClock::utime() + set_by; }
+  std::atomic<std::int64_t> set_by = 0;  ///< [us]
+};
 
 class OpenNiFaults : public ::testing::Test {
  protected:
@@ -30,7 +39,7 @@ class OpenNiFaults : public ::testing::Test {
   }
   void inject(const std::string& fault) { sensor_.set({{"fault", fault}}); }
 
-  const SystemClock clock_;
+  SettableClock clock_;
   VirtualSensor sensor_;
   std::unique_ptr<OpenNiLiveSource> source_;
   std::unique_ptr<SourceReader> reader_;
@@ -77,6 +86,24 @@ TEST_F(OpenNiFaults, StallWithoutAnError) {
   sensor_.set({{"fault", "stall"}, {"cured_by_reopen", "1"}});
   ASSERT_TRUE(reader_->told("stalled: no depth for"));
   EXPECT_TRUE(reader_->frame()) << "opening it again cures it";
+}
+
+TEST_F(OpenNiFaults, AHiccupOfBothCamerasIsNoReasonToDoubtThatTheyAreInStep) {
+  stream();
+  inject("stall");
+  reader_->frames_within(milliseconds(750));  // more than half the patience, less than all of it
+  inject("none");
+  reader_->frames(20);
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("in step")));
+}
+
+TEST_F(OpenNiFaults, ASlowStartIsNoReasonEither) {
+  open({{"fault", "stall"}});
+  ASSERT_TRUE(reader_->told("opened"));
+  reader_->frames_within(milliseconds(2000));
+  inject("none");
+  reader_->frames(20);
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("not exposed in step")));
 }
 
 /// Faults whose frames must not reach the tracker.
@@ -150,6 +177,15 @@ TEST_P(ClockJump, IsSaidAndStampsGoOn) {
 }
 INSTANTIATE_TEST_SUITE_P(Microseconds, ClockJump, ::testing::Values("-3000000", "60000000"),
                          [](const auto& test) { return test.param[0] == '-' ? "Back" : "Forward"; });
+
+TEST_F(OpenNiFaults, TheMachinesClockIsSet) {
+  stream();
+  const FramePtr before = reader_->frame();
+  ASSERT_TRUE(before);
+  clock_.set_by = 3'600'000'000;
+  ASSERT_TRUE(reader_->told("this machine's clock was set by +"));
+  EXPECT_TRUE(reader_->frame([&](const RgbdFrame& f) { return f.utime > before->utime + clock_.set_by; }));
+}
 
 class Rate : public OpenNiFaults, public ::testing::WithParamInterface<int> {};
 TEST_P(Rate, IsFollowed) {

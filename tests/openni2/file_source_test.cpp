@@ -1,6 +1,7 @@
 #include "drivers/openni2/openni_file_source.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "openni2/source_reader.h"
 #include "openni2/virtual_device/pictures.h"
 #include "openni2/virtual_sensor.h"
+#include "support/ordinary_user.h"
 
 namespace barehand {
 namespace {
@@ -104,6 +106,31 @@ TEST_F(OniFile, StartAndStep) {
     EXPECT_EQ(frame->utime, frames[number]->utime);
     EXPECT_EQ(picture_of(*frame), picture_of(*frames[number]));  // from the start again
   }
+}
+
+TEST_F(OniFile, AFileThatTellsNoFieldOfViewNeedsItsIntrinsics) {
+  sensor_.set({{"field_of_view", "0"}});
+  record_file("depth");
+  const auto without = OpenNiFileSource::open(path_, {});
+  ASSERT_FALSE(without.has_value());
+  EXPECT_THAT(without.error().message(), HasSubstr("does not tell its field of view"));
+  EXPECT_THAT(without.error().remedy, HasSubstr("--fx --fy --cx --cy"));
+  OpenNiParams given;
+  given.fx = 150, given.fy = 151, given.cx = 79, given.cy = 61;
+  const auto with = OpenNiFileSource::open(path_, given);
+  EXPECT_TRUE(with.has_value()) << with.error().message();
+}
+
+TEST_F(OniFile, ThatThisUserMayNotReadIsSaid) {
+  test::write_text(path_, "NI10");
+  chmod(folder_.path().c_str(), 0755);
+  chmod(path_.c_str(), 0);
+  const auto secret = [this] {
+    const test::OrdinaryUser user;
+    return OpenNiFileSource::open(path_, {});
+  }();
+  ASSERT_FALSE(secret.has_value());
+  EXPECT_THAT(secret.error().message(), HasSubstr("this user may not read it"));
 }
 
 TEST_F(OniFile, WhatCannotBePlayedIsRefusedWithTheReason) {

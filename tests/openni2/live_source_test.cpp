@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <thread>
 
 #include "drivers/openni2/openni_devices.h"
 #include "openni2/source_reader.h"
@@ -69,7 +72,9 @@ TEST(OpenNiLiveSource, DeliversEveryPixelWithItsColourAndCamera) {
     const Image<Rgb>& colour = pictures().frames[static_cast<std::size_t>(shown)]->colour;
     EXPECT_TRUE(std::equal(colour.data(), colour.data() + colour.size(), frame->colour.data())) << frame->number;
   }
-  EXPECT_THAT(stream.reader.notices, HasSubstr("160x120 at 30 Hz, 0.1 mm, colour registered, in step"));
+  EXPECT_THAT(
+      stream.reader.notices,
+      HasSubstr("opened Barehand Virtual Sensor at virtual/1: 160x120 at 30 Hz, 0.1 mm, colour registered, in step"));
 }
 
 TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
@@ -83,8 +88,10 @@ TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
     EXPECT_NEAR(static_cast<double>(frames[i]->utime - first->utime), expected, 5e3);
   }
   EXPECT_LT(std::abs(stream.clock.utime() - frames.back()->utime), 5'000'000);
+  stream.sensor.unplug();
+  ASSERT_TRUE(stream.reader.told("was unplugged"));  // nothing is under way any more
   const auto queues = stream.source.queues();
-  EXPECT_EQ(queues[0].popped, queues[1].pushed);
+  EXPECT_EQ(queues[0].popped, queues[1].pushed + stream.reader.skipped);
   EXPECT_EQ(queues[0].pushed, queues[0].popped + queues[0].dropped);
 }
 
@@ -106,6 +113,21 @@ TEST(OpenNiLiveSource, ConfiguredIntrinsicsReplaceTheSensorsOwn) {
   const FramePtr frame = stream.reader.frame();
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->camera, (Intrinsics{160, 120, 150, 151, 79, 61}));
+}
+
+TEST(OpenNiLiveSource, IntrinsicsThatNoCameraHasAreRefused) {
+  OpenNiParams params = Stream::sized();
+  params.fx = 0.5, params.fy = 151, params.cx = 79, params.cy = 61;
+  Stream stream({}, params);
+  EXPECT_TRUE(stream.reader.told("virtual/1 cannot have the fx, fy, cx and cy that are given"))
+      << stream.reader.notices;
+  EXPECT_EQ(stream.reader.delivered, 0);
+}
+
+TEST(OpenNiLiveSource, ASensorThatTellsNoFieldOfViewNeedsItsIntrinsics) {
+  Stream without(Settings{{"field_of_view", "0"}});
+  EXPECT_TRUE(without.reader.told("virtual/1 does not tell its field of view (give fx, fy, cx and cy"))
+      << without.reader.notices;
 }
 
 TEST(OpenNiLiveSource, TurnsRoundWhatTheSensorMirrors) {
@@ -175,6 +197,13 @@ TEST(OpenNiLiveSource, TakesTheNearestModeAndSaysSo) {
   EXPECT_THAT(stream.reader.notices, HasSubstr("has no depth of 640x480 at 30 Hz; it runs 160x120 at 30 Hz"));
 }
 
+TEST(OpenNiLiveSource, AnUprightModeIsNotTheNearest) {
+  Stream stream(Settings{{"upright", "1"}});
+  ASSERT_TRUE(stream.reader.frame());
+  EXPECT_THAT(stream.reader.notices, HasSubstr("160x120 at 30 Hz, 1 mm"));
+  EXPECT_THAT(stream.reader.notices, Not(HasSubstr("120x160")));
+}
+
 TEST(OpenNiLiveSource, FindsTheSensorThatIsMeant) {
   Stream stream(Settings{{"second_uri", "virtual/2@7"}}, Stream::sized(), "@7");
   ASSERT_TRUE(stream.reader.frame());
@@ -198,6 +227,20 @@ TEST(OpenNiDevices, AreListed) {
   EXPECT_EQ((*devices)[0].vendor, "Barehand");
   EXPECT_EQ((*devices)[0].name, "Virtual Sensor");
   EXPECT_EQ((*devices)[1].uri, "virtual/2");
+}
+
+TEST(OpenNiDevices, AreListedWithoutMovingOtherThreadsToAnotherFolder) {
+  VirtualSensor sensor;
+  const std::string here = std::filesystem::current_path();
+  std::atomic<bool> done = false, moved = false;
+  std::thread other([&] {
+    while (!done)
+      if (std::filesystem::current_path() != here) moved = true;
+  });
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(list_openni_devices());
+  done = true;
+  other.join();
+  EXPECT_FALSE(moved);
 }
 
 }  // namespace

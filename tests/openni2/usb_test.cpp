@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "drivers/openni2/finder.h"
 #include "drivers/openni2/openni_live_source.h"
 #include "drivers/openni2/usb_address.h"
 #include "openni2/source_reader.h"
@@ -20,13 +21,17 @@ constexpr UsbAddress kAddress{0x1d27, 0x0601, 1, 4};
 struct Bus {
   std::function<void()> changed, cure;
   std::vector<UsbSensor> plugged;
-  std::atomic<int> looks = 0, resets = 0;
+  std::string state = "1-2#4 ";
+  std::atomic<int> looks = 0, resets = 0, states = 0;
   UsbAddress last_reset;
 };
 class RecordingBus : public UsbBus {
  public:
   explicit RecordingBus(Bus& bus) : bus_(bus) {}
-  std::string state() override { return "1-2#4 "; }
+  std::string state() override {
+    ++bus_.states;
+    return bus_.state;
+  }
   Result<std::vector<UsbSensor>> sensors() override {
     ++bus_.looks;
     return bus_.plugged;
@@ -77,6 +82,23 @@ TEST_F(OpenNiOnUsb, ASensorThatOpensAndNeverAnswersIsReset) {
   EXPECT_THAT(reader_->notices, HasSubstr("its USB port was reset"));
 }
 
+TEST_F(OpenNiOnUsb, ASensorThatNoResetHelpsIsResetThreeTimes) {
+  class Hurried : public SystemClock {
+   public:
+    std::int64_t steady_us() const override { return 10 * SystemClock::steady_us(); }
+  } hurried;
+  sensor_.set({{"uri", kUri}, {"fault", "stall"}});
+  bus_.cure = [] {};
+  OpenNiLiveSource source("", params_, 8, hurried, std::make_unique<RecordingBus>(bus_));
+  SourceReader reader(source);
+  for (int opened = 0; opened < 9; ++opened) {  // every second time in vain, the port would be reset
+    reader.notices.clear();
+    ASSERT_TRUE(reader.told("opened Barehand")) << opened;
+    bus_.changed();  // no need to wait before the next attempt
+  }
+  EXPECT_EQ(bus_.resets, 3);
+}
+
 TEST_F(OpenNiOnUsb, ASensorThatStallsAfterItAnsweredIsOnlyOpenedAgain) {
   open({{"uri", kUri}});
   ASSERT_TRUE(reader_->frame());
@@ -95,6 +117,48 @@ TEST_F(OpenNiOnUsb, EveryPlugIsLookedAtWithoutDelay) {
     while (bus_.looks == looks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "back-off alone needs 27 s";
+}
+
+/// Looks for a sensor that is not there.
+class OpenNiFinderOnUsb : public ::testing::Test {
+ protected:
+  /// Whether OpenNI2 is loaded by the next look, which asks for the bus's state once more then.
+  bool loads() {
+    const int before = bus_.states;
+    EXPECT_FALSE(finder_.find());
+    return bus_.states - before == 2;
+  }
+  /// Whether OpenNI2 is loaded anew after this time.
+  bool loads_after(std::int64_t seconds) {
+    clock_.advance(seconds * 1'000'000);
+    EXPECT_FALSE(loads()) << "it was loaded";
+    return loads();
+  }
+
+  VirtualSensor sensor_{{{"plugged", "0"}}};
+  ManualClock clock_;
+  Bus bus_;
+  RecordingBus usb_{bus_};
+  OpenNiFinder finder_{"", [] {}, &usb_, clock_};
+};
+
+TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewWhenTheBusChanges) {
+  EXPECT_TRUE(loads());
+  EXPECT_FALSE(loads());
+  bus_.state = "1-2#5 ";
+  EXPECT_TRUE(loads_after(0));
+}
+
+TEST_F(OpenNiFinderOnUsb, HardlyEverLoadsOpenNi2AnewWhereTheBusTells) {
+  EXPECT_TRUE(loads());
+  EXPECT_FALSE(loads_after(3600));
+  EXPECT_TRUE(loads_after(24 * 3600));
+}
+
+TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewNowAndThenWhereTheBusDoesNotTell) {
+  bus_.state = "";
+  EXPECT_TRUE(loads());
+  EXPECT_TRUE(loads_after(700));
 }
 
 TEST_F(OpenNiOnUsb, SaysWhatIsPluggedInWithoutADriver) {

@@ -11,27 +11,15 @@
 #include <filesystem>
 #include <thread>
 
+#include "support/ordinary_user.h"
 #include "usb/mock_bus.h"
 
 namespace barehand {
 namespace {
 
 using test::MockBus;
+using test::OrdinaryUser;
 using ::testing::HasSubstr;
-
-/// A user for whom permissions count, which they do not for root.
-class OrdinaryUser {
- public:
-  OrdinaryUser() {
-    if (was_ == 0 && seteuid(65534) != 0) throw std::runtime_error("cannot become an ordinary user");
-  }
-  ~OrdinaryUser() {
-    if (was_ == 0 && seteuid(0) != 0) std::abort();
-  }
-
- private:
-  const uid_t was_ = geteuid();
-};
 
 bool comes_true(const std::function<bool()>& condition) {
   for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -50,7 +38,7 @@ TEST_F(LibUsb, AnEmptyBusHasNoSensors) {
   EXPECT_TRUE(bus_.sensors()->empty());
 }
 
-TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfAMouse) {
+TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
   usb_.plug({.port = "1-2", .number = 4});
   usb_.plug({.port = "1-3", .number = 9, .vendor = 0x1d6b, .product = 2});  // a hub
   usb_.plug(
@@ -58,6 +46,7 @@ TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfAMouse) {
   usb_.plug({.port = "1-4", .number = 6, .vendor = 0x046d, .product = 0xc077, .megabits = 12});
   usb_.plug({.port = "1-5", .number = 7, .vendor = 0x045e, .product = 0x02ae});
   usb_.plug({.port = "1-6", .number = 8, .vendor = 0x045e, .product = 0x0745});
+  usb_.plug({.port = "1-7", .number = 10, .vendor = 0x045e, .product = 0x02b0, .megabits = 12});  // a Kinect's motor
   const auto sensors = bus_.sensors();
   ASSERT_TRUE(sensors);
   std::vector<std::string> texts;

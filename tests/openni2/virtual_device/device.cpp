@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace barehand::virtual_openni {
 namespace {
@@ -23,6 +24,8 @@ Device::Device(const Pictures& pictures, CurrentSettings settings)
   for (std::size_t i = 0; i < types.size(); ++i) {
     modes_[i].fill(Stream::best_mode(types[i], pictures.camera(), at_open_->fps));
     if (types[i] == ONI_SENSOR_DEPTH) modes_[i][0].pixelFormat = ONI_PIXEL_FORMAT_DEPTH_1_MM;
+    if (types[i] == ONI_SENSOR_DEPTH && at_open_->upright)
+      std::swap(modes_[i][1].resolutionX, modes_[i][1].resolutionY);
     sensors_[i] = {types[i], types[i] == ONI_SENSOR_DEPTH ? 2 : 1, modes_[i].data()};
   }
   exposing_ = std::jthread([this](const std::stop_token& stop) { expose_pictures(stop); });

@@ -10,7 +10,9 @@ namespace barehand::virtual_openni {
 
 /// Rendered beforehand, so that a sensor of 120 Hz costs no more than copying.
 struct Pictures {
-  std::vector<FramePtr> frames;  ///< played forth and back: the motion never jumps, no picture follows itself
+  /// Played forth and back: the motion never jumps, and no picture follows itself unless the exposure where it turns is
+  /// left out.
+  std::vector<FramePtr> frames;
 
   const RgbdFrame& at(std::int64_t index) const;
   const Intrinsics& camera() const { return frames.front()->camera; }

@@ -30,6 +30,8 @@ std::map<std::string, Setter> setters() {
           {"colour", flag(&Settings::colour)},
           {"registration", flag(&Settings::registration)},
           {"sync", flag(&Settings::sync)},
+          {"upright", flag(&Settings::upright)},
+          {"field_of_view", flag(&Settings::field_of_view)},
           {"mirror_fixed", flag(&Settings::mirror_fixed)},
           {"lies", flag(&Settings::lies)},
           {"plugged", flag(&Settings::plugged)},

@@ -13,6 +13,8 @@ struct Settings {
   int frames = 15;                                             ///< of the scene, played forth and back
   bool colour = true;                                          ///< has a colour camera
   bool registration = true, sync = true;                       ///< can do that
+  bool upright = false;                                        ///< its finer depth mode, which does not work
+  bool field_of_view = true;                                   ///< tells it
   bool mirror_fixed = false;                                   ///< mirrored, and cannot be turned off
   bool lies = false;                                           ///< accepts registration and sync and does neither
 

@@ -28,6 +28,7 @@ Stream::Stream(OniSensorType sensor, const Intrinsics& camera, const Settings& s
     : sensor_(sensor),
       camera_(camera),
       fps_(settings.fps),
+      field_of_view_(settings.field_of_view),
       mirror_fixed_(settings.mirror_fixed),
       mode_(best_mode(sensor, camera, settings.fps)) {
   if (sensor == ONI_SENSOR_DEPTH) mode_.pixelFormat = ONI_PIXEL_FORMAT_DEPTH_1_MM;  // as a PrimeSense starts
@@ -61,6 +62,7 @@ OniStatus Stream::setProperty(int id, const void* data, int size) {
 }
 
 OniStatus Stream::getProperty(int id, void* data, int* size) {
+  if (!isPropertySupported(id)) return ONI_STATUS_NOT_SUPPORTED;
   const std::lock_guard lock(mutex_);
   switch (id) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
@@ -84,9 +86,9 @@ OniStatus Stream::getProperty(int id, void* data, int* size) {
 
 OniBool Stream::isPropertySupported(int id) {
   const bool depth_only = id == ONI_STREAM_PROPERTY_MAX_VALUE || id == ONI_STREAM_PROPERTY_MIN_VALUE;
+  const bool angle = id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV || id == ONI_STREAM_PROPERTY_VERTICAL_FOV;
   const bool both = id == ONI_STREAM_PROPERTY_VIDEO_MODE || id == ONI_STREAM_PROPERTY_CROPPING ||
-                    id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV || id == ONI_STREAM_PROPERTY_VERTICAL_FOV ||
-                    id == ONI_STREAM_PROPERTY_MIRRORING;
+                    id == ONI_STREAM_PROPERTY_MIRRORING || (angle && field_of_view_);
   return both || (depth_only && sensor_ == ONI_SENSOR_DEPTH);
 }
 

@@ -41,7 +41,7 @@ class Stream : public oni::driver::StreamBase {
   const OniSensorType sensor_;
   const Intrinsics camera_;
   const double fps_;
-  const bool mirror_fixed_;
+  const bool field_of_view_, mirror_fixed_;
   mutable std::mutex mutex_;  // of what follows; also held while a frame is handed over, so that stop() waits for it
   OniVideoMode mode_;
   bool mirrored_ = true;  // as a PrimeSense starts
