@@ -23,9 +23,9 @@ std::string stamp_text(std::int64_t utime) {
 }  // namespace
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Options options) {
-  if (fs::exists(directory + "/depth.txt"))
-    return fail("already holds a recording", directory, "choose another folder or remove it first");
   std::error_code error;
+  if (fs::exists(directory + "/depth.txt", error))
+    return fail("already holds a recording", directory, "choose another folder or remove it first");
   fs::create_directories(directory + "/depth", error);
   if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
   RecordingWriter writer;

@@ -69,6 +69,12 @@ TEST_F(CopyCommands, AForeignFileIsRefusedClearly) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b"));
 }
 
+TEST_F(CopyCommands, APathThatCannotBeLookedAtIsRefusedClearly) {
+  const Outcome outcome = barehand({"convert", std::string(300, 'x'), folder_ / "a.lcmlog"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("name too long"));
+}
+
 TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
   std::filesystem::create_symlink("/dev/full", folder_ / "full.lcmlog");
   const Outcome full = barehand({"convert", recording(), folder_ / "full.lcmlog", "--overwrite"});

@@ -137,6 +137,19 @@ TEST_F(RecordingFolder, EmptyFolderIsAnError) {
   EXPECT_THAT(open_error(), HasSubstr("is no folder"));
 }
 
+TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
+  record();
+  fs::remove(path_ + "/rgb.txt");
+  fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // to itself
+  EXPECT_THAT(open_error(), HasSubstr("rgb.txt: cannot be read"));
+  fs::remove(path_ + "/camera.json");
+  fs::create_symlink("camera.json", path_ + "/camera.json");
+  EXPECT_THAT(open_error(), HasSubstr("camera.json: cannot be read"));
+  path_ = folder_ / std::string(300, 'x');
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("is no folder"), HasSubstr("name too long")));
+  EXPECT_FALSE(RecordingWriter::create(path_));
+}
+
 TEST_F(RecordingFolder, StampsThatGoBackNameTheLine) {
   record();
   replace("depth.txt", "1700000000.100000", "1699999999.000000");
