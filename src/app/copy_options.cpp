@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/run_copy.h"
+#include "io/message_sink.h"
 
 namespace barehand {
 
@@ -24,7 +25,11 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--depth", r.depth, "how a log holds depth; all are lossless, rvl is smallest and fastest")
       ->check(CLI::IsMember({"rvl", "zlib", "raw"}))
       ->capture_default_str();
-  command.add_option("--out-channel", r.out_channel, "LCM channel in the log that is written")->capture_default_str();
+  command.add_option("--out-channel", r.out_channel, "LCM channel in the log that is written")
+      ->check([](const std::string& name) {
+        return name.empty() || name.size() > kLongestChannel ? "channel names have 1 to 63 bytes" : "";
+      })
+      ->capture_default_str();
   command.add_flag("--overwrite", r.overwrite, "replace an existing log");
 }
 

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/message_sink.h"
+
 namespace barehand {
 namespace {
 
@@ -15,7 +17,6 @@ namespace {
 // both (LCM's log file format).
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::int64_t kHeader = 28;
-constexpr std::int32_t kLongestChannel = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
 class Scanner {
  public:
@@ -51,14 +52,14 @@ class Scanner {
     std::array<std::uint8_t, kHeader> header{};
     if (size_ - at < kHeader || !read(at, header.data(), header.size())) return std::nullopt;
     if (!std::equal(kSync.begin(), kSync.end(), header.begin())) return std::nullopt;
-    const auto channel_size = static_cast<std::int32_t>(big_endian(&header[20], 4));
+    const auto channel_size = static_cast<std::size_t>(big_endian(&header[20], 4));
     LogEntry entry;
     entry.position = at;
     entry.timestamp = big_endian(&header[12], 8);
     entry.size = static_cast<std::int32_t>(big_endian(&header[24], 4));
     if (channel_size < 1 || channel_size > kLongestChannel || entry.size < 0) return std::nullopt;
-    if (size_ - at < kHeader + channel_size + entry.size) return std::nullopt;
-    entry.channel.resize(static_cast<std::size_t>(channel_size));
+    if (size_ - at < kHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
+    entry.channel.resize(channel_size);
     if (!read(at + kHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
     std::array<std::uint8_t, 16> start{};
     const auto known = std::min<std::size_t>(start.size(), static_cast<std::size_t>(entry.size));

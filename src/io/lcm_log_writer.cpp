@@ -31,6 +31,8 @@ Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& pa
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  if (channel.empty() || channel.size() > kLongestChannel)
+    return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
   lcm::LogEvent event;
   event.eventnum = 0;  // set by LogFile
   event.timestamp = utime;

@@ -75,6 +75,14 @@ TEST_F(CopyCommands, APathThatCannotBeLookedAtIsRefusedClearly) {
   EXPECT_THAT(outcome.output, HasSubstr("name too long"));
 }
 
+TEST_F(CopyCommands, AChannelThatNoReaderTakesIsRefused) {
+  for (const std::string& channel : {std::string(), std::string(64, 'A')}) {
+    const Outcome outcome = barehand({"convert", "anything", folder_ / "a.lcmlog", "--out-channel", channel});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("channel names have 1 to 63 bytes"));
+  }
+}
+
 TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
   std::filesystem::create_symlink("/dev/full", folder_ / "full.lcmlog");
   const Outcome full = barehand({"convert", recording(), folder_ / "full.lcmlog", "--overwrite"});

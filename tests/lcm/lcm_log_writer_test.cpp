@@ -62,6 +62,17 @@ TEST(LcmLogWriter, AFolderThatDoesNotExistIsAnError) {
   EXPECT_FALSE(LcmLogWriter::create("/nonexistent/folder/a.lcmlog", false));
 }
 
+TEST(LcmLogWriter, AChannelThatNoReaderTakesIsAnError) {
+  const test::TempFolder folder;
+  auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+  EXPECT_FALSE(log->send("", kMessage, 1));
+  EXPECT_FALSE(log->send(std::string(64, 'A'), kMessage, 2));
+  EXPECT_TRUE(log->send(std::string(63, 'A'), kMessage, 3));
+  const auto read = LcmLogReader::open(folder / "a.lcmlog");
+  EXPECT_EQ(read->entries().size(), 1u);
+  EXPECT_EQ(read->damaged_bytes(), 0);
+}
+
 TEST(LcmLogWriter, AFullDeviceIsAnError) {
   auto log = LcmLogWriter::create("/dev/full", true).value();
   const auto sent = log->send("A", kMessage, 1);
