@@ -83,6 +83,12 @@ TEST_F(CopyCommands, AChannelThatNoReaderTakesIsRefused) {
   }
 }
 
+TEST_F(CopyCommands, HalfOfTheIntrinsicsAreRefused) {
+  const Outcome outcome = barehand({"convert", recording(), folder_ / "a.lcmlog", "--fx", "525", "--fy", "525"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("give all four"));
+}
+
 TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
   std::filesystem::create_symlink("/dev/full", folder_ / "full.lcmlog");
   const Outcome full = barehand({"convert", recording(), folder_ / "full.lcmlog", "--overwrite"});
