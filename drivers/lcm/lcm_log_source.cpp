@@ -15,7 +15,7 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-/// The log itself, or those of a folder; one that was killed before its first event is left out.
+/// The log itself, or those of a folder; one without a byte, killed before its first event, is left out.
 Result<std::vector<std::string>> log_files(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return std::vector<std::string>{path};
@@ -51,8 +51,10 @@ Result<void> LcmLogSource::open_files() {
     auto reader = LcmLogReader::open(file);
     if (!reader) return tl::unexpected(reader.error());
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry});
+    reader->close();
     files_.push_back(std::move(*reader));
   }
+  if (frames_.empty()) return fail("is not an LCM log: it holds no whole event", path_);
   return {};
 }
 
@@ -114,6 +116,8 @@ SourceEvent LcmLogSource::read(std::int64_t position) {
   if (stale_[static_cast<std::size_t>(position)]) {
     return SkippedFrame{{"its time is not later than that of the frames before", where, ""}};
   }
+  if (file != open_) files_[open_].close();
+  open_ = file;
   const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
   auto frame = decode_frame_message(*message, options_.foreign, position);

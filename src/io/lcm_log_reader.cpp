@@ -91,18 +91,24 @@ class Scanner {
 Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return fail("is a folder, not an LCM log", path);
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail(std::string("cannot open the log: ") + std::strerror(errno), path);
+  LcmLogReader reader(path);
+  if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
   const auto size = std::filesystem::file_size(path, error);
   if (error) return fail("cannot tell the size of the log: " + error.message(), path);
   if (size == 0) return fail("the log is empty", path);
-  LcmLogReader reader(path, std::move(file));
   reader.damaged_bytes_ = Scanner(reader.file_.get(), static_cast<std::int64_t>(size)).scan(reader.entries_);
-  if (reader.entries_.empty()) return fail("is not an LCM log: it holds no whole event", path);
   return reader;
 }
 
+Result<void> LcmLogReader::open_file() {
+  file_.reset(std::fopen(path_.c_str(), "rb"));
+  if (!file_) return fail(std::string("cannot open the log: ") + std::strerror(errno), path_);
+  return {};
+}
+
 Result<std::vector<std::uint8_t>> LcmLogReader::read(const LogEntry& entry) {
+  if (!file_)
+    if (const auto opened = open_file(); !opened) return tl::unexpected(opened.error());
   std::vector<std::uint8_t> message(static_cast<std::size_t>(entry.size));
   const std::int64_t at = entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size());
   const bool whole = fseeko(file_.get(), at, SEEK_SET) == 0 &&

@@ -10,6 +10,7 @@
 #include "drivers/lcm/layouts.h"
 #include "foreign_messages.h"
 #include "io/lcm_log_writer.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 #include "test_frames.h"
 
@@ -188,6 +189,26 @@ TEST_F(LcmLog, AFolderPlaysItsLogsInTheOrderOfTheirNames) {
   path_ = folder_.path();
   EXPECT_EQ(play(), "1 2 3 4 end");
   EXPECT_EQ(play({.start = 2, .step = -1}), "3 2 1 end");
+}
+
+TEST_F(LcmLog, AFolderPlaysOnWhereALogHoldsNoWholeEvent) {
+  append_frames(2);
+  test::write_text(folder_ / "torn.lcmlog", "\xED\xA1\xDA\x01 power cut");
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "100 101 end");
+  EXPECT_EQ(LcmLogSource::open(path_).value()->damaged_bytes(), 14);
+}
+
+TEST_F(LcmLog, AFolderMayHoldMoreLogsThanMayBeOpen) {
+  const test::ResourceLimit limit(RLIMIT_NOFILE, 64);
+  std::string all;
+  for (int number = 100; number < 200; ++number) {
+    const auto log = LcmLogWriter::create(folder_ / (std::to_string(number) + ".lcmlog"), false).value();
+    ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number), 42));
+    all += std::to_string(number) + " ";
+  }
+  path_ = folder_.path();
+  EXPECT_EQ(play(), all + "end");
 }
 
 TEST_F(LcmLog, ForeignFramesReplayWithGivenIntrinsics) {
