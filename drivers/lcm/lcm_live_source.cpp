@@ -4,13 +4,6 @@
 #include "drivers/lcm/frame_message.h"
 
 namespace barehand {
-namespace {
-
-/// A frame at most this much older than the last one was overtaken on the way; an older one means that the sender
-/// started again with another clock [us].
-constexpr std::int64_t kOvertaken = 1'000'000;
-
-}  // namespace
 
 Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& url, const LcmLiveOptions& options) {
   auto bus = LcmBus::open(url);
@@ -72,7 +65,7 @@ SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
   ++foreign_number_;
   const std::int64_t utime = (*frame)->utime;
   const auto [last, first] = last_utime_.try_emplace(letter.channel, utime);
-  if (!first && utime <= last->second && last->second - utime < kOvertaken) {
+  if (!first && is_stale(utime, last->second)) {
     return SkippedFrame{{"its time is not later than that of the frame before", name() + " " + letter.channel, ""}};
   }
   last->second = utime;

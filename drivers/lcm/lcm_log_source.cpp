@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -81,13 +80,14 @@ Result<void> LcmLogSource::choose() {
   return {};
 }
 
-/// Frames whose time is not later than that of every frame before them on their channel.
 void LcmLogSource::find_stale() {
-  std::map<std::string, std::int64_t> latest;
+  std::map<std::string, std::int64_t> last;
   for (const auto& [file, frame] : frames_) {
-    const auto [at, first] = latest.try_emplace(frame.channel, std::numeric_limits<std::int64_t>::min());
-    stale_.push_back(!first && carries_frames(frame.hash) && frame.utime <= at->second);
-    if (carries_frames(frame.hash)) at->second = std::max(at->second, frame.utime);
+    stale_.push_back(false);
+    if (!carries_frames(frame.hash)) continue;
+    const auto [at, first] = last.try_emplace(frame.channel, frame.utime);
+    stale_.back() = !first && is_stale(frame.utime, at->second);
+    if (!stale_.back()) at->second = frame.utime;
   }
 }
 
@@ -114,7 +114,7 @@ SourceEvent LcmLogSource::read(std::int64_t position) {
   const auto& [file, entry] = frames_[static_cast<std::size_t>(position)];
   const std::string where = path_ + " frame " + std::to_string(position) + " (" + entry.channel + ")";
   if (stale_[static_cast<std::size_t>(position)]) {
-    return SkippedFrame{{"its time is not later than that of the frames before", where, ""}};
+    return SkippedFrame{{"its time is not later than that of the frame before", where, ""}};
   }
   if (file != open_) files_[open_].close();
   open_ = file;

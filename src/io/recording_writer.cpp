@@ -65,6 +65,9 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
     if (const auto started = start(frame); !started) return tl::unexpected(started.error());
   if (!(frame.camera == camera_) || frame.depth_unit != depth_unit_)
     return fail("the camera changed at frame " + std::to_string(count_), directory_, "a recording has one camera");
+  if (frame.utime < last_utime_)
+    return fail("the time goes back at frame " + std::to_string(count_), directory_,
+                "a folder cannot hold that, an LCM log can");
 
   const std::string depth_file = image_name("depth", count_, "png");
   if (const auto written = write_depth_png(directory_ + "/" + depth_file, frame.depth); !written)
@@ -80,6 +83,7 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
   }
   const auto appended = append(depth_list_, "depth.txt", frame.utime, depth_file);
   if (!appended) return tl::unexpected(appended.error());
+  last_utime_ = frame.utime;
   return count_++;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -22,7 +23,8 @@ class RecordingWriter {
   static Result<RecordingWriter> create(const std::string& directory) { return create(directory, Options{}); }
 
   /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame
-  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error.
+  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error, and so is a time before
+  /// that of the last frame: nobody would read such a folder.
   Result<std::int64_t> write(const RgbdFrame& frame);
 
  private:
@@ -34,6 +36,7 @@ class RecordingWriter {
   Intrinsics camera_;
   double depth_unit_ = 0;
   std::int64_t count_ = 0;
+  std::int64_t last_utime_ = std::numeric_limits<std::int64_t>::min();
   std::ofstream depth_list_, colour_list_;
 };
 

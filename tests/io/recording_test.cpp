@@ -103,6 +103,14 @@ TEST_F(RecordingFolder, CameraMayNotChange) {
   EXPECT_THAT(writer->write(other).error().message(), HasSubstr("camera changed at frame 1"));
 }
 
+TEST_F(RecordingFolder, TimeMayNotGoBack) {
+  auto writer = RecordingWriter::create(path_);
+  ASSERT_TRUE(writer->write(frame_at(2'000'000, 1)));
+  EXPECT_THAT(writer->write(frame_at(1'000'000, 1)).error().message(), HasSubstr("time goes back at frame 1"));
+  ASSERT_TRUE(writer->write(frame_at(3'000'000, 1)));
+  EXPECT_EQ(open_recording(path_)->entries.size(), 2u);
+}
+
 TEST_F(RecordingFolder, FullDiskIsReported) {
   auto writer = RecordingWriter::create(path_);
   fs::create_symlink("/dev/full", path_ + "/depth/000000.png");

@@ -98,6 +98,13 @@ TEST_F(LcmLive, ARepeatedFrameIsSkipped) {
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
 }
 
+TEST_F(LcmLive, AClockThatWasSetBackIsANewStart) {
+  for (const int number : {100, 1, 2}) {
+    send("RGBD_FRAME", frame_bytes(number));
+    EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong))) << number;
+  }
+}
+
 TEST_F(LcmLive, OtherChannelsAreNotHeard) {
   send("HAND_STATE", encode_message(command_t{}));
   send("RGBD_FRAME", frame_bytes(1));

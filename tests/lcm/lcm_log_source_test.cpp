@@ -134,6 +134,11 @@ TEST_F(LcmLog, RepeatedAndOutdatedFramesAreSkipped) {
   EXPECT_EQ(play({.step = -1}), "102 skip skip 101 100 end");
 }
 
+TEST_F(LcmLog, AClockThatWasSetBackIsANewStart) {
+  for (const int number : {100, 101, 1, 2, 1, 3}) append("RGBD_FRAME", frame_bytes(number));
+  EXPECT_EQ(play(), "100 101 1 2 skip 3 end");
+}
+
 TEST_F(LcmLog, EveryTruncationReplaysTheWholeEvents) {
   append_frames(2);
   const Bytes whole = file();
