@@ -26,14 +26,19 @@ class Scanner {
   std::int64_t scan(std::vector<LogEntry>& entries) {
     std::int64_t damaged = 0;
     for (std::int64_t at = 0; at < size_;) {
-      if (auto entry = event_at(at)) {
-        at += kHeader + static_cast<std::int64_t>(entry->channel.size()) + entry->size;
-        entries.push_back(std::move(*entry));
-      } else {
-        const std::int64_t next = next_sync(at + 1);
-        damaged += next - at;
-        at = next;
+      auto entry = event_at(at);
+      std::int64_t next = entry ? end_of(*entry) : next_sync(at + 1);
+      if (entry && !may_follow(next)) {  // it may have been torn, and what was written later lies within its length
+        if (const auto within = whole_event(at + 1, next)) {
+          entry.reset();
+          next = *within;
+        }
       }
+      if (entry)
+        entries.push_back(std::move(*entry));
+      else
+        damaged += next - at;
+      at = next;
     }
     return damaged;
   }
@@ -46,6 +51,22 @@ class Scanner {
     std::uint64_t value = 0;
     for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
     return static_cast<std::int64_t>(value);
+  }
+
+  static std::int64_t end_of(const LogEntry& entry) {
+    return entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
+  }
+  /// The file ends at `at` or goes on with a sync word, which may be cut off.
+  bool may_follow(std::int64_t at) {
+    std::array<std::uint8_t, kSync.size()> word{};
+    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(word.size(), size_ - at));
+    return read(at, word.data(), count) && std::equal(word.begin(), word.begin() + count, kSync.begin());
+  }
+  /// Position of the first event in [from, to) that something whole may follow.
+  std::optional<std::int64_t> whole_event(std::int64_t from, std::int64_t to) {
+    for (std::int64_t at = next_sync(from); at < to; at = next_sync(at + 1))
+      if (const auto entry = event_at(at); entry && may_follow(end_of(*entry))) return at;
+    return std::nullopt;
   }
 
   std::optional<LogEntry> event_at(std::int64_t at) {

@@ -158,6 +158,24 @@ TEST_F(LcmLog, DamageInTheMiddleCostsOnlyTheEventItHits) {
   EXPECT_EQ(play(), "100 102 end");
 }
 
+TEST_F(LcmLog, ATornEventDoesNotTakeThoseBehindItAlong) {
+  append_frames(3);
+  append("OTHER", {1, 2, 3});
+  const Bytes whole = file();
+  const auto third = static_cast<std::ptrdiff_t>(LcmLogReader::open(path_)->entries()[2].position);
+  for (const int missing : {1, 10, 60}) {
+    Bytes bytes = whole;
+    bytes.erase(bytes.begin() + third - missing, bytes.begin() + third);
+    replace_file(bytes);
+    EXPECT_EQ(play(), "100 102 end") << missing;
+    EXPECT_EQ(LcmLogReader::open(path_)->entries().size(), 3u);
+  }
+  Bytes bytes = whole;
+  bytes[static_cast<std::size_t>(third)] ^= 0xFF;  // the second frame is followed by damage, but whole
+  replace_file(bytes);
+  EXPECT_EQ(play(), "100 101 end");
+}
+
 TEST_F(LcmLog, LyingLengthsAreNoEvents) {
   append_frames(3);
   const Bytes whole = file();
