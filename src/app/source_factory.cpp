@@ -50,7 +50,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
 
 Result<OpenSource> open_live(const SourceRequest& request) {
   LcmLiveOptions options;
-  if (!request.channel.empty()) options.channel = request.channel;
+  options.channel = request.channel;
   options.foreign = request.foreign;
   options.capacity = request.live_capacity;
   auto source = LcmLiveSource::open(request.lcm_url, options);
