@@ -49,11 +49,11 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
 }
 
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
-  disk_full_ = reason == ENOSPC || reason == EDQUOT;
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
   const bool cut = ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
   failed_ = !cut;
+  disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);
   return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
               cut ? "the " + std::to_string(events_) + " events before are kept; make room"
                   : "the log ends in a broken event; readers skip it");

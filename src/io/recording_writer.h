@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <string>
 
@@ -11,7 +10,7 @@
 namespace barehand {
 
 /// Writes a recording folder (docs/formats.md) that open_recording reads. What is written stays complete at every
-/// moment: images first, then the line that names them.
+/// moment: images first, then the line that names them. After a full disk it goes on with the next frame that fits.
 class RecordingWriter {
  public:
   struct Options {
@@ -29,15 +28,15 @@ class RecordingWriter {
 
  private:
   Result<void> start(const RgbdFrame& first);
-  Result<void> append(std::ofstream& list, const std::string& list_name, std::int64_t utime, const std::string& file);
+  Result<void> append(const std::string& list, const std::string& line) const;
 
   std::string directory_;
   Options options_;
   Intrinsics camera_;
   double depth_unit_ = 0;
+  bool started_ = false;
   std::int64_t count_ = 0;
   std::int64_t last_utime_ = std::numeric_limits<std::int64_t>::min();
-  std::ofstream depth_list_, colour_list_;
 };
 
 }  // namespace barehand
