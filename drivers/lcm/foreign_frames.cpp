@@ -17,6 +17,7 @@ Result<FramePtr> make_frame(std::int64_t utime, std::int64_t number, const Forei
     return fail("this message type carries no intrinsics", "",
                 "set fx, fy, cx and cy of the depth camera in the configuration");
   }
+  if (auto possible = check_given(camera); !possible) return tl::unexpected(possible.error());
   if (!depth) return tl::unexpected(depth.error());
   if (!colour) return tl::unexpected(colour.error());
   auto frame = std::make_shared<RgbdFrame>();
@@ -74,6 +75,12 @@ Result<Image<Rgb>> bot_colour(const bot_core::image_t& image, ImageSize size) {
 }
 
 }  // namespace
+
+Result<void> check_given(const ForeignCamera& camera) {
+  const bool whole = camera.fx != 0 && camera.fy != 0 && camera.cx != 0 && camera.cy != 0;
+  if (!camera.given() || (whole && plausible({1, 1, camera.fx, camera.fy, camera.cx, camera.cy}))) return {};
+  return fail("no camera has these intrinsics", "fx, fy, cx, cy", "give all four, focal lengths from 1 to 1e5 px");
+}
 
 Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const ForeignCamera& camera, std::int64_t number) {
   using kinect::depth_msg_t;

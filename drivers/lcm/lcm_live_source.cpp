@@ -4,13 +4,6 @@
 #include "drivers/lcm/frame_message.h"
 
 namespace barehand {
-namespace {
-
-/// A frame at most this much older than the last one was overtaken on the way; an older one means that the sender
-/// started again with another clock [us].
-constexpr std::int64_t kOvertaken = 1'000'000;
-
-}  // namespace
 
 Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& url, const LcmLiveOptions& options) {
   auto bus = LcmBus::open(url);
@@ -21,11 +14,16 @@ Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& ur
 LcmLiveSource::LcmLiveSource(std::shared_ptr<LcmBus> bus, const LcmLiveOptions& options)
     : bus_(bus),
       options_(options),
-      listener_(std::move(bus), options.channel,
+      listener_(std::move(bus), pattern(),
                 [this](const std::string& channel, WireBytes message) { receive(channel, message); }) {}
 
 void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
   const std::lock_guard lock(mutex_);
+  if (!chosen_.empty() && channel != chosen_) {
+    if (carries_frames(message_hash(message))) other_ = channel;
+    arrived_.notify_one();
+    return;
+  }
   ++counts_.received;
   if (letters_.size() >= options_.capacity) {
     letters_.pop_front();
@@ -52,9 +50,15 @@ SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
   Letter letter;
   {
     std::unique_lock lock(mutex_);
-    if (!arrived_.wait_for(lock, patience, [this] { return !letters_.empty(); })) {
+    const auto to_tell = [this] { return !other_.empty() && !told_of_other_; };
+    if (!arrived_.wait_for(lock, patience, [&] { return !letters_.empty() || to_tell(); })) {
       if (listener_.broken()) return SourceFailed{{"the LCM connection broke", bus_->url(), "check the network"}};
       return Timeout{};
+    }
+    if (to_tell()) {
+      told_of_other_ = true;
+      return SourceNotice{{"frames come on other channels, too, " + other_ + " among them; they are left out",
+                           name_of(chosen_), "choose the channel if it is the wrong one"}};
     }
     letter = std::move(letters_.front());
     letters_.pop_front();
@@ -66,17 +70,30 @@ SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
   auto frame = decode_frame_message(letter.message, options_.foreign, foreign_number_);
   if (!frame) {
     Error error = frame.error();
-    error.where = name() + " " + letter.channel;
+    error.where = name_of(letter.channel);
     return SkippedFrame{std::move(error)};
   }
+  choose(letter.channel);
   ++foreign_number_;
   const std::int64_t utime = (*frame)->utime;
   const auto [last, first] = last_utime_.try_emplace(letter.channel, utime);
-  if (!first && utime <= last->second && last->second - utime < kOvertaken) {
-    return SkippedFrame{{"its time is not later than that of the frame before", name() + " " + letter.channel, ""}};
+  if (!first && is_stale(utime, last->second)) {
+    return SkippedFrame{{"its time is not later than that of the frame before", name_of(letter.channel), ""}};
   }
   last->second = utime;
   return *frame;
+}
+
+/// Frames of two sensors make no sequence. What else waits is no longer counted as received.
+void LcmLiveSource::choose(const std::string& channel) {
+  const std::lock_guard lock(mutex_);
+  if (!options_.channel.empty() || !chosen_.empty()) return;
+  chosen_ = channel;
+  counts_.received -= static_cast<std::int64_t>(std::erase_if(letters_, [&](const Letter& letter) {
+    if (letter.channel == chosen_) return false;
+    if (carries_frames(message_hash(letter.message))) other_ = letter.channel;
+    return true;
+  }));
 }
 
 std::vector<QueueHealth> LcmLiveSource::queues() const {

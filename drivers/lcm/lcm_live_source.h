@@ -16,7 +16,7 @@
 namespace barehand {
 
 struct LcmLiveOptions {
-  std::string channel = "*RGBD_FRAME";  ///< glob
+  std::string channel = {};  ///< glob; "": of *RGBD_FRAME the first channel that brings a frame, and no other
   ForeignCamera foreign = {};
   std::size_t capacity =
       1;  ///< messages that may wait; 1: the newest wins (tracking), more: none is missed (recording)
@@ -30,7 +30,8 @@ struct LcmLiveCounts {
 };
 
 /// Frames from a live LCM bus. A thread receives and keeps the newest messages; `next` decodes the oldest of them. A
-/// message of a wrong type, a damaged one and one that repeats or precedes the last frame come as SkippedFrame.
+/// message of a wrong type, a damaged one and one that repeats or precedes the last frame come as SkippedFrame. Frames
+/// of channels that were not chosen are told of once.
 class LcmLiveSource : public FrameSource {
  public:
   static Result<std::unique_ptr<LcmLiveSource>> open(const std::string& url, const LcmLiveOptions& options = {});
@@ -38,7 +39,7 @@ class LcmLiveSource : public FrameSource {
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return true; }
-  std::string name() const override { return "lcm:" + bus_->url(); }
+  std::string name() const override { return name_of(pattern()); }
 
   /// "transit", the way from the sender, and "inbox", the messages that wait here.
   std::vector<QueueHealth> queues() const override;
@@ -52,6 +53,9 @@ class LcmLiveSource : public FrameSource {
   void receive(const std::string& channel, WireBytes message);
   void count_lost(const std::string& channel, std::int64_t seq);
   SourceEvent open_letter(const Letter& letter);
+  void choose(const std::string& channel);
+  std::string pattern() const { return options_.channel.empty() ? "*RGBD_FRAME" : options_.channel; }
+  std::string name_of(const std::string& channel) const { return "lcm:" + bus_->url() + " " + channel; }
 
   std::shared_ptr<LcmBus> bus_;
   LcmLiveOptions options_;
@@ -63,6 +67,9 @@ class LcmLiveSource : public FrameSource {
   std::deque<Letter> letters_;
   LcmLiveCounts counts_;
   std::map<std::string, std::int64_t> last_seq_;
+  std::string chosen_;  ///< the one channel that is heard; "": all of the pattern
+  std::string other_;   ///< another one with frames
+  bool told_of_other_ = false;
 
   LcmListener listener_;  ///< last: its thread uses everything above
 };

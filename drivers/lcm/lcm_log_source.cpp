@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -15,7 +14,7 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-/// The log itself, or those of a folder; one that was killed before its first event is left out.
+/// The log itself, or those of a folder; one without a byte, killed before its first event, is left out.
 Result<std::vector<std::string>> log_files(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return std::vector<std::string>{path};
@@ -51,8 +50,10 @@ Result<void> LcmLogSource::open_files() {
     auto reader = LcmLogReader::open(file);
     if (!reader) return tl::unexpected(reader.error());
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry});
+    reader->close();
     files_.push_back(std::move(*reader));
   }
+  if (frames_.empty()) return fail("is not an LCM log: it holds no whole event", path_);
   return {};
 }
 
@@ -79,13 +80,14 @@ Result<void> LcmLogSource::choose() {
   return {};
 }
 
-/// Frames whose time is not later than that of every frame before them on their channel.
 void LcmLogSource::find_stale() {
-  std::map<std::string, std::int64_t> latest;
+  std::map<std::string, std::int64_t> last;
   for (const auto& [file, frame] : frames_) {
-    const auto [at, first] = latest.try_emplace(frame.channel, std::numeric_limits<std::int64_t>::min());
-    stale_.push_back(!first && carries_frames(frame.hash) && frame.utime <= at->second);
-    if (carries_frames(frame.hash)) at->second = std::max(at->second, frame.utime);
+    stale_.push_back(false);
+    if (!carries_frames(frame.hash)) continue;
+    const auto [at, first] = last.try_emplace(frame.channel, frame.utime);
+    stale_.back() = !first && is_stale(frame.utime, at->second);
+    if (!stale_.back()) at->second = frame.utime;
   }
 }
 
@@ -112,8 +114,10 @@ SourceEvent LcmLogSource::read(std::int64_t position) {
   const auto& [file, entry] = frames_[static_cast<std::size_t>(position)];
   const std::string where = path_ + " frame " + std::to_string(position) + " (" + entry.channel + ")";
   if (stale_[static_cast<std::size_t>(position)]) {
-    return SkippedFrame{{"its time is not later than that of the frames before", where, ""}};
+    return SkippedFrame{{"its time is not later than that of the frame before", where, ""}};
   }
+  if (file != open_) files_[open_].close();
+  open_ = file;
   const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
   auto frame = decode_frame_message(*message, options_.foreign, position);

@@ -22,8 +22,9 @@ struct LcmLogOptions {
 
 /// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of all .lcmlog files of a
 /// folder in the order of their names, as `barehand record` makes a set of them, never dropping one. A cut
-/// or damaged log replays every whole event. Messages of another type, damaged messages and frames that are not later
-/// than all frames before them come as SkippedFrame. Own frames keep their numbers, foreign ones get their position.
+/// or damaged log replays every whole event; one of a folder may have none. Messages of another type, damaged messages
+/// and frames that are stale (is_stale) come as SkippedFrame. Own frames keep their numbers,
+/// foreign ones get their position.
 class LcmLogSource : public FrameSource {
  public:
   /// Errors: no LCM log, a folder without any, no matching channel (names those there are), several channels with
@@ -36,7 +37,7 @@ class LcmLogSource : public FrameSource {
 
   /// Number of events `next` will deliver before the end: for progress.
   std::int64_t remaining() const;
-  /// Bytes of the file that belong to no whole event; 0 for a healthy log.
+  /// Bytes of the files that belong to no whole event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
 
  private:
@@ -55,8 +56,9 @@ class LcmLogSource : public FrameSource {
   LcmLogOptions options_;
   std::vector<LcmLogReader> files_;
   std::vector<Event> frames_;  ///< of the chosen channels, in file order
-  std::vector<bool> stale_;    ///< not later than all before
+  std::vector<bool> stale_;    ///< is_stale, played forwards
   std::int64_t next_ = 0;
+  std::size_t open_ = 0;  ///< the only one of the files that may be open
 };
 
 }  // namespace barehand

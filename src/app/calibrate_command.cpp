@@ -115,9 +115,10 @@ int run(const CalibrateOptions& o) {
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)
     return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
-  const auto folder = std::filesystem::absolute(o.out).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    return tell({"no such folder", folder.string(), "make it first"}, kExitUsage);
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(o.out, error).parent_path();
+  if (!std::filesystem::is_directory(folder, error))
+    return tell({"is no folder" + (error ? ": " + error.message() : ""), folder.string(), "make it first"}, kExitUsage);
 
   ScanSink::Scan scan;
   std::vector<std::unique_ptr<Sink>> sinks;

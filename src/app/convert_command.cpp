@@ -14,7 +14,8 @@ namespace {
 int convert(const std::string& in, CopyRequest request) {
   const std::filesystem::path path(in);
   const bool oni = path.extension() == ".oni";
-  request.source.spec = (std::filesystem::is_directory(path) ? "folder:" : oni ? "openni2:" : "log:") + in;
+  std::error_code ignored;  // what cannot be looked at shows when it is opened
+  request.source.spec = (std::filesystem::is_directory(path, ignored) ? "folder:" : oni ? "openni2:" : "log:") + in;
   return run_copy(request, "barehand convert");
 }
 

@@ -1,6 +1,8 @@
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
 #include <opencv2/core/utility.hpp>
 
 #include "app/bench_command.h"
@@ -40,6 +42,9 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitOk : kExitUsage;
+  } catch (const std::exception& error) {  // out of memory, or an outside condition that nobody foresaw
+    std::cerr << "barehand: failed: " << error.what() << std::endl;
+    return kExitFailure;
   }
   return exit_code;
 }

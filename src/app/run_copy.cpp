@@ -82,6 +82,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     return kExitUsage;
   };
   SourceRequest input = request.source;
+  if (const auto possible = check_given(input.foreign); !possible) return refuse(possible.error());
   input.openni2.fx = input.foreign.fx;
   input.openni2.fy = input.foreign.fy;
   input.openni2.cx = input.foreign.cx;

@@ -26,7 +26,8 @@ void visit(V& v, RunParams& p) {
   v("channel_prefix", p.channel_prefix,
     "before the names of all LCM channels that are published; one for each sensor of a network");
   v("frame_channel", p.frame_channel,
-    "LCM channels with frames (a pattern with * and ?); empty: any that carries some");
+    "LCM channels with frames (a pattern with * and ?); empty: live the first of *RGBD_FRAME that brings one, in a log "
+    "the only one that has some");
   v("lcm_ttl", p.lcm_ttl, 0, 255,
     "how far messages go: 0 this machine, 1 the local network, more through routers; a ttl in the LCM URL goes before");
   v("commands", p.commands, "follow whoever on the network sends commands (channel COMMAND)");

@@ -1,7 +1,5 @@
 #include "app/source_factory.h"
 
-#include <filesystem>
-
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
@@ -9,6 +7,7 @@
 #include "drivers/openni2/openni_live_source.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "drivers/usb/libusb_bus.h"
+#include "io/file_bytes.h"
 #include "io/hand_json.h"
 #include "io/path_of_hand.h"
 
@@ -26,7 +25,7 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
   open.frames = (*source)->remaining();
   for (const int k : {0, 1}) {
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
-    if (std::filesystem::exists(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
+    if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
   if (const double fps = (*source)->recording().fps; fps > 0) open.fps = fps;
   open.source = std::move(*source);
@@ -51,7 +50,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
 
 Result<OpenSource> open_live(const SourceRequest& request) {
   LcmLiveOptions options;
-  if (!request.channel.empty()) options.channel = request.channel;
+  options.channel = request.channel;
   options.foreign = request.foreign;
   options.capacity = request.live_capacity;
   auto source = LcmLiveSource::open(request.lcm_url, options);

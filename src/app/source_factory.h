@@ -22,7 +22,7 @@ struct SourceRequest {
   std::optional<std::int64_t> start;  ///< first frame of a recording
   std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
   std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
-  std::string channel;                ///< glob of LCM channels with frames; "": the driver's default
+  std::string channel;                ///< glob of LCM channels with frames; "": the driver chooses one
   ForeignCamera foreign;              ///< intrinsics of frames that come without
   OpenNiParams openni2;               ///< what is wanted of a sensor
   std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins

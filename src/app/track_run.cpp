@@ -94,6 +94,7 @@ Step TrackRun::prepare() {
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
+  if (const auto possible = check_given(config_.foreign_camera); !possible) return usage(possible.error());
   return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();
   });

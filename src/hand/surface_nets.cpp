@@ -15,7 +15,7 @@ class Grid {
  public:
   Grid(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell)
       : lower_(lower), cell_(cell), nodes_(((upper - lower) / cell).array().ceil().cast<int>() + 1) {
-    value_.resize(static_cast<std::size_t>(nodes_.prod()));
+    value_.resize(nodes_.cast<std::size_t>().prod());
     for (int z = 0; z < nodes_.z(); ++z)
       for (int y = 0; y < nodes_.y(); ++y)
         for (int x = 0; x < nodes_.x(); ++x) value_[index({x, y, z})] = distance(position({x, y, z}));
@@ -26,6 +26,7 @@ class Grid {
   Vector3d position(const Vector3i& n) const { return lower_ + cell_ * n.cast<double>(); }
   double value(const Vector3i& n) const { return value_[index(n)]; }
   const Vector3i& nodes() const { return nodes_; }
+  std::size_t size() const { return value_.size(); }
 
   // Mean of the edge crossings of the cell at `n`; false if the surface does not pass through it.
   bool cell_vertex(const Vector3i& n, Vector3d& vertex) const {
@@ -77,7 +78,7 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
   const Grid grid(distance, lower, upper, cell);
   const Vector3i cells = grid.nodes().array() - 1;
   TriangleMesh mesh;
-  std::vector<int> vertex_of(static_cast<std::size_t>(grid.nodes().prod()), -1);
+  std::vector<int> vertex_of(grid.size(), -1);
   const auto for_each_cell = [&](auto&& visit) {
     for (int z = 0; z < cells.z(); ++z)
       for (int y = 0; y < cells.y(); ++y)

@@ -77,20 +77,23 @@ bool half_in_view(const TableFrame& truth) {
   return visible >= 0.5;
 }
 
-/// `truths` and `frames` in step, every `step`-th frame of the recording where there is a hand.
+/// `truths` and `frames` in step, every `step`-th frame of the recording where there is a hand; played from the last
+/// one if `step` is negative.
 std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, const std::vector<FrameErrors>& frames,
                                  std::int64_t step) {
   std::vector<Return> returns;
   bool away = false, waiting = false;
+  const auto played = [&](std::size_t i) { return step > 0 ? i : frames.size() - 1 - i; };
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    if (frames[i].number - frames[i - 1].number != step) away = true, waiting = false;
-    if (away && half_in_view(*truths[i])) {
-      returns.push_back({frames[i].number, std::nullopt});
+    const FrameErrors& frame = frames[played(i)];
+    if (frame.number - frames[played(i - 1)].number != step) away = true, waiting = false;
+    if (away && half_in_view(*truths[played(i)])) {
+      returns.push_back({frame.number, std::nullopt});
       away = false;
       waiting = true;
     }
-    if (!waiting || frames[i].lost()) continue;
-    returns.back().frames = static_cast<int>((frames[i].number - returns.back().number) / step);
+    if (!waiting || frame.lost()) continue;
+    returns.back().frames = static_cast<int>((frame.number - returns.back().number) / step);
     waiting = false;
   }
   return returns;

@@ -18,4 +18,9 @@ Result<std::string> read_file(const std::string& path) {
   }
 }
 
+bool is_missing(const std::string& path) {
+  std::error_code error;
+  return !std::filesystem::exists(path, error) && !error;
+}
+
 }  // namespace barehand

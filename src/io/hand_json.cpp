@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/format.h"
 #include "io/json_fields.h"
 #include "io/skin_json.h"
 #include "math/angles.h"
@@ -45,6 +46,20 @@ Result<void> check_parents(const ParentNames& parents, const std::string& path) 
     if (found != wanted)
       return fail("\"parent\" is " + (found.empty() ? "null" : "\"" + found + "\""), path + ": segment " + name,
                   "it must be " + (wanted.empty() ? "null" : "\"" + wanted + "\""));
+  }
+  return {};
+}
+
+/// Else the skin, which is made on a grid around all joints, takes more memory than there is.
+Result<void> check_joints(const HandProfile& profile, const std::string& path) {
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (s == kPalm) continue;
+    const double distance =
+        (profile.segments[s].T_hand_segment.t - profile.segments[parent_of(s)].T_hand_segment.t).norm();
+    if (distance > kLongest)
+      return fail(formatted("\"rest_transform\" puts the joint %.4g m from its parent's", distance),
+                  path + ": segment " + std::string(kSegmentNames[s]),
+                  formatted("at most %g m; perhaps these are centimetres or millimetres", kLongest));
   }
   return {};
 }
@@ -206,7 +221,7 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   for (std::string_view name : kSegmentNames)
     if (!parents.contains(std::string(name)))
       return fail("segment " + std::string(name) + " is missing", path, "a hand has 16 segments, see docs/formats.md");
-  const auto tree = check_parents(parents, path);
+  const auto tree = check_parents(parents, path).and_then([&] { return check_joints(profile, path); });
   if (!tree) return tl::unexpected(tree.error());
   if (json.contains("skin")) {
     if (profile.origin == ProfileOrigin::mean)

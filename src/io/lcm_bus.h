@@ -48,8 +48,6 @@ class LcmBus : public MessageSink {
   mutable std::mutex sending_;
 };
 
-/// Longest channel name that LCM takes [bytes].
-inline constexpr std::size_t kLongestChannel = 63;
 /// Larger messages are unreliable over UDP (about 4 MiB); sending one is an error.
 inline constexpr std::size_t kLargestMessage = 4u << 20;
 

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/message_sink.h"
+
 namespace barehand {
 namespace {
 
@@ -15,7 +17,6 @@ namespace {
 // both (LCM's log file format).
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::int64_t kHeader = 28;
-constexpr std::int32_t kLongestChannel = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
 class Scanner {
  public:
@@ -25,14 +26,19 @@ class Scanner {
   std::int64_t scan(std::vector<LogEntry>& entries) {
     std::int64_t damaged = 0;
     for (std::int64_t at = 0; at < size_;) {
-      if (auto entry = event_at(at)) {
-        at += kHeader + static_cast<std::int64_t>(entry->channel.size()) + entry->size;
-        entries.push_back(std::move(*entry));
-      } else {
-        const std::int64_t next = next_sync(at + 1);
-        damaged += next - at;
-        at = next;
+      auto entry = event_at(at);
+      std::int64_t next = entry ? end_of(*entry) : next_sync(at + 1);
+      if (entry && !may_follow(next)) {  // it may have been torn, and what was written later lies within its length
+        if (const auto within = whole_event(at + 1, next)) {
+          entry.reset();
+          next = *within;
+        }
       }
+      if (entry)
+        entries.push_back(std::move(*entry));
+      else
+        damaged += next - at;
+      at = next;
     }
     return damaged;
   }
@@ -47,18 +53,34 @@ class Scanner {
     return static_cast<std::int64_t>(value);
   }
 
+  static std::int64_t end_of(const LogEntry& entry) {
+    return entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
+  }
+  /// The file ends at `at` or goes on with a sync word, which may be cut off.
+  bool may_follow(std::int64_t at) {
+    std::array<std::uint8_t, kSync.size()> word{};
+    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(word.size(), size_ - at));
+    return read(at, word.data(), count) && std::equal(word.begin(), word.begin() + count, kSync.begin());
+  }
+  /// Position of the first event in [from, to) that something whole may follow.
+  std::optional<std::int64_t> whole_event(std::int64_t from, std::int64_t to) {
+    for (std::int64_t at = next_sync(from); at < to; at = next_sync(at + 1))
+      if (const auto entry = event_at(at); entry && may_follow(end_of(*entry))) return at;
+    return std::nullopt;
+  }
+
   std::optional<LogEntry> event_at(std::int64_t at) {
     std::array<std::uint8_t, kHeader> header{};
     if (size_ - at < kHeader || !read(at, header.data(), header.size())) return std::nullopt;
     if (!std::equal(kSync.begin(), kSync.end(), header.begin())) return std::nullopt;
-    const auto channel_size = static_cast<std::int32_t>(big_endian(&header[20], 4));
+    const auto channel_size = static_cast<std::size_t>(big_endian(&header[20], 4));
     LogEntry entry;
     entry.position = at;
     entry.timestamp = big_endian(&header[12], 8);
     entry.size = static_cast<std::int32_t>(big_endian(&header[24], 4));
     if (channel_size < 1 || channel_size > kLongestChannel || entry.size < 0) return std::nullopt;
-    if (size_ - at < kHeader + channel_size + entry.size) return std::nullopt;
-    entry.channel.resize(static_cast<std::size_t>(channel_size));
+    if (size_ - at < kHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
+    entry.channel.resize(channel_size);
     if (!read(at + kHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
     std::array<std::uint8_t, 16> start{};
     const auto known = std::min<std::size_t>(start.size(), static_cast<std::size_t>(entry.size));
@@ -90,18 +112,24 @@ class Scanner {
 Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return fail("is a folder, not an LCM log", path);
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail(std::string("cannot open the log: ") + std::strerror(errno), path);
+  LcmLogReader reader(path);
+  if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
   const auto size = std::filesystem::file_size(path, error);
   if (error) return fail("cannot tell the size of the log: " + error.message(), path);
   if (size == 0) return fail("the log is empty", path);
-  LcmLogReader reader(path, std::move(file));
   reader.damaged_bytes_ = Scanner(reader.file_.get(), static_cast<std::int64_t>(size)).scan(reader.entries_);
-  if (reader.entries_.empty()) return fail("is not an LCM log: it holds no whole event", path);
   return reader;
 }
 
+Result<void> LcmLogReader::open_file() {
+  file_.reset(std::fopen(path_.c_str(), "rb"));
+  if (!file_) return fail(std::string("cannot open the log: ") + std::strerror(errno), path_);
+  return {};
+}
+
 Result<std::vector<std::uint8_t>> LcmLogReader::read(const LogEntry& entry) {
+  if (!file_)
+    if (const auto opened = open_file(); !opened) return tl::unexpected(opened.error());
   std::vector<std::uint8_t> message(static_cast<std::size_t>(entry.size));
   const std::int64_t at = entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size());
   const bool whole = fseeko(file_.get(), at, SEEK_SET) == 0 &&

@@ -24,8 +24,8 @@ struct LogEntry {
 /// liblcm's reader loses the event before a damaged one and allocates whatever a damaged length claims.
 class LcmLogReader {
  public:
-  /// Finds every whole event in one pass over the headers, without reading the messages. A file without any whole
-  /// event is an error.
+  /// Finds every whole event in one pass over the headers, without reading the messages. There may be none. Errors: a
+  /// file that cannot be opened or is empty.
   static Result<LcmLogReader> open(const std::string& path);
 
   const std::vector<LogEntry>& entries() const { return entries_; }  ///< in file order
@@ -34,13 +34,16 @@ class LcmLogReader {
 
   /// The message of an event. It can only fail when the file changes or the disk breaks.
   Result<std::vector<std::uint8_t>> read(const LogEntry& entry);
+  /// Lets go of the file until the next read(): thousands of logs are more than may be open at once.
+  void close() { file_.reset(); }
 
  private:
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   using File = std::unique_ptr<std::FILE, CloseFile>;
-  LcmLogReader(std::string path, File file) : path_(std::move(path)), file_(std::move(file)) {}
+  explicit LcmLogReader(std::string path) : path_(std::move(path)) {}
+  Result<void> open_file();
 
   std::string path_;
   File file_;

@@ -31,6 +31,8 @@ Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& pa
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  if (channel.empty() || channel.size() > kLongestChannel)
+    return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
   lcm::LogEvent event;
   event.eventnum = 0;  // set by LogFile
   event.timestamp = utime;
@@ -47,11 +49,11 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
 }
 
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
-  disk_full_ = reason == ENOSPC || reason == EDQUOT;
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
   const bool cut = ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
   failed_ = !cut;
+  disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);
   return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
               cut ? "the " + std::to_string(events_) + " events before are kept; make room"
                   : "the log ends in a broken event; readers skip it");

@@ -27,8 +27,10 @@ class LcmLogWriter : public MessageSink {
 
   std::int64_t events() const { return events_; }
   std::int64_t bytes() const { return good_; }
-  /// The last event failed for want of room.
+  /// The last event failed for want of room, and there may be room again.
   bool disk_full() const { return disk_full_; }
+  /// A failed write could not be cut off: nothing more is written.
+  bool failed() const { return failed_; }
 
  private:
   LcmLogWriter(std::string path, std::unique_ptr<lcm::LogFile> log);

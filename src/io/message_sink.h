@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -7,6 +8,9 @@
 #include "core/error.h"
 
 namespace barehand {
+
+/// Longest channel name that LCM takes, on a bus and in a log [bytes].
+inline constexpr std::size_t kLongestChannel = 63;
 
 /// Where encoded LCM messages go: a bus, a log file.
 class MessageSink {

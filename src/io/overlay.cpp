@@ -35,12 +35,9 @@ class OverlayWriter::Video : public OverlayWriter::Output {
   ~Video() override { (void)finish(); }
 
   Result<void> open(cv::Size size) {
-    // Backends by name: OpenCV would try, and complain about, every one it knows.
-    const bool avi = fs::path(path_).extension() == ".avi";
-    const bool opened =
-        avi ? writer_.open(path_, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps_, size)
-            : writer_.open(path_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps_, size);
-    if (!opened)
+    const int codec = backend_ == cv::CAP_FFMPEG ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
+                                                 : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    if (!writer_.open(path_, backend_, codec, fps_, size))
       return fail("cannot be opened for video", path_,
                   "check the folder; where OpenCV has no MPEG-4 codec, let the name end in .avi or give a folder");
     size_ = size;
@@ -56,24 +53,29 @@ class OverlayWriter::Video : public OverlayWriter::Output {
     cv::Mat bgr;
     cv::cvtColor(cv::Mat(size, CV_8UC3, const_cast<Rgb*>(picture.data())), bgr, cv::COLOR_RGB2BGR);
     writer_.write(bgr);
-    written_ = true;
+    ++written_;
     return {};
   }
+  /// cv::VideoWriter keeps errors to itself, so the file is asked how many frames arrived.
   Result<void> finish() override {
     if (!writer_.isOpened()) return {};
     writer_.release();
-    std::error_code error;
-    if (written_ && (fs::file_size(path_, error) == 0 || error))
-      return fail("holds nothing after it was closed", path_, "check the free space");
-    return {};
+    if (written_ == 0) return {};
+    const cv::VideoCapture video(path_, backend_);
+    const int held = video.isOpened() ? static_cast<int>(video.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
+    if (held == written_) return {};
+    return fail("holds " + std::to_string(held) + " of " + std::to_string(written_) + " frames after it was closed",
+                path_, "check the free space");
   }
 
  private:
   std::string path_;
   double fps_;
+  // By name: OpenCV would try, and complain about, every one it knows.
+  const int backend_ = fs::path(path_).extension() == ".avi" ? cv::CAP_OPENCV_MJPEG : cv::CAP_FFMPEG;
   cv::VideoWriter writer_;
   cv::Size size_;
-  bool written_ = false;
+  int written_ = 0;
 };
 
 Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps) {

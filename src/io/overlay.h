@@ -23,7 +23,8 @@ class OverlayWriter {
 
   /// Errors: a full disk; in a video, frames that change their size.
   Result<void> write(const RgbdFrame& frame, const HandEstimates& estimates);
-  /// Closes a video, which cannot be played before; the destructor does so too, but cannot report errors.
+  /// Closes a video, which cannot be played before; the destructor does so too, but cannot report errors, such as frames
+  /// that a full disk did not take.
   Result<void> finish();
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/file_bytes.h"
 #include "io/image_file.h"
 #include "io/json_fields.h"
 #include "io/stamped_list.h"
@@ -22,7 +23,7 @@ Result<int> whole_number(const json_fields::Object& object, const char* key) {
 }
 
 Result<void> read_camera(const std::string& path, Recording& recording) {
-  if (!fs::exists(path))
+  if (is_missing(path))
     return fail("is missing: without the camera's intrinsics depth has no scale", path,
                 "write width, height, fx, fy, cx, cy and depth_units_per_metre, see docs/formats.md");
   const auto json = json_fields::read_json(path);
@@ -71,7 +72,7 @@ std::string nearest_file(const std::vector<StampedFile>& sorted, std::int64_t ut
 
 Result<std::vector<StampedFile>> read_colour_list(const std::string& directory) {
   const std::string path = directory + "/rgb.txt";
-  if (!fs::exists(path)) return std::vector<StampedFile>{};
+  if (is_missing(path)) return std::vector<StampedFile>{};
   auto files = read_stamped_list(path);
   if (files)
     std::stable_sort(files->begin(), files->end(),
@@ -98,7 +99,9 @@ Result<void> check_first_image(const Recording& recording) {
 }  // namespace
 
 Result<Recording> open_recording(const std::string& directory) {
-  if (!fs::is_directory(directory)) return fail("is no folder", directory, "name a recording folder");
+  std::error_code error;
+  if (!fs::is_directory(directory, error))
+    return fail("is no folder" + (error ? ": " + error.message() : ""), directory, "name a recording folder");
   Recording recording;
   recording.directory = directory;
   if (const auto camera = read_camera(directory + "/camera.json", recording); !camera)

@@ -1,7 +1,7 @@
 #include "io/recording_writer.h"
 
-#include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "core/format.h"
 #include "io/image_file.h"
@@ -23,9 +23,9 @@ std::string stamp_text(std::int64_t utime) {
 }  // namespace
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Options options) {
-  if (fs::exists(directory + "/depth.txt"))
-    return fail("already holds a recording", directory, "choose another folder or remove it first");
   std::error_code error;
+  if (fs::exists(directory + "/depth.txt", error))
+    return fail("already holds a recording", directory, "choose another folder or remove it first");
   fs::create_directories(directory + "/depth", error);
   if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
   RecordingWriter writer;
@@ -46,25 +46,30 @@ Result<void> RecordingWriter::start(const RgbdFrame& first) {
                             {"depth_units_per_metre", json_fields::rounded(1 / depth_unit_)}};
   if (options_.fps > 0) json["fps"] = options_.fps;
   if (const auto written = json_fields::write_json(directory_ + "/camera.json", json); !written) return written;
-  depth_list_.open(directory_ + "/depth.txt");
-  depth_list_ << "# timestamp filename" << std::endl;
-  if (!depth_list_) return fail("cannot be written", directory_ + "/depth.txt", "check permissions and free space");
-  return {};
+  return append("depth.txt", "# timestamp filename\n");
 }
 
-Result<void> RecordingWriter::append(std::ofstream& list, const std::string& list_name, std::int64_t utime,
-                                     const std::string& file) {
-  if (!list.is_open()) list.open(directory_ + "/" + list_name);
-  list << stamp_text(utime) + " " + file + "\n" << std::flush;
-  if (!list) return fail("cannot be written", directory_ + "/" + list_name, "check permissions and free space");
-  return {};
+Result<void> RecordingWriter::append(const std::string& list, const std::string& line) const {
+  const std::string path = directory_ + "/" + list;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  std::ofstream file(path, std::ios::app);
+  file << line;
+  file.close();
+  if (file) return {};
+  fs::resize_file(path, error ? 0 : size, error);  // half a line would make the whole list unreadable
+  return fail("cannot be written", path, "check permissions and free space");
 }
 
 Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
-  if (count_ == 0)
+  if (!started_)
     if (const auto started = start(frame); !started) return tl::unexpected(started.error());
+  started_ = true;
   if (!(frame.camera == camera_) || frame.depth_unit != depth_unit_)
     return fail("the camera changed at frame " + std::to_string(count_), directory_, "a recording has one camera");
+  if (frame.utime < last_utime_)
+    return fail("the time goes back at frame " + std::to_string(count_), directory_,
+                "a folder cannot hold that, an LCM log can");
 
   const std::string depth_file = image_name("depth", count_, "png");
   if (const auto written = write_depth_png(directory_ + "/" + depth_file, frame.depth); !written)
@@ -74,12 +79,13 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
     std::error_code ignored;  // a folder that cannot be made shows when the image is written
     fs::create_directories(directory_ + "/rgb", ignored);
     const auto written = write_colour(directory_ + "/" + colour_file, frame.colour).and_then([&] {
-      return append(colour_list_, "rgb.txt", frame.utime, colour_file);
+      return append("rgb.txt", stamp_text(frame.utime) + " " + colour_file + "\n");
     });
     if (!written) return tl::unexpected(written.error());
   }
-  const auto appended = append(depth_list_, "depth.txt", frame.utime, depth_file);
+  const auto appended = append("depth.txt", stamp_text(frame.utime) + " " + depth_file + "\n");
   if (!appended) return tl::unexpected(appended.error());
+  last_utime_ = frame.utime;
   return count_++;
 }
 

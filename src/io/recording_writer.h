@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -10,7 +10,7 @@
 namespace barehand {
 
 /// Writes a recording folder (docs/formats.md) that open_recording reads. What is written stays complete at every
-/// moment: images first, then the line that names them.
+/// moment: images first, then the line that names them. After a full disk it goes on with the next frame that fits.
 class RecordingWriter {
  public:
   struct Options {
@@ -22,19 +22,21 @@ class RecordingWriter {
   static Result<RecordingWriter> create(const std::string& directory) { return create(directory, Options{}); }
 
   /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame
-  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error.
+  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error, and so is a time before
+  /// that of the last frame: nobody would read such a folder.
   Result<std::int64_t> write(const RgbdFrame& frame);
 
  private:
   Result<void> start(const RgbdFrame& first);
-  Result<void> append(std::ofstream& list, const std::string& list_name, std::int64_t utime, const std::string& file);
+  Result<void> append(const std::string& list, const std::string& line) const;
 
   std::string directory_;
   Options options_;
   Intrinsics camera_;
   double depth_unit_ = 0;
+  bool started_ = false;
   std::int64_t count_ = 0;
-  std::ofstream depth_list_, colour_list_;
+  std::int64_t last_utime_ = std::numeric_limits<std::int64_t>::min();
 };
 
 }  // namespace barehand

@@ -72,6 +72,7 @@ Result<void> RotatingLog::send(const std::string& channel, std::span<const std::
   while (!sent && log_->disk_full() && rotation_.quota > 0 && remove_oldest())
     sent = log_->send(channel, message, utime);
   files_.back().bytes = log_->bytes();
+  if (log_->failed()) log_.reset();
   return sent;
 }
 

@@ -28,7 +28,7 @@ class RotatingLog : public MessageSink {
   /// made, or the quota does not hold two files.
   static Result<std::unique_ptr<RotatingLog>> create(const std::string& path, LogRotation rotation, const Clock& clock);
 
-  /// An event that cannot be written is lost; the next one may succeed.
+  /// An event that cannot be written is lost; the next one may succeed, in a new file if need be.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
 
   std::int64_t removed() const { return removed_; }

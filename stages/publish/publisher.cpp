@@ -6,7 +6,6 @@ Publisher::Publisher(std::string prefix, std::vector<MessageSink*> sinks)
     : prefix_(std::move(prefix)), sinks_(std::move(sinks)) {}
 
 Result<Publisher> Publisher::create(std::string prefix, std::vector<MessageSink*> sinks) {
-  constexpr std::size_t kLongestChannel = 63;
   const std::size_t longest = prefix.size() + std::string("GLOVE_STATE").size();
   if (longest > kLongestChannel) return fail("the channel prefix is too long for LCM", prefix, "use at most 52 bytes");
   return Publisher(std::move(prefix), std::move(sinks));

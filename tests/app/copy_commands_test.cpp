@@ -69,6 +69,26 @@ TEST_F(CopyCommands, AForeignFileIsRefusedClearly) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b"));
 }
 
+TEST_F(CopyCommands, APathThatCannotBeLookedAtIsRefusedClearly) {
+  const Outcome outcome = barehand({"convert", std::string(300, 'x'), folder_ / "a.lcmlog"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("name too long"));
+}
+
+TEST_F(CopyCommands, AChannelThatNoReaderTakesIsRefused) {
+  for (const std::string& channel : {std::string(), std::string(64, 'A')}) {
+    const Outcome outcome = barehand({"convert", "anything", folder_ / "a.lcmlog", "--out-channel", channel});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("channel names have 1 to 63 bytes"));
+  }
+}
+
+TEST_F(CopyCommands, HalfOfTheIntrinsicsAreRefused) {
+  const Outcome outcome = barehand({"convert", recording(), folder_ / "a.lcmlog", "--fx", "525", "--fy", "525"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("give all four"));
+}
+
 TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
   std::filesystem::create_symlink("/dev/full", folder_ / "full.lcmlog");
   const Outcome full = barehand({"convert", recording(), folder_ / "full.lcmlog", "--overwrite"});

@@ -81,6 +81,17 @@ TEST(Evaluation, ReturnsIntoViewAndHandsWhereThereIsNone) {
   EXPECT_EQ(e->returns[1].frames, std::nullopt);
 }
 
+TEST(Evaluation, ReturnsIntoViewWhenPlayedBackwards) {
+  ResultTable truth, result;
+  for (int i : {0, 1, 2, 6, 7, 8}) truth.frames.push_back(truth_frame(i));
+  for (int i : {0, 1, 6, 7, 8}) result.frames.push_back(truth_frame(i));
+  const auto e = evaluate(truth, result, {{}, -1});
+  ASSERT_TRUE(e);
+  ASSERT_EQ(e->returns.size(), 1u);
+  EXPECT_EQ(e->returns[0].number, 2);
+  EXPECT_EQ(e->returns[0].frames, 1);
+}
+
 TEST(Evaluation, NoHandAtAllIsLostThroughout) {
   const auto e = evaluate(truth_of(3), {});
   ASSERT_TRUE(e);

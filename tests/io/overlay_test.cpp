@@ -8,6 +8,7 @@
 #include "io/image_file.h"
 #include "io/overlay_drawing.h"
 #include "small_hand.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -140,6 +141,17 @@ TEST_F(OverlayFiles, VideosHoldEveryFrame) {
     while (video.read(picture)) ++count;
     EXPECT_EQ(count, 5) << name;
     EXPECT_EQ(picture.cols * picture.rows, 0);
+  }
+}
+
+TEST_F(OverlayFiles, AVideoThatIsCutByAFullDiskIsAnError) {
+  for (const char* name : {"overlay.avi", "overlay.mp4"}) {
+    auto writer = OverlayWriter::open(folder_ / name, 30);
+    const test::FileSizeLimit full(20'000);
+    for (int i = 0; i < 20; ++i) (void)writer->write(grey_frame(320, i), shared(open_hand()));
+    const auto finished = writer->finish();
+    ASSERT_FALSE(finished) << name;
+    EXPECT_THAT(finished.error().message(), AllOf(HasSubstr("of 20 frames"), HasSubstr("free space")));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/image_file.h"
 #include "io/recording_writer.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -103,12 +104,52 @@ TEST_F(RecordingFolder, CameraMayNotChange) {
   EXPECT_THAT(writer->write(other).error().message(), HasSubstr("camera changed at frame 1"));
 }
 
+TEST_F(RecordingFolder, TimeMayNotGoBack) {
+  auto writer = RecordingWriter::create(path_);
+  ASSERT_TRUE(writer->write(frame_at(2'000'000, 1)));
+  EXPECT_THAT(writer->write(frame_at(1'000'000, 1)).error().message(), HasSubstr("time goes back at frame 1"));
+  ASSERT_TRUE(writer->write(frame_at(3'000'000, 1)));
+  EXPECT_EQ(open_recording(path_)->entries.size(), 2u);
+}
+
 TEST_F(RecordingFolder, FullDiskIsReported) {
   auto writer = RecordingWriter::create(path_);
   fs::create_symlink("/dev/full", path_ + "/depth/000000.png");
   const auto written = writer->write(frame_at(0, 1, false));
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message(), AllOf(HasSubstr("depth/000000.png"), HasSubstr("free space")));
+}
+
+TEST_F(RecordingFolder, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
+  RgbdFrame frame = frame_at(0, 1, false);
+  auto writer = RecordingWriter::create(path_);
+  for (; frame.utime < 20; ++frame.utime) ASSERT_TRUE(writer->write(frame));
+  const auto size = fs::file_size(path_ + "/depth.txt");
+  {
+    const test::FileSizeLimit full(size + 5);  // the image fits, but half of its line
+    EXPECT_FALSE(writer->write(frame));
+    EXPECT_EQ(fs::file_size(path_ + "/depth.txt"), size);
+  }
+  ++frame.utime;
+  ASSERT_TRUE(writer->write(frame));
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->entries.size(), 21u);
+  EXPECT_EQ(recording->entries.back().utime, 21);
+}
+
+TEST_F(RecordingFolder, StartsWhenThereIsRoomForTheFirstImage) {
+  RgbdFrame frame = frame_at(0, 1, false);
+  frame.camera.width = frame.camera.height = 64;
+  frame.depth.reset(64, 64);
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) frame.depth[i] = static_cast<std::uint16_t>(i * i * 40503);
+  auto writer = RecordingWriter::create(path_);
+  {
+    const test::FileSizeLimit full(500);  // camera.json and the head of depth.txt fit
+    for (int i = 0; i < 2; ++i) EXPECT_FALSE(writer->write(frame));
+  }
+  EXPECT_EQ(writer->write(frame), 0);
+  EXPECT_EQ(open_recording(path_)->entries.size(), 1u);
 }
 
 TEST_F(RecordingFolder, MissingIntrinsicsAreNamed) {
@@ -135,6 +176,19 @@ TEST_F(RecordingFolder, EmptyFolderIsAnError) {
   EXPECT_THAT(open_error(), HasSubstr("depth.txt: cannot be read"));
   path_ += "/nothing";
   EXPECT_THAT(open_error(), HasSubstr("is no folder"));
+}
+
+TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
+  record();
+  fs::remove(path_ + "/rgb.txt");
+  fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // to itself
+  EXPECT_THAT(open_error(), HasSubstr("rgb.txt: cannot be read"));
+  fs::remove(path_ + "/camera.json");
+  fs::create_symlink("camera.json", path_ + "/camera.json");
+  EXPECT_THAT(open_error(), HasSubstr("camera.json: cannot be read"));
+  path_ = folder_ / std::string(300, 'x');
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("is no folder"), HasSubstr("name too long")));
+  EXPECT_FALSE(RecordingWriter::create(path_));
 }
 
 TEST_F(RecordingFolder, StampsThatGoBackNameTheLine) {

@@ -1,12 +1,11 @@
 #include "io/result_table.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 
 #include "small_hand.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -108,30 +107,12 @@ TEST_F(Table, FullDiskIsReported) {
   EXPECT_FALSE(TableWriter::create(folder_ / "no/such/folder.csv"));
 }
 
-/// Files of this process may grow to so many bytes, as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(std::uintmax_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
-
 TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   auto writer = TableWriter::create(path_);
   ASSERT_TRUE(writer->write(numbered_frame(0)));
   const auto whole = std::filesystem::file_size(path_);
   {
-    const FileSizeLimit full(whole + 500);  // some rows of a frame
+    const test::FileSizeLimit full(whole + 500);  // some rows of a frame
     for (int number : {1, 2}) {
       const auto written = writer->write(numbered_frame(number));
       ASSERT_FALSE(written);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "drivers/lcm/depth_codec.h"
 #include "drivers/lcm/frame_message.h"
 #include "drivers/lcm/layouts.h"
@@ -41,6 +43,22 @@ TEST(Kinect, WithoutIntrinsicsTheErrorSaysWhatToSet) {
   const auto frame = decode_kinect(kinect_message(test_frame(3), true), {}, 0);
   ASSERT_FALSE(frame);
   EXPECT_NE(frame.error().message().find("fx"), std::string::npos);
+}
+
+TEST(Kinect, IntrinsicsThatNoCameraHasAreErrors) {
+  const auto decoded = [](const ForeignCamera& camera) {
+    EXPECT_EQ(check_given(camera).has_value(),
+              decode_kinect(kinect_message(test_frame(3), true), camera, 0).has_value());
+    return check_given(camera).has_value();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(decoded(kCamera));
+  EXPECT_TRUE(decoded({525, 525, -40.5, 700}));
+  EXPECT_FALSE(decoded({525, 525, 0, 0})) << "a principal point that was forgotten";
+  EXPECT_FALSE(decoded({525, 0, 320, 240}));
+  EXPECT_FALSE(decoded({525, 525, nan, 240}));
+  EXPECT_FALSE(decoded({1e-300, 525, 320, 240}));
+  EXPECT_TRUE(check_given({})) << "needed by foreign frames alone";
 }
 
 TEST(Kinect, LyingFieldsAreErrors) {

@@ -98,11 +98,63 @@ TEST_F(LcmLive, ARepeatedFrameIsSkipped) {
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
 }
 
+TEST_F(LcmLive, AClockThatWasSetBackIsANewStart) {
+  for (const int number : {100, 1, 2}) {
+    send("RGBD_FRAME", frame_bytes(number));
+    EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong))) << number;
+  }
+}
+
 TEST_F(LcmLive, OtherChannelsAreNotHeard) {
   send("HAND_STATE", encode_message(command_t{}));
   send("RGBD_FRAME", frame_bytes(1));
   EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
   EXPECT_EQ(source_.counts().received, 1);
+}
+
+TEST_F(LcmLive, StaysWithTheFirstChannelThatBringsAFrameAndTellsOfOthersOnce) {
+  send("BAD_RGBD_FRAME", encode_message(command_t{}));
+  EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
+  send("LEFT_RGBD_FRAME", frame_bytes(1));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
+  for (const int number : {1, 2}) {
+    send("RIGHT_RGBD_FRAME", frame_bytes(10 * number));
+    send("LEFT_RGBD_FRAME", frame_bytes(number + 1));
+    wait_received(2 + number);
+    SourceEvent event = source_.next(kLong);
+    if (number == 1) {
+      const Error& told = std::get<SourceNotice>(event).error;
+      EXPECT_NE(told.what.find("RIGHT_RGBD_FRAME"), std::string::npos);
+      EXPECT_NE(told.where.find("LEFT_RGBD_FRAME"), std::string::npos);
+      event = source_.next(kLong);
+    }
+    EXPECT_EQ(std::get<FramePtr>(event)->number, number + 1);
+  }
+  EXPECT_EQ(source_.counts().received, 4);
+  EXPECT_EQ(source_.counts().replaced, 0);
+}
+
+TEST_F(LcmLive, WhatOtherChannelsLeftInTheInboxIsLeftOut) {
+  const std::shared_ptr<LcmBus> bus = LcmBus::open("memq://").value();
+  LcmLiveSource source(bus, {.capacity = 3});
+  int number = 1;
+  for (const char* channel : {"LEFT_RGBD_FRAME", "RIGHT_RGBD_FRAME", "LEFT_RGBD_FRAME"})
+    ASSERT_TRUE(bus->send(channel, frame_bytes(number++), 0));
+  while (source.counts().received < 3) std::this_thread::yield();
+  EXPECT_EQ(std::get<FramePtr>(source.next(kLong))->number, 1);
+  EXPECT_TRUE(std::holds_alternative<SourceNotice>(source.next(kLong)));
+  EXPECT_EQ(std::get<FramePtr>(source.next(kLong))->number, 3);
+  EXPECT_EQ(source.counts().received, 2);
+}
+
+TEST_F(LcmLive, AChosenPatternMayHaveSeveralChannels) {
+  const std::shared_ptr<LcmBus> bus = LcmBus::open("memq://").value();
+  LcmLiveSource source(bus, {.channel = "CAM*", .capacity = 2});
+  EXPECT_EQ(source.name(), "lcm:memq:// CAM*");
+  for (const char* channel : {"CAM1", "CAM2"}) {
+    ASSERT_TRUE(bus->send(channel, frame_bytes(1), 0));
+    EXPECT_TRUE(std::holds_alternative<FramePtr>(source.next(kLong)));
+  }
 }
 
 TEST(Glob, BecomesARegularExpression) {

@@ -10,6 +10,7 @@
 #include "drivers/lcm/layouts.h"
 #include "foreign_messages.h"
 #include "io/lcm_log_writer.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 #include "test_frames.h"
 
@@ -133,6 +134,11 @@ TEST_F(LcmLog, RepeatedAndOutdatedFramesAreSkipped) {
   EXPECT_EQ(play({.step = -1}), "102 skip skip 101 100 end");
 }
 
+TEST_F(LcmLog, AClockThatWasSetBackIsANewStart) {
+  for (const int number : {100, 101, 1, 2, 1, 3}) append("RGBD_FRAME", frame_bytes(number));
+  EXPECT_EQ(play(), "100 101 1 2 skip 3 end");
+}
+
 TEST_F(LcmLog, EveryTruncationReplaysTheWholeEvents) {
   append_frames(2);
   const Bytes whole = file();
@@ -150,6 +156,24 @@ TEST_F(LcmLog, DamageInTheMiddleCostsOnlyTheEventItHits) {
   bytes[static_cast<std::size_t>(LcmLogReader::open(path_)->entries()[1].position)] ^= 0xFF;
   replace_file(bytes);
   EXPECT_EQ(play(), "100 102 end");
+}
+
+TEST_F(LcmLog, ATornEventDoesNotTakeThoseBehindItAlong) {
+  append_frames(3);
+  append("OTHER", {1, 2, 3});
+  const Bytes whole = file();
+  const auto third = static_cast<std::ptrdiff_t>(LcmLogReader::open(path_)->entries()[2].position);
+  for (const int missing : {1, 10, 60}) {
+    Bytes bytes = whole;
+    bytes.erase(bytes.begin() + third - missing, bytes.begin() + third);
+    replace_file(bytes);
+    EXPECT_EQ(play(), "100 102 end") << missing;
+    EXPECT_EQ(LcmLogReader::open(path_)->entries().size(), 3u);
+  }
+  Bytes bytes = whole;
+  bytes[static_cast<std::size_t>(third)] ^= 0xFF;  // the second frame is followed by damage, but whole
+  replace_file(bytes);
+  EXPECT_EQ(play(), "100 101 end");
 }
 
 TEST_F(LcmLog, LyingLengthsAreNoEvents) {
@@ -188,6 +212,26 @@ TEST_F(LcmLog, AFolderPlaysItsLogsInTheOrderOfTheirNames) {
   path_ = folder_.path();
   EXPECT_EQ(play(), "1 2 3 4 end");
   EXPECT_EQ(play({.start = 2, .step = -1}), "3 2 1 end");
+}
+
+TEST_F(LcmLog, AFolderPlaysOnWhereALogHoldsNoWholeEvent) {
+  append_frames(2);
+  test::write_text(folder_ / "torn.lcmlog", "\xED\xA1\xDA\x01 power cut");
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "100 101 end");
+  EXPECT_EQ(LcmLogSource::open(path_).value()->damaged_bytes(), 14);
+}
+
+TEST_F(LcmLog, AFolderMayHoldMoreLogsThanMayBeOpen) {
+  const test::ResourceLimit limit(RLIMIT_NOFILE, 64);
+  std::string all;
+  for (int number = 100; number < 200; ++number) {
+    const auto log = LcmLogWriter::create(folder_ / (std::to_string(number) + ".lcmlog"), false).value();
+    ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number), 42));
+    all += std::to_string(number) + " ";
+  }
+  path_ = folder_.path();
+  EXPECT_EQ(play(), all + "end");
 }
 
 TEST_F(LcmLog, ForeignFramesReplayWithGivenIntrinsics) {

@@ -1,13 +1,12 @@
 #include "io/lcm_log_writer.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 
 #include "io/lcm_log_reader.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 #include "test_frames.h"
 
@@ -62,6 +61,17 @@ TEST(LcmLogWriter, AFolderThatDoesNotExistIsAnError) {
   EXPECT_FALSE(LcmLogWriter::create("/nonexistent/folder/a.lcmlog", false));
 }
 
+TEST(LcmLogWriter, AChannelThatNoReaderTakesIsAnError) {
+  const test::TempFolder folder;
+  auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+  EXPECT_FALSE(log->send("", kMessage, 1));
+  EXPECT_FALSE(log->send(std::string(64, 'A'), kMessage, 2));
+  EXPECT_TRUE(log->send(std::string(63, 'A'), kMessage, 3));
+  const auto read = LcmLogReader::open(folder / "a.lcmlog");
+  EXPECT_EQ(read->entries().size(), 1u);
+  EXPECT_EQ(read->damaged_bytes(), 0);
+}
+
 TEST(LcmLogWriter, AFullDeviceIsAnError) {
   auto log = LcmLogWriter::create("/dev/full", true).value();
   const auto sent = log->send("A", kMessage, 1);
@@ -70,30 +80,11 @@ TEST(LcmLogWriter, AFullDeviceIsAnError) {
   EXPECT_FALSE(log->send("A", kMessage, 2)) << "it stays failed";
 }
 
-/// Lets no file grow past `bytes` while it lives, as a full disk would: a write may succeed in part.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int) = nullptr;
-};
-
 TEST(LcmLogWriter, WhenTheDiskFillsUpTheWholeEventsStay) {
   const test::TempFolder folder;
   const std::vector<std::uint8_t> large(10'000, 7);
   {
-    const FileSizeLimit limit(25'000);
+    const test::FileSizeLimit limit(25'000);
     auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
     ASSERT_TRUE(log->send("A", large, 1));
     ASSERT_TRUE(log->send("A", large, 2));
@@ -111,7 +102,7 @@ TEST(LcmLogWriter, GoesOnWhenThereIsRoomAgain) {
   const std::vector<std::uint8_t> large(10'000, 7);
   auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
   {
-    const FileSizeLimit limit(25'000);
+    const test::FileSizeLimit limit(25'000);
     ASSERT_TRUE(log->send("A", large, 1));
     ASSERT_TRUE(log->send("A", large, 2));
     for (int i = 0; i < 3; ++i) ASSERT_FALSE(log->send("A", large, 3));

@@ -1,6 +1,8 @@
 #include "io/rotating_log.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -102,6 +104,29 @@ TEST_F(Rotating, AFileThatSomebodyRemovedIsNoTrouble) {
   fs::remove(folder_ / ("set/" + names().front()));
   for (int i = 5; i <= 10; ++i) send(*log, i);
   EXPECT_EQ(stamps().back(), 10);
+}
+
+/// Puts a device that is full in the place of a file that this process has open: nothing can be written, nor cut off.
+void break_open_file(const fs::path& path) {
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;  // the descriptor that lists the folder
+    if (fs::read_symlink(entry.path(), gone) != path) continue;
+    const int full = ::open("/dev/full", O_WRONLY);
+    ::dup2(full, std::stoi(entry.path().filename()));
+    ::close(full);
+    return;
+  }
+  ADD_FAILURE() << path << " is not open";
+}
+
+TEST_F(Rotating, GoesOnInANewFileWhereAFailedWriteCannotBeUndone) {
+  const auto log = open({.max_bytes = 3000, .quota = 9000});
+  for (int i = 1; i <= 4; ++i) send(*log, i);
+  break_open_file(fs::canonical(folder_ / ("set/" + names().back())));
+  EXPECT_FALSE(log->send("A", std::vector<std::uint8_t>(1000 - 28 - 1, 7), 5));
+  send(*log, 6);
+  EXPECT_THAT(stamps(), ElementsAre(1, 2, 3, 4, 6));
+  EXPECT_EQ(names().size(), 3u);
 }
 
 TEST_F(Rotating, AQuotaOfLessThanTwoFilesIsRefused) {
