@@ -33,9 +33,9 @@ FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock
   return options;
 }
 
-int exit_code_of(const CopyResult& result, int signal) {
+int exit_code_of(const CopyResult& result, bool live, int signal) {
   if (result.error) return kExitFailure;
-  if (result.stopped) return signal == SIGINT ? kExitInterrupted : kExitOk;
+  if (result.stopped) return signal == SIGINT || !live ? kExitInterrupted : kExitOk;
   return result.lost > 0 ? kExitFailure : kExitOk;
 }
 
@@ -107,7 +107,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   const CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");
-  return exit_code_of(result, interrupt.signal());
+  return exit_code_of(result, source->source->live(), interrupt.signal());
 }
 
 }  // namespace barehand

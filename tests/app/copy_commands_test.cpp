@@ -86,6 +86,23 @@ TEST_F(CopyCommands, ControlCEndsALiveRecording) {
   EXPECT_THAT(child.output(), HasSubstr("stopped"));
 }
 
+TEST_F(CopyCommands, ARecordingThatIsStoppedIsNotDone) {
+  ChildProcess child({BAREHAND_PROGRAM, "record", "--source", "sim:fist,loop=true,width=160,height=120", "--out",
+                      folder_ / "a.lcmlog"});
+  while (!std::filesystem::exists(folder_ / "a.lcmlog")) std::this_thread::yield();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 130) << child.output();
+}
+
+TEST_F(CopyCommands, ListenIsLive) {
+  for (const auto& [signal, exit_code] : {std::pair(SIGTERM, 0), std::pair(SIGINT, 130)}) {
+    ChildProcess child({BAREHAND_PROGRAM, "listen", "--lcm-url", "memq://"});
+    ASSERT_TRUE(child.wait_for("listening on")) << child.output();
+    child.signal(signal);
+    EXPECT_EQ(child.finish(), exit_code) << child.output();
+  }
+}
+
 TEST_F(CopyCommands, ListenRefusesAnImpossibleUrl) {
   EXPECT_EQ(barehand({"listen", "--lcm-url", "nonsense://"}).exit_code, 2);
 }
