@@ -149,11 +149,11 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
                                  options_.overlay_every));
+  if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (!ok) return ok;
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
         service_, [this] { return pipeline_->pulse(); }, [this] { return pipeline_->health(); }, clock_));
-  if (!options_.save_hand.empty()) sinks_.push_back(std::make_unique<SaveHandSink>(options_.save_hand));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),

@@ -87,7 +87,8 @@ TEST_F(Calibrate, WithoutAHandNothingIsSaved) {
 TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
   for (const auto& [option, value, reason] : {std::tuple("--hand", std::string("both"), "is not one hand"),
                                               {"--hand", folder_ / "nobody.json", "nobody.json"},
-                                              {"--out", folder_ / "nowhere/mine.json", "no such folder"}}) {
+                                              {"--out", folder_ / "nowhere/mine.json", "No such file or directory"},
+                                              {"--out", folder_.path(), "Is a directory"}}) {
     auto arguments = calibrate("sim:scan");
     if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);
     arguments.insert(arguments.end(), {option, value});
