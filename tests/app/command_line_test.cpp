@@ -45,12 +45,13 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
 }
 
 TEST(Bench, MeasuresAndWritesFigures) {
-  const std::string json = ::testing::TempDir() + "bench_smoke.json";
+  const test::TempFolder folder;
+  const std::string json = folder / "bench.json";
   const Outcome outcome = barehand({"bench", "--source", "sim:fist,width=160,height=120", "--store", "3", "--frames",
-                                    "3", "--warm-up", "1", "--json", json});
+                                    "3", "--warm-up", "1", "--hand", "both", "--json", json});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("frames/s"), HasSubstr("capture to publish")));
-  EXPECT_TRUE(std::ifstream(json).good());
+  EXPECT_THAT(test::read_text(json), HasSubstr("\"hands\": 2"));
   EXPECT_EQ(
       barehand({"bench", "--threads", "0", "--source", "sim:fist,width=160,height=120", "--store", "1"}).exit_code, 2);
 }
