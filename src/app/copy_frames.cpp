@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <ostream>
 
 #include "core/repeat_filter.h"
@@ -51,7 +52,7 @@ class Copy {
   }
 
   bool store(const RgbdFrame& frame) {
-    count_missing(frame.number);
+    count_missing(frame);
     if (auto written = writer_.write(frame); !written) return lose(written.error());
     if (losing_) say("writing again; " + std::to_string(result_.lost) + " frames were lost so far");
     losing_ = false;
@@ -63,18 +64,19 @@ class Copy {
   bool lose(const Error& error) {
     if (!source_.live()) return end_with(error);
     ++result_.lost;
+    result_.lost_why = error.what;
     losing_ = true;
     if (filter_.admit("lost")) say(std::to_string(result_.lost) + " frames lost so far: " + error.message());
     return true;
   }
 
-  /// Gaps in the numbers of a live source.
-  void count_missing(std::int64_t number) {
-    const bool gap = source_.live() && seen_ && number > last_number_ + 1;
-    if (gap) result_.missing += number - last_number_ - 1;
-    last_number_ = number;
-    seen_ = true;
-    if (!gap) return;
+  /// Gaps in the numbers of a live source; every sensor of a network counts its own frames.
+  void count_missing(const RgbdFrame& frame) {
+    const auto [last, first] = last_numbers_.try_emplace(frame.sensor, frame.number);
+    const std::int64_t between = first ? 0 : frame.number - last->second - 1;
+    last->second = frame.number;
+    if (!source_.live() || between <= 0) return;
+    result_.missing += between;
     result_.dropped = 0;
     for (const QueueHealth& queue : source_.queues())
       if (queue.capacity > 0) result_.dropped += queue.dropped;
@@ -128,8 +130,9 @@ class Copy {
   std::ostream& report_;
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
-  std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0;
-  bool line_open_ = false, seen_ = false, losing_ = false;
+  std::int64_t start_us_ = 0, shown_us_ = 0;
+  std::map<std::string, std::int64_t> last_numbers_;  // by sensor
+  bool line_open_ = false, losing_ = false;
 };
 
 }  // namespace

@@ -40,12 +40,13 @@ int exit_code_of(const CopyResult& result, bool live, int signal) {
 }
 
 std::string counts(const CopyResult& result, const std::string& place) {
-  const auto part = [](std::int64_t count, const char* what) {
+  const auto part = [](std::int64_t count, const std::string& what) {
     return count > 0 ? ", " + std::to_string(count) + what : std::string();
   };
   return std::to_string(result.written) + " frames written to " + place +
          part(result.skipped, " unreadable ones skipped") + part(result.missing - result.dropped, " never arrived") +
-         part(result.dropped, " came faster than they could be written") + part(result.lost, " lost: no room");
+         part(result.dropped, " came faster than they could be written") +
+         part(result.lost, " lost: " + result.lost_why);
 }
 
 /// Tells systemd, where it listens, that the copy moves and how far it is.
