@@ -13,12 +13,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string write_file(const std::string& name, const std::string& text) {
-  const std::string path = ::testing::TempDir() + name;
-  std::ofstream(path) << text;
-  return path;
-}
-
 std::string shipped_config() { return test::read_text(BAREHAND_CONFIGS "/default.yaml"); }
 
 TEST(CommandLine, HelpAndVersionSucceed) {
@@ -96,7 +90,9 @@ TEST(Track, RefusesMoreSamplesThanMemoryHolds) {
   GTEST_SKIP() << "the sanitizers do not start under ulimit -v";
 #endif
   const std::string text = std::regex_replace(shipped_config(), std::regex(" samples: [0-9]+"), " samples: 9000");
-  const std::string path = write_file("many_samples.yaml", text);
+  const test::TempFolder folder;
+  const std::string path = folder / "many_samples.yaml";
+  test::write_text(path, text);
   ChildProcess child(
       {"bash", "-c", "ulimit -v 2000000; exec " BAREHAND_PROGRAM " track --source lcm --config " + path});
   EXPECT_EQ(child.finish(), 2);
@@ -110,7 +106,9 @@ TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
   ASSERT_NE(at, std::string::npos);
   const auto line = 2 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   text.replace(at, 13, "\n  min_dpeth:");
-  const std::string path = write_file("misspelled.yaml", text);
+  const test::TempFolder folder;
+  const std::string path = folder / "misspelled.yaml";
+  test::write_text(path, text);
   const Outcome outcome = barehand({"track", "--source", "lcm", "--config", path});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr(path + ":" + std::to_string(line) +
@@ -123,7 +121,9 @@ TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);
   EXPECT_THAT(printed.output, HasSubstr("\n  seed: 42\n"));
-  const std::string path = write_file("printed.yaml", printed.output);
+  const test::TempFolder folder;
+  const std::string path = folder / "printed.yaml";
+  test::write_text(path, printed.output);
   EXPECT_EQ(barehand({"track", "--print-config", "--config", path}).output, printed.output);
 }
 
