@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
 #include <regex>
+#include <sstream>
 
 #include "barehand_program.h"
 #include "quick_config.h"
@@ -27,6 +27,17 @@ TEST(CommandLine, HelpAndVersionSucceed) {
     EXPECT_EQ(outcome.exit_code, 0) << arguments[0];
     EXPECT_FALSE(outcome.output.empty());
   }
+}
+
+TEST(CommandLine, TheManPageHasEveryCommand) {
+  const std::string page = test::read_text(BAREHAND_CONFIGS "/../deploy/debian/barehand.1");
+  std::istringstream help(barehand({"--help"}).output);
+  std::string line;
+  while (std::getline(help, line) && line != "Subcommands:") continue;
+  int commands = 0;
+  for (std::string name; std::getline(help, line) && std::istringstream(line) >> name; ++commands)
+    EXPECT_THAT(page, HasSubstr("\n.B " + name + "\n"));
+  EXPECT_GT(commands, 5);
 }
 
 TEST(CommandLine, WrongUsageIsExitCode2) {
