@@ -27,6 +27,7 @@
 #include "core/available_memory.h"
 #include "core/parallel.h"
 #include "io/pose_json.h"
+#include "stages/publish/publisher.h"
 
 namespace barehand {
 namespace {
@@ -93,6 +94,7 @@ Step TrackRun::prepare() {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
+  if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();

@@ -128,6 +128,16 @@ TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
   EXPECT_THAT(outcome.output, HasSubstr("key 'preprocess.min_depth' is missing"));
 }
 
+TEST(Track, StopsAtAChannelPrefixThatLcmDoesNotTake) {
+  const test::TempFolder folder;
+  const std::string path = folder / "long_prefix.yaml";
+  test::write_text(path, test::replaced(shipped_config(), "channel_prefix: \"\"",
+                                        "channel_prefix: \"" + std::string(60, 'X') + "\""));
+  const Outcome outcome = barehand({"track", "--source", "lcm", "--lcm-url", "memq://", "--config", path});
+  EXPECT_EQ(outcome.exit_code, 2) << "systemd would start it again for ever";
+  EXPECT_THAT(outcome.output, HasSubstr("the channel prefix is too long"));
+}
+
 TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);
