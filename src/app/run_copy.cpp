@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <iostream>
 
@@ -13,7 +14,7 @@
 namespace barehand {
 namespace {
 
-FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock) {
+FrameWriterOptions writer_options(const CopyRequest& request, double fps, const Clock& clock) {
   FrameWriterOptions options;
   options.encoding.depth = request.depth == "raw"    ? DepthEncoding::raw16
                            : request.depth == "zlib" ? DepthEncoding::zlib
@@ -24,6 +25,7 @@ FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock
                                                        : ColourEncoding::png;
   options.encoding.jpeg_quality = request.jpeg_quality;
   options.channel = request.out_channel;
+  options.fps = fps / std::abs(static_cast<double>(request.source.step));
   options.overwrite = request.overwrite;
   options.clock = &clock;
   if (request.max_size > 0 || request.max_age > 0 || request.quota > 0)
@@ -94,7 +96,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   }
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
-  auto writer = open_frame_writer(request.out, writer_options(request, clock));
+  auto writer = open_frame_writer(request.out, writer_options(request, source->fps, clock));
   if (!writer) return refuse(writer.error());
 
   CopyOptions options;

@@ -37,6 +37,8 @@ using Step = tl::expected<void, TrackFailure>;
 tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
 tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
 
+constexpr double kUsualRate = 30;  // Hz, of a film of frames whose rate is not known
+
 /// One run, put together step by step: all input is checked before the first output file is touched.
 class TrackRun {
  public:
@@ -149,8 +151,9 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.states_log.empty())
     ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
   if (ok && !options_.overlay.empty())
-    ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
-                                 options_.overlay_every));
+    ok = add(OverlaySink::create(
+        options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
+        options_.overlay_every));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (!ok) return ok;
   if (service_.present())

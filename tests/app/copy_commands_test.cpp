@@ -44,6 +44,18 @@ TEST_F(CopyCommands, RecordTakesAnySource) {
   EXPECT_EQ(LcmLogSource::open(folder_ / "a.lcmlog").value()->remaining(), 2);
 }
 
+TEST_F(CopyCommands, AFolderNotesTheRateThatIsKnown) {
+  ASSERT_EQ(
+      barehand({"record", "--source", "sim:fist,fps=20,width=64,height=48", "--frames", "4", "--out", folder_ / "a"})
+          .exit_code,
+      0);
+  EXPECT_EQ(FolderSource::open(folder_ / "a").value()->recording().fps, 20);
+  ASSERT_EQ(barehand({"convert", folder_ / "a", folder_ / "b", "--step", "2"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "b").value()->recording().fps, 10);
+  ASSERT_EQ(barehand({"convert", recording(), folder_ / "c"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "c").value()->recording().fps, 0) << "it is not known";
+}
+
 TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
   const std::string in = recording(), out = folder_ / "a.lcmlog";
   std::ofstream(out) << "precious";
