@@ -25,7 +25,7 @@ trap 'exit 1' INT TERM
 
 archive=${1:-}
 if [ -z "$archive" ]; then
-  command -v npm >/dev/null || { echo "npm is missing: apt-get install npm (deploy/packages.txt)" >&2; exit 1; }
+  command -v npm >/dev/null || { echo "npm is missing: apt-get install npm, or give a copy of the package: $0 ARCHIVE.tgz" >&2; exit 1; }
   echo "fetching $package (93 MB, once)"
   (cd "$work" && npm pack --silent "$package" >/dev/null) || {
     echo "cannot fetch $package: is the network there? With a copy of the package: $0 ARCHIVE.tgz" >&2

@@ -21,7 +21,7 @@ fi
 deploy/fetch_hand_mesh.sh
 
 if [ "${1:-}" = --tests ]; then
-  cmake --preset release
+  cmake --preset release -DBAREHAND_TESTS=ON
   cmake --build --preset release
   ctest --preset release
 else

@@ -22,7 +22,7 @@ struct BenchRow {
 struct BenchReport {
   std::string source, processor;
   int cores = 0;
-  int hands = 1;  ///< tracked at once
+  int hands = 0;  ///< looked for at once
   BenchConditions conditions;
   std::vector<BenchRow> rows;
 };

@@ -106,6 +106,7 @@ int run_bench(const BenchOptions& options) {
   report.source = options.source;
   report.processor = processor_name();
   report.cores = available_cores();
+  report.hands = static_cast<int>(input->hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
   auto done = measure_all(*cases, *input, options.repeat, report);
   if (done && !options.json.empty()) done = write_bench_json(report, options.json);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -115,10 +114,7 @@ int run(const CalibrateOptions& o) {
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)
     return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
-  std::error_code error;
-  const auto folder = std::filesystem::absolute(o.out, error).parent_path();
-  if (!std::filesystem::is_directory(folder, error))
-    return tell({"is no folder" + (error ? ": " + error.message() : ""), folder.string(), "make it first"}, kExitUsage);
+  if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
 
   ScanSink::Scan scan;
   std::vector<std::unique_ptr<Sink>> sinks;

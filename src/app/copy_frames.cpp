@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <ostream>
 
 #include "core/repeat_filter.h"
@@ -51,7 +52,7 @@ class Copy {
   }
 
   bool store(const RgbdFrame& frame) {
-    count_missing(frame.number);
+    count_missing(frame);
     if (auto written = writer_.write(frame); !written) return lose(written.error());
     if (losing_) say("writing again; " + std::to_string(result_.lost) + " frames were lost so far");
     losing_ = false;
@@ -63,16 +64,19 @@ class Copy {
   bool lose(const Error& error) {
     if (!source_.live()) return end_with(error);
     ++result_.lost;
+    result_.lost_why = error.what;
     losing_ = true;
     if (filter_.admit("lost")) say(std::to_string(result_.lost) + " frames lost so far: " + error.message());
     return true;
   }
 
-  /// Gaps in the numbers of a live source, less those of skipped frames, which may be told before their turn.
-  void count_missing(std::int64_t number) {
-    if (source_.live() && seen_ && number > last_number_ + 1) gaps_ += number - last_number_ - 1;
-    last_number_ = number;
-    seen_ = true;
+  /// Gaps in the numbers of a live source, where every sensor of a network counts its own frames, less those of skipped
+  /// frames, which may be told before their turn.
+  void count_missing(const RgbdFrame& frame) {
+    const auto [last, first] = last_numbers_.try_emplace(frame.sensor, frame.number);
+    const std::int64_t between = first ? 0 : frame.number - last->second - 1;
+    last->second = frame.number;
+    if (source_.live() && between > 0) gaps_ += between;
     const std::int64_t before = result_.missing;
     result_.missing = std::max<std::int64_t>(0, gaps_ - result_.skipped);
     if (result_.missing <= before) return;
@@ -129,8 +133,9 @@ class Copy {
   std::ostream& report_;
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
-  std::int64_t start_us_ = 0, shown_us_ = 0, last_number_ = 0, gaps_ = 0;
-  bool line_open_ = false, seen_ = false, losing_ = false;
+  std::int64_t start_us_ = 0, shown_us_ = 0, gaps_ = 0;
+  std::map<std::string, std::int64_t> last_numbers_;  // by sensor
+  bool line_open_ = false, losing_ = false;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <string>
 
 #include "app/frame_writer.h"
 #include "core/clock.h"
@@ -26,7 +27,8 @@ struct CopyResult {
   std::int64_t skipped = 0;  ///< unreadable at the source
   std::int64_t missing = 0;  ///< numbered by a live source but never delivered: lost on the way or dropped at the door
   std::int64_t dropped = 0;  ///< of those: dropped here, because frames came faster than they could be written
-  std::int64_t lost = 0;     ///< delivered but not written: the disk was full
+  std::int64_t lost = 0;     ///< delivered but not written
+  std::string lost_why;      ///< the last of them
   std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
   bool stopped = false;        ///< by `stop`
 };

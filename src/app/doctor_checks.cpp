@@ -63,17 +63,16 @@ Finding judge(const UsbSensor& sensor) {
 
 }  // namespace
 
-std::vector<Finding> examine(const std::string& lcm_url) {
-  std::vector<Finding> findings{check_processor()};
-  for (Finding& finding : check_files()) findings.push_back(std::move(finding));
-  for (const Handedness side : {Handedness::right, Handedness::left}) findings.push_back(check_mesh(side));
-  findings.push_back(check_multicast_route());
-  findings.push_back(check_receive_buffer(lcm_url));
-  findings.push_back(check_lcm(lcm_url));
-  findings.push_back(check_graphics());
-  for (Finding& finding : check_openni()) findings.push_back(std::move(finding));
-  for (Finding& finding : check_usb()) findings.push_back(std::move(finding));
-  return findings;
+void examine(const std::string& lcm_url, const std::function<void(const Finding&)>& report) {
+  report(check_processor());
+  for (const Finding& finding : check_files()) report(finding);
+  for (const Handedness side : {Handedness::right, Handedness::left}) report(check_mesh(side));
+  report(check_multicast_route(lcm_url));
+  report(check_receive_buffer(lcm_url));
+  report(check_lcm(lcm_url));
+  report(check_graphics());
+  for (const Finding& finding : check_openni()) report(finding);
+  for (const Finding& finding : check_usb()) report(finding);
 }
 
 Finding check_processor() {
@@ -106,7 +105,8 @@ Finding check_receive_buffer(const std::string& lcm_url, const std::string& rmem
   return {Level::ok, subject, std::to_string(bytes) + " bytes for a UDP socket", ""};
 }
 
-Finding check_multicast_route(const std::string& route_file) {
+Finding check_multicast_route(const std::string& lcm_url, const std::string& route_file) {
+  if (!LcmBus::is_network(lcm_url)) return {Level::ok, "multicast route", "not needed for " + lcm_url, ""};
   std::ifstream routes(route_file);
   std::string line;
   std::getline(routes, line);  // column names

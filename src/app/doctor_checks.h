@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct Finding {
   std::string remedy;  ///< "": nothing to do
 };
 
-/// All checks, in the order in which to mend what they find.
-std::vector<Finding> examine(const std::string& lcm_url);
+/// All checks, in the order in which to mend what they find; `report` gets each finding as it is made.
+void examine(const std::string& lcm_url, const std::function<void(const Finding&)>& report);
 
 Finding check_processor();
 std::vector<Finding> check_files();
@@ -29,7 +30,7 @@ std::vector<Finding> check_files();
 Finding check_receive_buffer(const std::string& lcm_url,
                              const std::string& rmem_max_file = "/proc/sys/net/core/rmem_max");
 /// Routes as in /proc/net/route.
-Finding check_multicast_route(const std::string& route_file = "/proc/net/route");
+Finding check_multicast_route(const std::string& lcm_url, const std::string& route_file = "/proc/net/route");
 /// Sends messages of a frame's size to itself.
 Finding check_lcm(const std::string& lcm_url);
 /// What the samples could be compared on besides the CPU (observer in the configuration).

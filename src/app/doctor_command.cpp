@@ -26,11 +26,12 @@ const char* label(Finding::Level level) {
 
 int run_doctor(const std::string& lcm_url) {
   int problems = 0;
-  for (const Finding& finding : examine(lcm_url)) {
+  examine(lcm_url, [&](const Finding& finding) {
     std::cout << label(finding.level) << finding.subject << ": " << finding.text << "\n";
     if (!finding.remedy.empty()) std::cout << "         -> " << finding.remedy << "\n";
+    std::cout << std::flush;  // the next check may take seconds
     problems += finding.level == Finding::Level::problem;
-  }
+  });
   std::cout << (problems == 0 ? "Ready to track.\n" : "Not ready: see the lines marked PROBLEM.\n");
   return problems == 0 ? kExitOk : kExitFailure;
 }

@@ -29,6 +29,14 @@ Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, doubl
   return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every));
 }
 
+Result<std::unique_ptr<Sink>> SaveHandSink::create(const std::string& path,
+                                                   const std::vector<std::shared_ptr<const HandProfile>>& profiles) {
+  for (std::size_t k = 0; k < profiles.size(); ++k)
+    if (auto possible = check_profile_path(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness)); !possible)
+      return tl::unexpected(possible.error());
+  return std::unique_ptr<Sink>(new SaveHandSink(path));
+}
+
 Result<void> SaveHandSink::consume(const TrackedFrame& tracked) {
   profiles_.resize(tracked.estimates.size());
   for (std::size_t k = 0; k < profiles_.size(); ++k)

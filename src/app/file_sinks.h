@@ -45,12 +45,15 @@ class OverlaySink : public Sink {
 /// --save-hand: the hands that were tracked with in the end, as fitted to the person.
 class SaveHandSink : public Sink {
  public:
-  explicit SaveHandSink(std::string path) : path_(std::move(path)) {}
+  static Result<std::unique_ptr<Sink>> create(const std::string& path,
+                                              const std::vector<std::shared_ptr<const HandProfile>>& profiles);
   std::string name() const override { return "hand profile"; }
   Result<void> consume(const TrackedFrame& tracked) override;
   Result<void> finish() override;
 
  private:
+  explicit SaveHandSink(std::string path) : path_(std::move(path)) {}
+
   const std::string path_;
   std::vector<std::shared_ptr<const HandProfile>> profiles_;  // null: of a hand that was not tracked
 };

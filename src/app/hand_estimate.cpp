@@ -8,7 +8,6 @@ namespace barehand {
 namespace {
 
 constexpr double kMicro = 1e-6;
-constexpr double kRotationGrowth = 10;  // [rad/m]: a segment is about 0.1 m long at most
 
 // That both ends of the segment are near the truth; the less certain one decides.
 double confidence(const HandProfile& profile, const SegmentState& state, int segment) {
@@ -33,7 +32,7 @@ HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const 
     fill_segments(*out, *fit);
     last_tracked_ = out;
   } else if (last_tracked_ && (out->status == TrackStatus::holding || out->status == TrackStatus::lost)) {
-    fill_held(*out, std::abs(out->utime - last_tracked_->utime) * kMicro);
+    fill_held(*out);
   }
   return out;
 }
@@ -61,17 +60,14 @@ void HandTracker::fill_segments(HandEstimate& out, const Fit& fit) {
   }
 }
 
-void HandTracker::fill_held(HandEstimate& out, double held_s) const {
+// As it was tracked last; how its uncertainty grows from then on is said where it is published (PoseHold).
+void HandTracker::fill_held(HandEstimate& out) const {
   out.segments = last_tracked_->segments;
   out.score = last_tracked_->score;
-  Vector6d growth = Vector6d::Constant(params_.hold_growth * std::max(0.0, held_s));
-  growth.tail<3>() *= kRotationGrowth;
   for (SegmentState& state : out.segments) {
     state.velocity.setZero();
-    state.covariance.diagonal() += growth.cwiseAbs2();
     state.seen = false;
     state.visible = 0;
-    state.confidence *= std::exp(-4 * held_s);
   }
 }
 

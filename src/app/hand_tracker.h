@@ -101,7 +101,7 @@ class HandTracker {
   void use_scan();
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_segments(HandEstimate& out, const Fit& fit);
-  void fill_held(HandEstimate& out, double held_s) const;
+  void fill_held(HandEstimate& out) const;
   double interval_factor(double dt) const;
   double raw_gap(const HandPose& pose) const;
 

@@ -76,7 +76,7 @@ int listen(const ListenOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (listener.broken()) std::cerr << "barehand listen: the LCM connection broke\n";
-  return listener.broken() ? kExitFailure : stop ? kExitInterrupted : kExitOk;
+  return listener.broken() ? kExitFailure : interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk;
 }
 
 }  // namespace

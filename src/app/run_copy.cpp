@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <iostream>
 
@@ -13,7 +14,7 @@
 namespace barehand {
 namespace {
 
-FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock) {
+FrameWriterOptions writer_options(const CopyRequest& request, double fps, const Clock& clock) {
   FrameWriterOptions options;
   options.encoding.depth = request.depth == "raw"    ? DepthEncoding::raw16
                            : request.depth == "zlib" ? DepthEncoding::zlib
@@ -24,6 +25,7 @@ FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock
                                                        : ColourEncoding::png;
   options.encoding.jpeg_quality = request.jpeg_quality;
   options.channel = request.out_channel;
+  options.fps = fps / std::abs(static_cast<double>(request.source.step));
   options.overwrite = request.overwrite;
   options.clock = &clock;
   if (request.max_size > 0 || request.max_age > 0 || request.quota > 0)
@@ -33,19 +35,20 @@ FrameWriterOptions writer_options(const CopyRequest& request, const Clock& clock
   return options;
 }
 
-int exit_code_of(const CopyResult& result, int signal) {
+int exit_code_of(const CopyResult& result, bool live, int signal) {
   if (result.error) return kExitFailure;
-  if (result.stopped) return signal == SIGINT ? kExitInterrupted : kExitOk;
+  if (result.stopped) return signal == SIGINT || !live ? kExitInterrupted : kExitOk;
   return result.lost > 0 ? kExitFailure : kExitOk;
 }
 
 std::string counts(const CopyResult& result, const std::string& place) {
-  const auto part = [](std::int64_t count, const char* what) {
+  const auto part = [](std::int64_t count, const std::string& what) {
     return count > 0 ? ", " + std::to_string(count) + what : std::string();
   };
   return std::to_string(result.written) + " frames written to " + place +
          part(result.skipped, " unreadable ones skipped") + part(result.missing - result.dropped, " never arrived") +
-         part(result.dropped, " came faster than they could be written") + part(result.lost, " lost: no room");
+         part(result.dropped, " came faster than they could be written") +
+         part(result.lost, " lost: " + result.lost_why);
 }
 
 /// Tells systemd, where it listens, that the copy moves and how far it is.
@@ -94,7 +97,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   }
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
-  auto writer = open_frame_writer(request.out, writer_options(request, clock));
+  auto writer = open_frame_writer(request.out, writer_options(request, source->fps, clock));
   if (!writer) return refuse(writer.error());
 
   CopyOptions options;
@@ -108,7 +111,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   const CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");
-  return exit_code_of(result, interrupt.signal());
+  return exit_code_of(result, source->source->live(), interrupt.signal());
 }
 
 }  // namespace barehand

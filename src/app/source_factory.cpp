@@ -27,7 +27,7 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
-  if (const double fps = (*source)->recording().fps; fps > 0) open.fps = fps;
+  open.fps = (*source)->recording().fps;
   open.source = std::move(*source);
   return open;
 }

@@ -37,7 +37,7 @@ struct SourceHand {
 struct OpenSource {
   std::unique_ptr<FrameSource> source;
   std::vector<SourceHand> hands;       ///< the very hands that are seen, the first one first; empty: not known
-  double fps = 30;                     ///< nominal rate at which frames come
+  double fps = 0;                      ///< nominal rate at which frames come; 0: not known
   std::optional<std::int64_t> frames;  ///< how many will come, where that is known
   std::optional<std::string> warning;  ///< what the user should know of a source that opened all the same
 };

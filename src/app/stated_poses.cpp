@@ -1,6 +1,7 @@
 #include "app/stated_poses.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "barehand/hand_state_t.hpp"
 #include "drivers/lcm/layouts.h"
@@ -46,13 +47,22 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
   auto log = LcmLogReader::open(log_path);
   if (!log) return tl::unexpected(log.error());
   StatedPoses poses;
+  std::optional<std::int8_t> side;
   for (const LogEntry& entry : log->entries()) {
     if (entry.hash != hand_state_t::getHash()) continue;
     const auto bytes = log->read(entry);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto state = decode_message<hand_state_t>(*bytes);
     if (!state || !state->has_pose) continue;
-    auto& segments = poses[state->frame_number];
+    if (state->handedness != side.value_or(state->handedness))
+      return fail("holds the states of two hands, and a truth is one hand's", log_path,
+                  "track the hand alone: --hand right or --hand left");
+    side = state->handedness;
+    const auto [frame, is_new] = poses.try_emplace(state->frame_number);
+    if (!is_new)
+      return fail("frame " + std::to_string(state->frame_number) + " comes twice", log_path,
+                  "give the log of a single run on a single recording");
+    auto& segments = frame->second;
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))
       return fail("frame " + std::to_string(state->frame_number) + " has a pose without sensible numbers", log_path,

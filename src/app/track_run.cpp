@@ -27,6 +27,7 @@
 #include "core/available_memory.h"
 #include "core/parallel.h"
 #include "io/pose_json.h"
+#include "stages/publish/publisher.h"
 
 namespace barehand {
 namespace {
@@ -35,6 +36,8 @@ using Step = tl::expected<void, TrackFailure>;
 
 tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
 tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
+
+constexpr double kUsualRate = 30;  // Hz, of a film of frames whose rate is not known
 
 /// One run, put together step by step: all input is checked before the first output file is touched.
 class TrackRun {
@@ -93,6 +96,7 @@ Step TrackRun::prepare() {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
+  if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   if (const auto possible = check_given(config_.foreign_camera); !possible) return usage(possible.error());
   return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
@@ -148,13 +152,14 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.states_log.empty())
     ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
   if (ok && !options_.overlay.empty())
-    ok = add(OverlaySink::create(options_.overlay, input_.fps / std::abs(static_cast<double>(options_.step)),
-                                 options_.overlay_every));
+    ok = add(OverlaySink::create(
+        options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
+        options_.overlay_every));
+  if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (!ok) return ok;
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
         service_, [this] { return pipeline_->pulse(); }, [this] { return pipeline_->health(); }, clock_));
-  if (!options_.save_hand.empty()) sinks_.push_back(std::make_unique<SaveHandSink>(options_.save_hand));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),

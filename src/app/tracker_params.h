@@ -36,7 +36,6 @@ struct TrackerParams {
   int doubt_every = 12;
   int doubt_near_every = 2;
   int doubt_iterations = 6;
-  double hold_growth = 0.1;
   SegmentTrackerParams segment_tracker;
   FusionParams fusion;
   RefinementParams refinement;
@@ -80,7 +79,6 @@ void visit(V& v, TrackerParams& p) {
   v("doubt_near_every", p.doubt_near_every, 1, 100000,
     "of so many doubtful frames one is searched near the followed pose, if not anew");
   v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
-  v("hold_growth", p.hold_growth, 0.0, 100.0, "m/s and rad/s (times 10), growth of a held hand's deviation");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
   v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");
   v("refinement", p.refinement, "continuous refinement of the best hypothesis");

@@ -1,6 +1,11 @@
 #include "io/hand_json.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -234,6 +239,14 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   return profile;
 }
 
+// Where a profile is written before it takes the place of `path`. Into a device it goes at once.
+std::string draft_of(const std::string& path) {
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  const bool replaced = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
+  return replaced ? path + ".new" : path;
+}
+
 }  // namespace
 
 Result<HandProfile> load_profile(const std::string& path) {
@@ -248,13 +261,28 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
   return profile_from(*json, where);
 }
 
+Result<void> check_profile_path(const std::string& path) {
+  const std::string draft = draft_of(path);
+  if (!std::ofstream(draft, std::ios::app))
+    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
+                "check the folder and its permissions");
+  if (draft != path) std::remove(draft.c_str());
+  return {};
+}
+
 Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   Json json = {{"handedness", to_string(profile.handedness)}, {"segments", Json::array()}};
   if (profile.origin == ProfileOrigin::mean) json["mean_hand"] = true;
   if (profile.origin == ProfileOrigin::fitted) json["mean_hand"] = "fitted";
   for (int s = 0; s < kSegmentCount; ++s) json["segments"].push_back(to_json(profile.segments[s], s));
   if (profile.scanned_skin) json["skin"] = skin_to_json(*profile.scanned_skin);
-  return json_fields::write_json(path, json);
+  const std::string draft = draft_of(path);
+  auto written = json_fields::write_json(draft, json);
+  if (draft == path) return written;
+  if (written && std::rename(draft.c_str(), path.c_str()) != 0)
+    written = fail(std::string("cannot be written: ") + std::strerror(errno), path);
+  if (!written) std::remove(draft.c_str());
+  return written;
 }
 
 }  // namespace barehand

@@ -12,7 +12,9 @@ namespace barehand {
 Result<HandProfile> load_profile(const std::string& path);
 /// The same from the text of such a file; `where` stands for its name in messages.
 Result<HandProfile> parse_profile(const std::string& text, const std::string& where);
-/// Writes what load_profile reads, to 1e-9 m.
+/// Whether `path` can be written, to be known before there is something to save.
+Result<void> check_profile_path(const std::string& path);
+/// Writes what load_profile reads, to 1e-9 m. A profile that is there already stays until the new one is whole.
 Result<void> save_profile(const HandProfile& profile, const std::string& path);
 
 }  // namespace barehand

@@ -10,7 +10,9 @@ SegmentState held(SegmentState state, double seconds, const PublishParams& param
   state.covariance.diagonal().head<3>().array() += position * position;
   state.covariance.diagonal().tail<3>().array() += rotation * rotation;
   state.confidence *= 1 - seconds / params.hold_time;
+  state.velocity.setZero();
   state.seen = false;
+  state.visible = 0;
   return state;
 }
 
@@ -34,12 +36,7 @@ PublishedTrack PoseHold::update(const HandEstimate& estimate, const PublishParam
   if (seconds >= params.hold_time) return track;
   track = *last_;
   track.status = TrackStatus::holding;
-  // A tracker that holds by itself may move the pose on; one that says lost has none.
-  if (estimate.status == TrackStatus::holding) track.segments = estimate.segments;
-  for (SegmentState& segment : track.segments) {
-    segment = held(segment, seconds, params);
-    if (estimate.status == TrackStatus::lost) segment.velocity.setZero();
-  }
+  for (SegmentState& segment : track.segments) segment = held(segment, seconds, params);
   return track;
 }
 

@@ -6,6 +6,7 @@
 #include "app/bench_report.h"
 #include "app/bench_sweep.h"
 #include "io/json_fields.h"
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {
@@ -108,24 +109,23 @@ BenchReport small_report() {
 }
 
 TEST(BenchReport, WritesFiguresInMillisecondsAndDrawsThem) {
-  const std::string folder = ::testing::TempDir() + "bench_report";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  ASSERT_TRUE(write_bench_json(small_report(), folder + "/bench.json").has_value());
-  const auto json = json_fields::read_json(folder + "/bench.json");
+  const test::TempFolder folder;
+  ASSERT_TRUE(write_bench_json(small_report(), folder / "bench.json").has_value());
+  const auto json = json_fields::read_json(folder / "bench.json");
   ASSERT_TRUE(json.has_value()) << json.error().message();
   EXPECT_EQ(json->at("cases")[0].at("stages_ms").at("track").at("p99"), 10);
   EXPECT_EQ(json->at("cases")[1].at("cpu_ms_per_frame"), 11);
-  const auto drawn = draw_bench(folder + "/bench.json", folder + "/plots");
+  const auto drawn = draw_bench(folder / "bench.json", folder / "plots");
   ASSERT_TRUE(drawn.has_value()) << drawn.error().message();
   for (const char* name : {"stages.png", "memory.png", "samples.png"})
-    EXPECT_TRUE(std::filesystem::exists(folder + "/plots/" + name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder / "plots/" + name)) << name;
 }
 
 TEST(BenchReport, WillNotDrawSomethingElse) {
-  const std::string path = ::testing::TempDir() + "no_bench.json";
+  const test::TempFolder folder;
+  const std::string path = folder / "no_bench.json";
   ASSERT_TRUE(json_fields::write_json(path, {{"cases", {{{"a", 1}}}}}).has_value());
-  const auto drawn = draw_bench(path, ::testing::TempDir() + "no_plots");
+  const auto drawn = draw_bench(path, folder / "no_plots");
   ASSERT_FALSE(drawn.has_value());
   EXPECT_THAT(drawn.error().message(), HasSubstr("no report of barehand bench"));
 }

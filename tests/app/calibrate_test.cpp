@@ -88,7 +88,8 @@ TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
   for (const auto& [option, value, reason] :
        {std::tuple("--hand", std::string("both"), "is not one hand"),
         {"--hand", folder_ / "nobody.json", "nobody.json"},
-        {"--out", folder_ / "nowhere/mine.json", "is no folder"},
+        {"--out", folder_ / "nowhere/mine.json", "No such file or directory"},
+        {"--out", folder_.path(), "Is a directory"},
         {"--out", folder_ / (std::string(300, 'x') + "/mine.json"), "name too long"}}) {
     auto arguments = calibrate("sim:scan");
     if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);

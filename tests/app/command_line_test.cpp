@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
 #include <regex>
+#include <sstream>
 
 #include "barehand_program.h"
 #include "quick_config.h"
@@ -12,12 +12,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string write_file(const std::string& name, const std::string& text) {
-  const std::string path = ::testing::TempDir() + name;
-  std::ofstream(path) << text;
-  return path;
-}
 
 std::string shipped_config() { return test::read_text(BAREHAND_CONFIGS "/default.yaml"); }
 
@@ -35,6 +29,17 @@ TEST(CommandLine, HelpAndVersionSucceed) {
   }
 }
 
+TEST(CommandLine, TheManPageHasEveryCommand) {
+  const std::string page = test::read_text(BAREHAND_CONFIGS "/../deploy/debian/barehand.1");
+  std::istringstream help(barehand({"--help"}).output);
+  std::string line;
+  while (std::getline(help, line) && line != "Subcommands:") continue;
+  int commands = 0;
+  for (std::string name; std::getline(help, line) && std::istringstream(line) >> name; ++commands)
+    EXPECT_THAT(page, HasSubstr("\n.B " + name + "\n"));
+  EXPECT_GT(commands, 5);
+}
+
 TEST(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(barehand({}).exit_code, 2);
   EXPECT_EQ(barehand({"juggle"}).exit_code, 2);
@@ -45,12 +50,13 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
 }
 
 TEST(Bench, MeasuresAndWritesFigures) {
-  const std::string json = ::testing::TempDir() + "bench_smoke.json";
+  const test::TempFolder folder;
+  const std::string json = folder / "bench.json";
   const Outcome outcome = barehand({"bench", "--source", "sim:fist,width=160,height=120", "--store", "3", "--frames",
-                                    "3", "--warm-up", "1", "--json", json});
+                                    "3", "--warm-up", "1", "--hand", "both", "--json", json});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("frames/s"), HasSubstr("capture to publish")));
-  EXPECT_TRUE(std::ifstream(json).good());
+  EXPECT_THAT(test::read_text(json), HasSubstr("\"hands\": 2"));
   EXPECT_EQ(
       barehand({"bench", "--threads", "0", "--source", "sim:fist,width=160,height=120", "--store", "1"}).exit_code, 2);
 }
@@ -95,7 +101,9 @@ TEST(Track, RefusesMoreSamplesThanMemoryHolds) {
   GTEST_SKIP() << "the sanitizers do not start under ulimit -v";
 #endif
   const std::string text = std::regex_replace(shipped_config(), std::regex(" samples: [0-9]+"), " samples: 9000");
-  const std::string path = write_file("many_samples.yaml", text);
+  const test::TempFolder folder;
+  const std::string path = folder / "many_samples.yaml";
+  test::write_text(path, text);
   ChildProcess child(
       {"bash", "-c", "ulimit -v 2000000; exec " BAREHAND_PROGRAM " track --source lcm --config " + path});
   EXPECT_EQ(child.finish(), 2);
@@ -109,7 +117,9 @@ TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
   ASSERT_NE(at, std::string::npos);
   const auto line = 2 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   text.replace(at, 13, "\n  min_dpeth:");
-  const std::string path = write_file("misspelled.yaml", text);
+  const test::TempFolder folder;
+  const std::string path = folder / "misspelled.yaml";
+  test::write_text(path, text);
   const Outcome outcome = barehand({"track", "--source", "lcm", "--config", path});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr(path + ":" + std::to_string(line) +
@@ -118,11 +128,23 @@ TEST(Track, StopsAtAMisspelledKeyWithFileLineAndSuggestion) {
   EXPECT_THAT(outcome.output, HasSubstr("key 'preprocess.min_depth' is missing"));
 }
 
+TEST(Track, StopsAtAChannelPrefixThatLcmDoesNotTake) {
+  const test::TempFolder folder;
+  const std::string path = folder / "long_prefix.yaml";
+  test::write_text(path, test::replaced(shipped_config(), "channel_prefix: \"\"",
+                                        "channel_prefix: \"" + std::string(60, 'X') + "\""));
+  const Outcome outcome = barehand({"track", "--source", "lcm", "--lcm-url", "memq://", "--config", path});
+  EXPECT_EQ(outcome.exit_code, 2) << "systemd would start it again for ever";
+  EXPECT_THAT(outcome.output, HasSubstr("the channel prefix is too long"));
+}
+
 TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);
   EXPECT_THAT(printed.output, HasSubstr("\n  seed: 42\n"));
-  const std::string path = write_file("printed.yaml", printed.output);
+  const test::TempFolder folder;
+  const std::string path = folder / "printed.yaml";
+  test::write_text(path, printed.output);
   EXPECT_EQ(barehand({"track", "--print-config", "--config", path}).output, printed.output);
 }
 
@@ -217,8 +239,8 @@ TEST(Doctor, IsSatisfiedWithARoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
   ChildProcess child(
       {"unshare", "-rn", "sh", "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_DOCTOR});
-  EXPECT_EQ(child.finish(), 0) << child.output();
-  EXPECT_THAT(child.output(), HasSubstr("Ready to track"));
+  child.finish();  // whatever else is missing here
+  EXPECT_THAT(child.output(), AllOf(HasSubstr("ok      multicast route: through lo"), HasSubstr("ok      LCM: ")));
 }
 
 }  // namespace

@@ -44,6 +44,18 @@ TEST_F(CopyCommands, RecordTakesAnySource) {
   EXPECT_EQ(LcmLogSource::open(folder_ / "a.lcmlog").value()->remaining(), 2);
 }
 
+TEST_F(CopyCommands, AFolderNotesTheRateThatIsKnown) {
+  ASSERT_EQ(
+      barehand({"record", "--source", "sim:fist,fps=20,width=64,height=48", "--frames", "4", "--out", folder_ / "a"})
+          .exit_code,
+      0);
+  EXPECT_EQ(FolderSource::open(folder_ / "a").value()->recording().fps, 20);
+  ASSERT_EQ(barehand({"convert", folder_ / "a", folder_ / "b", "--step", "2"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "b").value()->recording().fps, 10);
+  ASSERT_EQ(barehand({"convert", recording(), folder_ / "c"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "c").value()->recording().fps, 0) << "it is not known";
+}
+
 TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
   const std::string in = recording(), out = folder_ / "a.lcmlog";
   std::ofstream(out) << "precious";
@@ -104,6 +116,23 @@ TEST_F(CopyCommands, ControlCEndsALiveRecording) {
   child.signal(SIGINT);
   EXPECT_EQ(child.finish(), 130);
   EXPECT_THAT(child.output(), HasSubstr("stopped"));
+}
+
+TEST_F(CopyCommands, ARecordingThatIsStoppedIsNotDone) {
+  ChildProcess child({BAREHAND_PROGRAM, "record", "--source", "sim:fist,loop=true,width=160,height=120", "--out",
+                      folder_ / "a.lcmlog"});
+  while (!std::filesystem::exists(folder_ / "a.lcmlog")) std::this_thread::yield();
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 130) << child.output();
+}
+
+TEST_F(CopyCommands, ListenIsLive) {
+  for (const auto& [signal, exit_code] : {std::pair(SIGTERM, 0), std::pair(SIGINT, 130)}) {
+    ChildProcess child({BAREHAND_PROGRAM, "listen", "--lcm-url", "memq://"});
+    ASSERT_TRUE(child.wait_for("listening on")) << child.output();
+    child.signal(signal);
+    EXPECT_EQ(child.finish(), exit_code) << child.output();
+  }
 }
 
 TEST_F(CopyCommands, ListenRefusesAnImpossibleUrl) {

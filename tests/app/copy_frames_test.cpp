@@ -104,6 +104,16 @@ TEST_F(CopyFrames, ASkippedFrameIsNotMissingAsWell) {
   EXPECT_EQ(copy(among, *writer("c.lcmlog")).missing, 2);
 }
 
+TEST_F(CopyFrames, EverySensorOfALiveSourceCountsItsOwnFrames) {
+  const auto of = [](const std::string& sensor, int number) {
+    RgbdFrame frame = test_frame(number);
+    frame.sensor = sensor;
+    return SourceEvent(std::make_shared<const RgbdFrame>(frame));
+  };
+  ListSource live({of("left", 7), of("right", 5000), of("left", 8), of("right", 5002)}, true);
+  EXPECT_EQ(copy(live, *writer("a.lcmlog")).missing, 1);
+}
+
 TEST_F(CopyFrames, AFullDiskEndsTheCopyWithAnError) {
   ListSource source({frame_event(0), frame_event(1), frame_event(2)});
   FullDisk disk(1);
@@ -126,6 +136,7 @@ TEST_F(CopyFrames, ALiveCopyOutlivesAFullDisk) {
   EXPECT_FALSE(result.error);
   EXPECT_EQ(result.written, 2);
   EXPECT_EQ(result.lost, 2);
+  EXPECT_EQ(result.lost_why, "No space left on device");
   EXPECT_EQ(result.missing, 0);
   EXPECT_NE(report_.str().find("1 frames lost so far: No space left"), std::string::npos) << report_.str();
   EXPECT_NE(report_.str().find("writing again; 2 frames were lost"), std::string::npos) << report_.str();

@@ -130,6 +130,24 @@ TEST_F(EvalCommand, RefusesStatesWhoseUncertaintyIsNoNumber) {
   EXPECT_THAT(err_, HasSubstr("frame 0 has a pose without sensible numbers"));
 }
 
+TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
+  for (const auto& [frame, side, complaint] : {std::tuple(1, hand_state_t::LEFT, "holds the states of two hands"),
+                                               {0, hand_state_t::RIGHT, "frame 0 comes twice"}}) {
+    auto log = LcmLogWriter::create(folder_ / "states.lcmlog", true);
+    ASSERT_TRUE(log);
+    hand_state_t state{};
+    state.has_pose = true;
+    state.handedness = hand_state_t::RIGHT;
+    ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), 0));
+    state.frame_number = frame;
+    state.handedness = side;
+    ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), 1));
+    log->reset();
+    EXPECT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog"), 2);
+    EXPECT_THAT(err_, HasSubstr(complaint));
+  }
+}
+
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
   EXPECT_EQ(run("eval --truth %/truth.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("--result or --states"));

@@ -135,7 +135,7 @@ TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
   disk_.beside(child, "cp " + (folder_ / "take.lcmlog") + " " + (outside / "copy.lcmlog"));
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
-  EXPECT_THAT(child.output(), HasSubstr(" lost: no room"));
+  EXPECT_THAT(child.output(), HasSubstr(" lost: cannot write the log: No space left on device"));
   const auto numbers = replay(outside / "copy.lcmlog");
   ASSERT_GT(numbers.size(), 2u);
   EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));

@@ -217,6 +217,9 @@ TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {
                       "/nonexistent/result.csv"});
   EXPECT_EQ(child.finish(), 1);
   EXPECT_THAT(child.output(), HasSubstr("/nonexistent/result.csv"));
+  ChildProcess saving(track({"--save-hand", "/nonexistent/mine.json"}));
+  EXPECT_EQ(saving.finish(), 1);
+  EXPECT_THAT(saving.output(), HasSubstr("/nonexistent/mine.json: cannot be written"));
 }
 
 TEST_F(TrackRun, BadHandAndPoseFilesAreExitCode2) {

@@ -17,7 +17,8 @@ units=/run/config/systemd/user
 cp "$tree/configs/default.yaml" /run/config.yaml
 
 # What is left of the unit says how it starts, is watched, reloaded and started again; the watchdog bites sooner.
-sed -E -e "s#/usr/bin/barehand#$program#" -e 's/^WatchdogSec=.*/WatchdogSec=10/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
+sed -E -e "s#/usr/bin/barehand#$program#" -e 's#^\[Service\]#&\nStandardError=append:/run/service.log#' \
+  -e 's/^WatchdogSec=.*/WatchdogSec=10/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
   -e '/^(Dynamic|Supplementary|State|Working|Device|Capability|Lock|NoNew|Private|Protect|Restrict(A|N|R|S)|System|Memory|Tasks)/d' \
   -e 's/^EnvironmentFile=.*/Environment="BAREHAND_SOURCE=sim:fist,live=true,loop=true,width=160,height=120" "BAREHAND_OPTIONS=--no-publish --config \/run\/config.yaml"/' \
   "$tree/deploy/systemd/barehand.service" >$units/barehand.service
@@ -33,9 +34,10 @@ wait_until() {  # TEXT COMMAND...: for a minute at most
   for _ in $(seq 300); do "$@" && return; sleep 0.2; done
   echo "never happened: $text"
   systemctl --user status barehand.service --no-pager
-  cat $log
+  cat $log /run/service.log
   exit 1
 }
+log_says() { grep -q "$1" /run/service.log; }
 status_says() { systemctl --user show -P StatusText barehand.service | grep -q "$1"; }
 
 wait_until "the manager runs" systemctl --user --quiet is-active basic.target 2>/dev/null
@@ -44,10 +46,11 @@ wait_until "the service is ready" is ActiveState active
 wait_until "the status line tells of frames" status_says published
 
 systemctl --user reload barehand.service
-wait_until "the reload ends" status_says "reloaded\|published"
+wait_until "the configuration is reloaded" log_says "configuration reloaded"
 echo "nonsense: 1" >>/run/config.yaml
 systemctl --user reload barehand.service
-wait_until "it goes on with the old configuration" is ActiveState active
+wait_until "a wrong configuration is refused" log_says "configuration not reloaded"
+wait_until "it goes on with the old one" is ActiveState active
 cp "$tree/configs/default.yaml" /run/config.yaml
 
 sleep 11  # longer than the watchdog's patience: it is fed

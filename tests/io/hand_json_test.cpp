@@ -195,6 +195,15 @@ TEST_F(HandJson, FullDiskIsReported) {
   EXPECT_THAT(saved.error().message(), HasSubstr("/dev/full: cannot be written"));
 }
 
+TEST_F(HandJson, ADiskThatFillsUpKeepsTheProfileBefore) {
+  std::filesystem::create_symlink("/dev/full", path_ + ".new");
+  EXPECT_FALSE(save_profile(scaled(small_hand(), 1.1), path_));
+  const auto kept = load_profile(path_);
+  ASSERT_TRUE(kept) << kept.error().message();
+  EXPECT_NEAR(kept->hand_length(), small_hand().hand_length(), 1e-6);
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".new"));
+}
+
 /// A triangle across the index finger's knuckle.
 HandProfile with_skin(HandProfile hand) {
   const auto palm = static_cast<std::int16_t>(kPalm), finger = static_cast<std::int16_t>(segment_of(1, 0));

@@ -132,6 +132,16 @@ TEST_F(HandMessagesTest, ALostHandIsHeldWithGrowingCovarianceThenHasNoPose) {
   EXPECT_EQ(lost.state.pose_utime, 0);
 }
 
+TEST_F(HandMessagesTest, AHandIsHeldAlikeWhileTheTrackerHoldsItAndWhenItSaysLost) {
+  HandMessageMaker other{{}};
+  maker_.process(estimate(0));
+  other.process(estimate(0));
+  const segment_state_t holding = maker_.process(estimate(3, TrackStatus::holding)).state.segments[7];
+  const segment_state_t lost = other.process(estimate(3, TrackStatus::lost)).state.segments[7];
+  EXPECT_EQ(bytes_of(holding), bytes_of(lost));
+  EXPECT_EQ(holding.visible, 0);
+}
+
 TEST_F(HandMessagesTest, ATrackerThatHoldsForTooLongIsLostToo) {
   maker_.process(estimate(0));
   EXPECT_EQ(maker_.process(estimate(3, TrackStatus::holding)).state.status, hand_state_t::HOLDING);
