@@ -239,10 +239,10 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   return profile;
 }
 
-// Where a profile is written before it takes the place of `path`. Into a device it goes at once.
+// Where a profile is written before it takes the place of `path`. Into a device, and through a link, it goes at once.
 std::string draft_of(const std::string& path) {
   std::error_code error;
-  const auto type = std::filesystem::status(path, error).type();
+  const auto type = std::filesystem::symlink_status(path, error).type();
   const bool replaced = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
   return replaced ? path + ".new" : path;
 }
