@@ -10,6 +10,7 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
   command.add_option("--frames", r.frames, "stop after so many frames")->check(CLI::PositiveNumber);
   command.add_option("--channel", r.source.channel, "glob of the LCM channels to read; default: the one with frames");
+  command.add_option("--config", r.config, "as for track; only the groups openni2 and foreign_camera matter");
   command.add_option("--fx", r.source.foreign.fx,
                      "focal length [px] of kinect and bot_core messages, or instead of an OpenNI2 sensor's own");
   command.add_option("--fy", r.source.foreign.fy, "vertical focal length [px]");
