@@ -13,6 +13,7 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--channel", r.source.channel,
                      "glob of the LCM channels to read; default: live the first of *RGBD_FRAME that brings a frame, in "
                      "a log the only one that has some");
+  command.add_option("--config", r.config, "as for track; only the groups openni2 and foreign_camera matter");
   command.add_option(
       "--fx", r.source.foreign.fx,
       "focal length [px] of kinect and bot_core messages, or instead of an OpenNI2 sensor's own; give all four");

@@ -9,6 +9,7 @@
 #include "app/copy_frames.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/run_inputs.h"
 #include "app/service_manager.h"
 
 namespace barehand {
@@ -86,10 +87,18 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   };
   SourceRequest input = request.source;
   if (const auto possible = check_given(input.foreign); !possible) return refuse(possible.error());
-  input.openni2.fx = input.foreign.fx;
-  input.openni2.fy = input.foreign.fy;
-  input.openni2.cx = input.foreign.cx;
-  input.openni2.cy = input.foreign.cy;
+  if (!request.config.empty()) {
+    const auto config = read_configuration(request.config);
+    if (!config) return refuse(config.error());
+    input.openni2 = config->openni2;
+    if (!input.foreign.given()) input.foreign = config->foreign_camera;
+  }
+  if (const ForeignCamera& given = request.source.foreign; given.given()) {
+    input.openni2.fx = given.fx;
+    input.openni2.fy = given.fy;
+    input.openni2.cx = given.cx;
+    input.openni2.cy = given.cy;
+  }
   auto source = open_source(input, clock);
   if (!source && input.spec == "lcm") {  // the network may come later
     refuse(source.error());

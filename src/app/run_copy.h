@@ -14,6 +14,7 @@ namespace barehand {
 /// What `record` and `convert` have in common: frames from a source into a log or folder.
 struct CopyRequest {
   SourceRequest source;
+  std::string config;  ///< its groups foreign_camera and openni2 hold where `source` gives no intrinsics; "": none
   std::string out;
   std::string colour = "png";  ///< png, jpeg, raw, none
   std::string depth = "rvl";   ///< rvl, zlib, raw

@@ -9,8 +9,12 @@
 #include "app/copy_frames.h"
 #include "barehand_program.h"
 #include "drivers/folder/folder_source.h"
+#include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "io/lcm_log_writer.h"
+#include "quick_config.h"
 #include "support/temp_folder.h"
+#include "tests/lcm/foreign_messages.h"
 #include "tests/lcm/test_frames.h"
 
 namespace barehand {
@@ -62,6 +66,27 @@ TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
   EXPECT_EQ(barehand({"convert", in, out}).exit_code, 2);
   EXPECT_EQ(std::filesystem::file_size(out), 8u);
   EXPECT_EQ(barehand({"convert", in, out, "--overwrite"}).exit_code, 0);
+}
+
+TEST_F(CopyCommands, IntrinsicsComeFromTheConfigurationUnlessTheyAreGiven) {
+  const std::string log = folder_ / "kinect.lcmlog", config = folder_ / "config.yaml";
+  auto writer = LcmLogWriter::create(log, false).value();
+  ASSERT_TRUE(writer->send("KINECT", encode_message(kinect_message(test_frame(0), true)), 1));
+  writer.reset();
+  std::string text = test::read_text(BAREHAND_CONFIGS "/default.yaml");
+  for (const char* key : {"fx", "fy", "cx", "cy"})  // the first of the name: foreign_camera's
+    text = test::replaced(text, std::string("  ") + key + ": 0\n", std::string("  ") + key + ": 3\n");
+  test::write_text(config, text);
+  const auto fx_after = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"convert", log, folder_ / "a.lcmlog", "--overwrite", "--config", config});
+    const Outcome outcome = barehand(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const SourceEvent event = LcmLogSource::open(folder_ / "a.lcmlog").value()->next({});
+    return std::get<FramePtr>(event)->camera.fx;
+  };
+  EXPECT_EQ(fx_after({}), 3);
+  EXPECT_EQ(fx_after({"--fx", "5", "--fy", "5", "--cx", "2", "--cy", "2"}), 5);
+  EXPECT_EQ(barehand({"convert", log, folder_ / "b.lcmlog", "--config", "/nonexistent.yaml"}).exit_code, 2);
 }
 
 TEST_F(CopyCommands, OniFilesAreReadButNotWritten) {
