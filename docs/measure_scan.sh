@@ -6,12 +6,17 @@ set -eu
 barehand=$1 out=$2
 adult=$(dirname "$0")/../configs/hands/adult_right.json
 mkdir -p "$out"
-judge() {  # TITLE FOLDER HAND
-  local log="$out/track.log"
-  "$barehand" track --source "folder:$2" --hand "$3" --no-publish --result "$out/result.csv" >"$log" 2>&1
+"$barehand" track --print-config | sed 's/scans: 3/scans: 0/' >"$out/no_scan.yaml"
+"$barehand" track --print-config | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
+figures() {  # TITLE FOLDER EXTRA...: of the last run
   printf '%-54s' "$1"
-  "$barehand" eval --truth "$2/truth.csv" --result "$out/result.csv" | awk '
+  "$barehand" eval --truth "$2/truth.csv" --result "$out/result.csv" "${@:3}" | awk '
     /lost/ && !lost {lost = $6} $1 == "frame" && $2 + 0 {printf "mean %s, median %s, max %s mm, lost %s\n", $3, $4, $10, lost}'
+}
+judge() {  # TITLE FOLDER HAND EXTRA...
+  "$barehand" track --source "folder:$2" --hand "$3" --no-publish --result "$out/result.csv" "${@:4}" \
+    >"$out/track.log" 2>&1
+  figures "$1" "$2"
 }
 simulated() {  # NAME SEQUENCE OPTIONS...
   local name=$1
@@ -27,9 +32,14 @@ scanned() {  # NAME OPTIONS...: a hand of that name
   "$barehand" calibrate --source "folder:$out/scan_$name" --out "$from_mean" >"$out/calibrate_$name.mean.log" 2>&1
   "$barehand" calibrate --source "folder:$out/scan_$name" --hand "$own" --out "$from_own" \
     >"$out/calibrate_$name.own.log" 2>&1
+  judge "$name: mean hand, not fitted" "$out/fist_$name" "$adult" --config "$out/not_fitted.yaml"
+  judge "$name: mean hand, without the scan" "$out/fist_$name" "$adult" --config "$out/no_scan.yaml"
   judge "$name: mean hand" "$out/fist_$name" "$adult"
+  figures "$name: the same after the first 60 frames" "$out/fist_$name" --start 60
   judge "$name: scanned from the mean hand" "$out/fist_$name" "$from_mean"
+  judge "$name: measured profile, without the scan" "$out/fist_$name" "$own" --config "$out/no_scan.yaml"
   judge "$name: measured profile" "$out/fist_$name" "$own"
+  figures "$name: the same after the first 60 frames" "$out/fist_$name" --start 60
   judge "$name: scanned from the measured profile" "$out/fist_$name" "$from_own"
 }
 scanned as_in_file
