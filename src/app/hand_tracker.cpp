@@ -127,9 +127,11 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
   if (fit && !unconfirmed && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
   const TrackStatus status = loss_.update(evidence);
   unconfirmed_ = unconfirmed && status == TrackStatus::lost;
-  if (status == TrackStatus::tracking && fit) {
+  const bool tracked = status == TrackStatus::tracking && fit;
+  const bool good = tracked && fit->refined.score < loss_.good_threshold(evidence);
+  if (tracked) {
     remember(observation, *fit);
-    if (fit->refined.score < loss_.good_threshold(evidence)) last_good_ = fit->refined.pose;
+    if (good) last_good_ = fit->refined.pose;
   } else if (unconfirmed_) {
     motion_.restart(fit->refined.pose, observation.frame->utime);
   } else if (status == TrackStatus::searching) {
@@ -139,10 +141,8 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
   }
   HandEstimatePtr result = estimate(observation, fit);
   // What is learnt counts from the next frame on: this one was explained with the hand as it was.
-  if (status == TrackStatus::tracking && fit) {
-    if (size_check_) check_size(observation, fit->refined);
-    if (fit->refined.score < loss_.good_threshold(evidence)) learn_person(observation, fit->refined.pose);
-  }
+  if (tracked && size_check_) check_size(observation, fit->refined);
+  if (good) learn_person(observation, fit->refined.pose);
   use_scan();
   return result;
 }

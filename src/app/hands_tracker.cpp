@@ -60,12 +60,9 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
     if (!searched(k, *observations[k])) tracked.push_back(k);
-  workers_.for_each_index(2 * static_cast<int>(tracked.size()), [&](int i) {
-    const int k = tracked[i / 2];
-    if (i % 2 == 0)
-      out[k] = hands_[k]->process(*observations[k]);
-    else if (checks_[k]->on_trial())
-      checks_[k]->track_mirrored(*observations[k]);
+  workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
+    const int k = tracked[i];
+    out[k] = track(k, *observations[k]);
   });
   for (const int k : tracked) judge_trial(k, *out[k]);
   if (tracked.empty())
@@ -76,27 +73,34 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   return out;
 }
 
-/// A hand that was tracked alone may turn out to be the other one, which goes on from there.
+/// The k-th hand, and the mirrored one beside it while it is on trial.
+HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
+  if (!checks_[k]->on_trial()) return hands_[k]->process(observation);
+  HandEstimatePtr estimate;
+  workers_.for_each_index(2, [&](int i) {
+    if (i == 0) estimate = hands_[k]->process(observation);
+    if (i == 1) checks_[k]->track_mirrored(observation);
+  });
+  return estimate;
+}
+
+/// A hand that was tracked alone may turn out to be of the other side; where that is looked for, too, it goes on from
+/// there.
 void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
-  HandTracker& other = *hands_[1 - k];
+  HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileCheck& check = *checks_[k];
-  if (other.status() == TrackStatus::tracking) check.end_trial();
+  if (other && other->status() == TrackStatus::tracking) check.end_trial();
   if (!check.on_trial() || !check.turns_out_other_side(estimate)) return;
   hands_[k]->reset();
-  other.start_at(check.mirrored_pose());
+  if (other) other->start_at(check.mirrored_pose());
 }
 
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileCheck& check = *checks_[0];
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
-    if (!check.on_trial()) return hand.process(observation);
-    HandEstimatePtr estimate;
-    workers_.for_each_index(2, [&](int i) {
-      if (i == 0) estimate = hand.process(observation);
-      if (i == 1) check.track_mirrored(observation);
-    });
-    if (check.turns_out_other_side(*estimate)) hand.reset();
+    HandEstimatePtr estimate = track(0, observation);
+    judge_trial(0, *estimate);
     return estimate;
   }
   const Effort effort = hand.effort();

@@ -34,6 +34,7 @@ class HandsTracker {
  private:
   using Fit = HandTracker::Fit;
   void check_anew();
+  HandEstimatePtr track(int k, const HandObservation& observation);
   void judge_trial(int k, const HandEstimate& estimate);
   HandEstimatePtr process_only(const HandObservation& observation);
   HandObservations by_hand(const HandObservations& observations) const;
