@@ -86,13 +86,13 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     return kExitUsage;
   };
   SourceRequest input = request.source;
-  if (const auto possible = check_given(input.foreign); !possible) return refuse(possible.error());
   if (!request.config.empty()) {
     const auto config = read_configuration(request.config);
     if (!config) return refuse(config.error());
     input.openni2 = config->openni2;
     if (!input.foreign.given()) input.foreign = config->foreign_camera;
   }
+  if (const auto possible = check_given(input.foreign); !possible) return refuse(possible.error());
   if (const ForeignCamera& given = request.source.foreign; given.given()) {
     input.openni2.fx = given.fx;
     input.openni2.fy = given.fy;
