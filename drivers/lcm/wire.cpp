@@ -20,7 +20,6 @@ std::uint64_t WireWalker::big_endian(std::size_t bytes) {
 
 std::int64_t WireWalker::int64() { return static_cast<std::int64_t>(big_endian(8)); }
 std::int32_t WireWalker::int32() { return static_cast<std::int32_t>(big_endian(4)); }
-std::int16_t WireWalker::int16() { return static_cast<std::int16_t>(big_endian(2)); }
 
 void WireWalker::string() {
   const std::int32_t length = int32();

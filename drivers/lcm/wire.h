@@ -20,7 +20,6 @@ class WireWalker {
   void skip(std::int64_t bytes);
   std::int64_t int64();
   std::int32_t int32();
-  std::int16_t int16();
   void string();      ///< length (with the final NUL), characters other than NUL, NUL
   void byte_array();  ///< for `int32_t n; byte data[n];`
   /// For `int32_t n; element data[n];`: n if that many elements of at least `least` bytes each may follow, else 0.

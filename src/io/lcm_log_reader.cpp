@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/message_sink.h"
+#include "io/lcm_log_writer.h"
 
 namespace barehand {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 // Event: sync word, event number, time stamp, length of channel and message (4, 8, 8, 4, 4 bytes, big endian), then
 // both (LCM's log file format).
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
-constexpr std::int64_t kHeader = 28;
 
 class Scanner {
  public:
@@ -54,7 +53,7 @@ class Scanner {
   }
 
   static std::int64_t end_of(const LogEntry& entry) {
-    return entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
+    return entry.position + kEventHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
   }
   /// The file ends at `at` or goes on with a sync word, which may be cut off.
   bool may_follow(std::int64_t at) {
@@ -70,8 +69,8 @@ class Scanner {
   }
 
   std::optional<LogEntry> event_at(std::int64_t at) {
-    std::array<std::uint8_t, kHeader> header{};
-    if (size_ - at < kHeader || !read(at, header.data(), header.size())) return std::nullopt;
+    std::array<std::uint8_t, kEventHeader> header{};
+    if (size_ - at < kEventHeader || !read(at, header.data(), header.size())) return std::nullopt;
     if (!std::equal(kSync.begin(), kSync.end(), header.begin())) return std::nullopt;
     const auto channel_size = static_cast<std::size_t>(big_endian(&header[20], 4));
     LogEntry entry;
@@ -79,9 +78,9 @@ class Scanner {
     entry.timestamp = big_endian(&header[12], 8);
     entry.size = static_cast<std::int32_t>(big_endian(&header[24], 4));
     if (channel_size < 1 || channel_size > kLongestChannel || entry.size < 0) return std::nullopt;
-    if (size_ - at < kHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
+    if (size_ - at < kEventHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
     entry.channel.resize(channel_size);
-    if (!read(at + kHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
+    if (!read(at + kEventHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
     std::array<std::uint8_t, 16> start{};
     const auto known = std::min<std::size_t>(start.size(), static_cast<std::size_t>(entry.size));
     if (std::fread(start.data(), 1, known, file_) != known) return std::nullopt;
@@ -131,7 +130,7 @@ Result<std::vector<std::uint8_t>> LcmLogReader::read(const LogEntry& entry) {
   if (!file_)
     if (const auto opened = open_file(); !opened) return tl::unexpected(opened.error());
   std::vector<std::uint8_t> message(static_cast<std::size_t>(entry.size));
-  const std::int64_t at = entry.position + kHeader + static_cast<std::int64_t>(entry.channel.size());
+  const std::int64_t at = entry.position + kEventHeader + static_cast<std::int64_t>(entry.channel.size());
   const bool whole = fseeko(file_.get(), at, SEEK_SET) == 0 &&
                      std::fread(message.data(), 1, message.size(), file_.get()) == message.size();
   if (!whole) return fail("the log changed while it was read", path_);

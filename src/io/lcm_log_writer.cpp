@@ -42,8 +42,7 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   errno = 0;
   if (log_->writeEvent(&event) != 0 || std::fflush(log_->getFilePtr()) != 0) return cut_back(errno);
   disk_full_ = false;
-  constexpr std::int64_t kHeader = 28;
-  good_ += kHeader + static_cast<std::int64_t>(channel.size() + message.size());
+  good_ += kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
   ++events_;
   return {};
 }

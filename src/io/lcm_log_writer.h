@@ -12,6 +12,9 @@ class LogFile;
 
 namespace barehand {
 
+/// What an event of a log takes besides its channel and its message [bytes].
+inline constexpr std::int64_t kEventHeader = 28;
+
 /// Writes an LCM log. Every event is handed to the operating system before `send` returns, so a crash of the program
 /// loses nothing; when a write fails (disk full) the file is cut back to the last whole event, stays readable, and
 /// later events may succeed.

@@ -61,8 +61,7 @@ void RotatingLog::find_files() {
 }
 
 Result<void> RotatingLog::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
-  constexpr std::int64_t kHeader = 28;
-  const auto bytes = kHeader + static_cast<std::int64_t>(channel.size() + message.size());
+  const auto bytes = kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
   if (log_ && is_full(bytes)) log_.reset();
   while (rotation_.quota > 0 && used() + bytes > rotation_.quota && remove_oldest()) {
   }

@@ -11,8 +11,6 @@ Eigen::Matrix4d SE3::matrix() const {
   return m;
 }
 
-SE3 SE3::from_matrix(const Eigen::Matrix4d& m) { return {m.topLeftCorner<3, 3>(), m.topRightCorner<3, 1>()}; }
-
 Eigen::Matrix3d skew(const Eigen::Vector3d& w) {
   Eigen::Matrix3d m;
   m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;

@@ -18,7 +18,6 @@ struct SE3 {
   SE3 operator*(const SE3& b) const { return {R * b.R, R * b.t + t}; }
   SE3 inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
   Eigen::Matrix4d matrix() const;
-  static SE3 from_matrix(const Eigen::Matrix4d& m);
   bool all_finite() const { return R.allFinite() && t.allFinite(); }
 };
 

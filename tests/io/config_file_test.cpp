@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
+
+#include "support/temp_folder.h"
 
 namespace barehand {
 namespace {
@@ -41,12 +42,12 @@ void visit(V& v, Outer& p) {
 
 class ConfigFile : public ::testing::Test {
  protected:
-  const std::string path_ =
-      ::testing::TempDir() + "config_file_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml";
+  const test::TempFolder folder_;
+  const std::string path_ = folder_ / "config.yaml";
   const std::string good_ = print_config(Outer{});
 
   Result<Outer> load(const std::string& text) {
-    std::ofstream(path_) << text;
+    test::write_text(path_, text);
     return load_config<Outer>(path_);
   }
   /// The complete file with one piece of text replaced.
