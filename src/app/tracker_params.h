@@ -67,8 +67,8 @@ void visit(V& v, TrackerParams& p) {
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
   v("search_attempts", p.search_attempts, 1, 100,
-    "full searches of one frame until one settles it, three agree or eight are alike, while no hand was tracked "
-    "before");
+    "full searches of one frame until one settles it, three agree or, of eight or more, all but one are alike or none "
+    "explains it, while no hand was tracked before");
   v("search_settled", p.search_settled, 0.0, 0.1,
     "m, a found pose with a lower global score ends the searches of a frame");
   v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");

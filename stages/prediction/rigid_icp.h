@@ -24,17 +24,17 @@ struct IcpParams {
 
 template <class V>
 void visit(V& v, IcpParams& p) {
-  v("enabled", p.enabled, "estimate the global motion of the hand by ICP (Sec. 4.4)");
+  v("enabled", p.enabled, "align rigidly by ICP (Sec. 4.4); off: no motion");
   v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
   v("iterations", p.iterations, 1, 200, "per start, at most");
   v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
   v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
   v("point_weight", p.point_weight, 1e-6, 1.0,
     "weight of point-to-point beside point-to-plane in the last iteration; 1 in the first");
-  v("min_points", p.min_points, 3, 1000000, "fewer observed points: the pose is held");
+  v("min_points", p.min_points, 3, 1000000, "fewer observed points: no motion");
   v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of unhidden model points that must match");
-  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion is not believed");
-  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion is not believed");
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion between two frames is not believed");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is not believed");
   v("slack", p.slack, 0.0, 1.0, "m, motion allowed whatever the frame interval (rotation: slack / 0.1 m)");
 }
 
