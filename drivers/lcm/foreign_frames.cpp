@@ -11,19 +11,19 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-Result<FramePtr> make_frame(std::int64_t utime, std::int64_t number, const ForeignCamera& camera,
+Result<FramePtr> make_frame(std::int64_t utime, std::int64_t number, const GivenIntrinsics& camera,
                             Result<Image<std::uint16_t>> depth, Result<Image<Rgb>> colour) {
-  if (!camera.given()) {
+  if (!camera.any()) {
     return fail("this message type carries no intrinsics", "",
                 "set fx, fy, cx and cy of the depth camera in the configuration");
   }
-  if (auto possible = check_given(camera); !possible) return tl::unexpected(possible.error());
+  if (auto possible = check(camera); !possible) return tl::unexpected(possible.error());
   if (!depth) return tl::unexpected(depth.error());
   if (!colour) return tl::unexpected(colour.error());
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = utime;
   frame->number = number;
-  frame->camera = {depth->width(), depth->height(), camera.fx, camera.fy, camera.cx, camera.cy};
+  frame->camera = camera.of_size(depth->width(), depth->height());
   frame->depth_unit = 0.001;
   frame->depth = std::move(*depth);
   frame->colour = std::move(*colour);
@@ -76,13 +76,7 @@ Result<Image<Rgb>> bot_colour(const bot_core::image_t& image, ImageSize size) {
 
 }  // namespace
 
-Result<void> check_given(const ForeignCamera& camera) {
-  const bool whole = camera.fx != 0 && camera.fy != 0 && camera.cx != 0 && camera.cy != 0;
-  if (!camera.given() || (whole && plausible({1, 1, camera.fx, camera.fy, camera.cx, camera.cy}))) return {};
-  return fail("no camera has these intrinsics", "fx, fy, cx, cy", "give all four, focal lengths from 1 to 1e5 px");
-}
-
-Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const ForeignCamera& camera, std::int64_t number) {
+Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera, std::int64_t number) {
   using kinect::depth_msg_t;
   const depth_msg_t& depth = message.depth;
   if (depth.depth_data_format != depth_msg_t::DEPTH_MM && depth.depth_data_format != depth_msg_t::DEPTH_REGISTERED) {
@@ -98,7 +92,7 @@ Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const Foreign
                     kinect_colour(message.image, {depth.width, depth.height}));
 }
 
-Result<FramePtr> decode_images(const bot_core::images_t& message, const ForeignCamera& camera, std::int64_t number) {
+Result<FramePtr> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera, std::int64_t number) {
   using bot_core::images_t;
   const auto find = [&](std::int16_t type) {
     const auto at = std::find(message.image_types.begin(), message.image_types.end(), type);

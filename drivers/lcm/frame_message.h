@@ -14,6 +14,6 @@ bool is_stale(std::int64_t utime, std::int64_t last);
 
 /// The frame in an encoded message of any of the known types. `number` is given to frames of foreign types, whose
 /// messages carry none.
-Result<FramePtr> decode_frame_message(WireBytes message, const ForeignCamera& camera, std::int64_t number);
+Result<FramePtr> decode_frame_message(WireBytes message, const GivenIntrinsics& camera, std::int64_t number);
 
 }  // namespace barehand

@@ -17,7 +17,7 @@ namespace barehand {
 
 struct LcmLiveOptions {
   std::string channel = {};  ///< glob; "": of *RGBD_FRAME the first channel that brings a frame, and no other
-  ForeignCamera foreign = {};
+  GivenIntrinsics foreign = {};
   std::size_t capacity =
       1;  ///< messages that may wait; 1: the newest wins (tracking), more: none is missed (recording)
 };

@@ -17,7 +17,7 @@ struct LcmLogOptions {
   std::optional<std::int64_t> start =
       {};                 ///< position of the first frame, from 0; not given: the first, backwards the last
   std::int64_t step = 1;  ///< every step-th frame; negative plays backwards
-  ForeignCamera foreign = {};
+  GivenIntrinsics foreign = {};
 };
 
 /// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of all .lcmlog files of a

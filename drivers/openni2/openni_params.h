@@ -2,20 +2,18 @@
 
 #include <string>
 
+#include "math/given_intrinsics.h"
+
 namespace barehand {
 
 /// What is wanted of an OpenNI2 sensor, and when to lose patience with it.
 struct OpenNiParams {
   int width = 640, height = 480, fps = 30;
   std::string colour = "registered";
-  double fx = 0, fy = 0, cx = 0, cy = 0;
+  GivenIntrinsics camera;  ///< instead of the sensor's own
   double latency = 0;
   double stall_timeout = 1;
   double reopen_after = 3;
-
-  bool intrinsics_given() const { return fx > 0 && fy > 0 && cx > 0 && cy > 0; }
-  /// Some of them, or such as no camera has.
-  bool intrinsics_half_given() const { return !intrinsics_given() && (fx != 0 || fy != 0 || cx != 0 || cy != 0); }
 };
 template <class V>
 void visit(V& v, OpenNiParams& p) {
@@ -25,11 +23,7 @@ void visit(V& v, OpenNiParams& p) {
   v("colour", p.colour, {"registered", "always", "never"},
     "registered: only if the sensor confirms that colour lies over depth; always: unconfirmed, too; never: depth "
     "alone");
-  v("fx", p.fx, 0.0, 1e5,
-    "px, focal length; fx, fy, cx and cy together replace the sensor's own intrinsics; all 0 = they do not");
-  v("fy", p.fy, 0.0, 1e5, "px, vertical focal length");
-  v("cx", p.cx, 0.0, 1e5, "px, principal point");
-  v("cy", p.cy, 0.0, 1e5, "px, vertical principal point");
+  visit(v, p.camera);
   v("latency", p.latency, 0.0, 1.0, "s from the exposure to the earliest arrival of a frame; nothing tells it");
   v("stall_timeout", p.stall_timeout, 0.1, 60.0,
     "s without depth until a sensor counts as stalled and is opened again");

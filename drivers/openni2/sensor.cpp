@@ -125,8 +125,8 @@ void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const c
 
 Result<void> OpenNiSensor::choose_intrinsics() {
   const int width = depth_mode_.getResolutionX(), height = depth_mode_.getResolutionY();
-  camera_ = {width, height, params_.fx, params_.fy, params_.cx, params_.cy};
-  if (params_.intrinsics_given()) {
+  camera_ = params_.camera.of_size(width, height);
+  if (params_.camera.any()) {
     if (plausible(camera_)) return {};
     return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
   }

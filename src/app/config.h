@@ -2,9 +2,9 @@
 
 #include "app/run_params.h"
 #include "app/tracker_params.h"
-#include "drivers/lcm/foreign_frames.h"
 #include "drivers/openni2/openni_params.h"
 #include "io/config_file.h"
+#include "math/given_intrinsics.h"
 #include "stages/preprocess/params.h"
 #include "stages/publish/publish_params.h"
 
@@ -16,7 +16,7 @@ struct Config {
   PreprocessParams preprocess;
   TrackerParams tracker;
   PublishParams publish;
-  ForeignCamera foreign_camera;
+  GivenIntrinsics foreign_camera;
   OpenNiParams openni2;
 };
 template <class V>
@@ -25,8 +25,9 @@ void visit(V& v, Config& c) {
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("publish", c.publish, "from estimates to LCM messages");
-  v("foreign_camera", c.foreign_camera, "intrinsics for frames of other projects that come without");
-  v("openni2", c.openni2, "what is wanted of an OpenNI2 sensor, and when it is opened again");
+  v("foreign_camera", c.foreign_camera, "for kinect.frame_msg_t and bot_core.images_t, which carry no intrinsics");
+  v("openni2", c.openni2,
+    "what is wanted of an OpenNI2 sensor, and when it is opened again; fx, fy, cx and cy replace its own");
 }
 
 }  // namespace barehand

@@ -90,15 +90,10 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     const auto config = read_configuration(request.config);
     if (!config) return refuse(config.error());
     input.openni2 = config->openni2;
-    if (!input.foreign.given()) input.foreign = config->foreign_camera;
+    if (!input.foreign.any()) input.foreign = config->foreign_camera;
   }
-  if (const auto possible = check_given(input.foreign); !possible) return refuse(possible.error());
-  if (const ForeignCamera& given = request.source.foreign; given.given()) {
-    input.openni2.fx = given.fx;
-    input.openni2.fy = given.fy;
-    input.openni2.cx = given.cx;
-    input.openni2.cy = given.cy;
-  }
+  if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
+  if (request.source.foreign.any()) input.openni2.camera = request.source.foreign;
   auto source = open_source(input, clock);
   if (!source && input.spec == "lcm") {  // the network may come later
     refuse(source.error());

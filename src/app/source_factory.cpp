@@ -63,8 +63,7 @@ Result<OpenSource> open_live(const SourceRequest& request) {
 
 /// An .oni file plays; anything else is (part of) a sensor's address, and the sensor may come later.
 Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
-  if (request.openni2.intrinsics_half_given())
-    return fail("fx, fy, cx and cy go together", request.spec, "give all four, above 0, or none of them");
+  if (const auto possible = check(request.openni2.camera); !possible) return tl::unexpected(possible.error());
   OpenSource open;
   if (!is_oni_file(argument)) {
     open.fps = request.openni2.fps;

@@ -9,9 +9,9 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "drivers/lcm/foreign_frames.h"
 #include "drivers/openni2/openni_params.h"
 #include "hand/profile.h"
+#include "math/given_intrinsics.h"
 #include "math/source.h"
 
 namespace barehand {
@@ -23,7 +23,7 @@ struct SourceRequest {
   std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
   std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
   std::string channel;                ///< glob of LCM channels with frames; "": the driver chooses one
-  ForeignCamera foreign;              ///< intrinsics of frames that come without
+  GivenIntrinsics foreign;            ///< intrinsics of frames that come without
   OpenNiParams openni2;               ///< what is wanted of a sensor
   std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
 };

@@ -98,7 +98,7 @@ Step TrackRun::prepare() {
   workers_ = std::move(*workers);
   if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
-  if (const auto possible = check_given(config_.foreign_camera); !possible) return usage(possible.error());
+  if (const auto possible = check(config_.foreign_camera); !possible) return usage(possible.error());
   return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
     return open_outputs();
   });

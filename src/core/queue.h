@@ -29,7 +29,7 @@ class BoundedQueue {
     assert(capacity > 0);
   }
 
-  /// False, and the item is neither kept nor counted, once the queue is closed or stopped.
+  /// False, and the item is neither kept nor counted, once the queue is closed.
   bool push(T item) {
     std::unique_lock lock(mutex_);
     if (overflow_ == Overflow::block) space_.wait(lock, [&] { return items_.size() < capacity_ || closed_; });
@@ -44,7 +44,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for an item; none once the queue is closed and drained, or stopped.
+  /// Waits for an item; none once the queue is closed and drained.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     item_.wait(lock, [&] { return !items_.empty() || closed_; });
@@ -58,7 +58,7 @@ class BoundedQueue {
     return take();
   }
 
-  /// Closed or stopped, and nothing is left.
+  /// Closed, and nothing is left.
   bool drained() const {
     std::unique_lock lock(mutex_);
     return closed_ && items_.empty();
@@ -74,16 +74,6 @@ class BoundedQueue {
   void close() {
     std::unique_lock lock(mutex_);
     closed_ = true;
-    item_.notify_all();
-    space_.notify_all();
-  }
-
-  /// Closes the queue and abandons what is waiting; it counts as dropped.
-  void stop() {
-    std::unique_lock lock(mutex_);
-    closed_ = true;
-    dropped_ += static_cast<std::int64_t>(items_.size());
-    items_.clear();
     item_.notify_all();
     space_.notify_all();
   }

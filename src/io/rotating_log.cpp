@@ -99,7 +99,7 @@ Result<void> RotatingLog::open_next() {
 bool RotatingLog::remove_oldest() {
   if (files_.size() <= (log_ ? 1u : 0u)) return false;
   std::error_code error;
-  if (fs::remove(files_.front().path, error)) ++removed_;
+  fs::remove(files_.front().path, error);
   files_.pop_front();  // also one that cannot be removed, or is gone: it is not asked for again
   return true;
 }

@@ -31,8 +31,6 @@ class RotatingLog : public MessageSink {
   /// An event that cannot be written is lost; the next one may succeed, in a new file if need be.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
 
-  std::int64_t removed() const { return removed_; }
-
  private:
   struct File {
     std::filesystem::path path;
@@ -51,7 +49,7 @@ class RotatingLog : public MessageSink {
   const Clock& clock_;
   std::deque<File> files_;  ///< by number; the last one is written while `log_` is open
   std::unique_ptr<LcmLogWriter> log_;
-  std::int64_t opened_us_ = 0, removed_ = 0;
+  std::int64_t opened_us_ = 0;
 };
 
 }  // namespace barehand

@@ -70,15 +70,6 @@ TEST(BoundedQueue, PopWithinGivesUpAndDrainedSaysWhenItIsOver) {
   EXPECT_TRUE(queue.drained());
 }
 
-TEST(BoundedQueue, StopAbandonsWhatWaitsAndCountsIt) {
-  BoundedQueue<int> queue("q", 2, Overflow::block);
-  queue.push(7);
-  queue.stop();
-  EXPECT_EQ(queue.pop(), std::nullopt);
-  EXPECT_EQ(queue.health().dropped, 1);
-  EXPECT_TRUE(balanced(queue));
-}
-
 TEST(BoundedQueue, CloseWakesBlockedProducerAndConsumer) {
   BoundedQueue<int> full("full", 1, Overflow::block), empty("empty", 1, Overflow::block);
   full.push(1);

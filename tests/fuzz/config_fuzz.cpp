@@ -12,7 +12,7 @@ namespace {
 struct Groups {
   barehand::RunParams run;
   barehand::PublishParams publish;
-  barehand::ForeignCamera foreign_camera;
+  barehand::GivenIntrinsics foreign_camera;
   barehand::OpenNiParams openni2;
 };
 template <class V>

@@ -10,7 +10,7 @@ namespace barehand::fuzz {
 /// The frame in the input as a message of this type. Its images have the size that it states; its depth can be sent on.
 template <class Message>
 void frame_from(const std::uint8_t* data, std::size_t size) {
-  const ForeignCamera camera{500, 500, 3, 2};
+  const GivenIntrinsics camera{500, 500, 3, 2};
   const auto frame = decode_frame_message(message_of<Message>(data, size), camera, 0);
   if (!frame) return;
   const RgbdFrame& f = **frame;

@@ -14,7 +14,7 @@
 namespace barehand {
 namespace {
 
-constexpr ForeignCamera kCamera{50.5, 51.25, 19.5, 14.5};
+constexpr GivenIntrinsics kCamera{50.5, 51.25, 19.5, 14.5};
 
 /// The test frame as a foreign message carries it: in millimetres, without a sensor name.
 RgbdFrame expected_frame() {
@@ -46,10 +46,9 @@ TEST(Kinect, WithoutIntrinsicsTheErrorSaysWhatToSet) {
 }
 
 TEST(Kinect, IntrinsicsThatNoCameraHasAreErrors) {
-  const auto decoded = [](const ForeignCamera& camera) {
-    EXPECT_EQ(check_given(camera).has_value(),
-              decode_kinect(kinect_message(test_frame(3), true), camera, 0).has_value());
-    return check_given(camera).has_value();
+  const auto decoded = [](const GivenIntrinsics& camera) {
+    EXPECT_EQ(check(camera).has_value(), decode_kinect(kinect_message(test_frame(3), true), camera, 0).has_value());
+    return check(camera).has_value();
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(decoded(kCamera));
@@ -58,7 +57,7 @@ TEST(Kinect, IntrinsicsThatNoCameraHasAreErrors) {
   EXPECT_FALSE(decoded({525, 0, 320, 240}));
   EXPECT_FALSE(decoded({525, 525, nan, 240}));
   EXPECT_FALSE(decoded({1e-300, 525, 320, 240}));
-  EXPECT_TRUE(check_given({})) << "needed by foreign frames alone";
+  EXPECT_TRUE(check({})) << "needed by foreign frames alone";
 }
 
 TEST(Kinect, LyingFieldsAreErrors) {

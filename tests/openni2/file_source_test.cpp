@@ -116,7 +116,7 @@ TEST_F(OniFile, AFileThatTellsNoFieldOfViewNeedsItsIntrinsics) {
   EXPECT_THAT(without.error().message(), HasSubstr("does not tell its field of view"));
   EXPECT_THAT(without.error().remedy, HasSubstr("--fx --fy --cx --cy"));
   OpenNiParams given;
-  given.fx = 150, given.fy = 151, given.cx = 79, given.cy = 61;
+  given.camera = {150, 151, 79, 61};
   const auto with = OpenNiFileSource::open(path_, given);
   EXPECT_TRUE(with.has_value()) << with.error().message();
 }

@@ -108,7 +108,7 @@ TEST(OpenNiLiveSource, NewestFrameWins) {
 
 TEST(OpenNiLiveSource, ConfiguredIntrinsicsReplaceTheSensorsOwn) {
   OpenNiParams params = Stream::sized();
-  params.fx = 150, params.fy = 151, params.cx = 79, params.cy = 61;
+  params.camera = {150, 151, 79, 61};
   Stream stream({}, params);
   const FramePtr frame = stream.reader.frame();
   ASSERT_TRUE(frame);
@@ -117,7 +117,7 @@ TEST(OpenNiLiveSource, ConfiguredIntrinsicsReplaceTheSensorsOwn) {
 
 TEST(OpenNiLiveSource, IntrinsicsThatNoCameraHasAreRefused) {
   OpenNiParams params = Stream::sized();
-  params.fx = 0.5, params.fy = 151, params.cx = 79, params.cy = 61;
+  params.camera = {0.5, 151, 79, 61};
   Stream stream({}, params);
   EXPECT_TRUE(stream.reader.told("virtual/1 cannot have the fx, fy, cx and cy that are given"))
       << stream.reader.notices;
