@@ -54,22 +54,18 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, c
 
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
                                const Seen& seen, double widening) {
-  constexpr double kMemory = 1.5;      // s, in which the difference from the neighbours falls to a third
-  constexpr double kThumbShare = 0.5;  // of what its two joints bend: as in a grasp, which closes all digits at once
+  constexpr double kMemory = 1.5;  // s, in which the difference from the neighbours falls to a third
   const double forgotten = 1 - std::exp(-dt / kMemory);
   const auto limits = widened_limits(profile, widening);
   const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
   const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
-  const int thumb_tip = segment_of(0, 2), thumb_middle = parent_of(thumb_tip);
-  const double with_thumb =
-      seen[thumb_tip] && seen[thumb_middle] ? kThumbShare * (bent(thumb_tip) + bent(thumb_middle)) : 0.0;
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
     if (!hidden_to_its_tip(s, seen)) continue;
     const int parent = parent_of(s);
     result[s] = result[parent] * (now[parent].inverse() * now[s]);
     const double flexion = flexion_of(s);
-    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
+    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(0.0);
     aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
     result[s].R *= joint_rotation({std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi) - flexion, 0, 0});
   }
