@@ -63,7 +63,8 @@ Result<OpenSource> open_live(const SourceRequest& request) {
 
 /// An .oni file plays; anything else is (part of) a sensor's address, and the sensor may come later.
 Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
-  if (const auto possible = check(request.openni2.camera); !possible) return tl::unexpected(possible.error());
+  if (const auto possible = check(request.openni2.camera, request.spec + ", fx, fy, cx, cy"); !possible)
+    return tl::unexpected(possible.error());
   OpenSource open;
   if (!is_oni_file(argument)) {
     open.fps = request.openni2.fps;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/error.h"
 #include "math/camera_limits.h"
 
@@ -21,11 +23,11 @@ void visit(V& v, GivenIntrinsics& p) {
   v("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");
 }
 
-/// Error: one of the four is given without the others, or such as no camera has.
-inline Result<void> check(const GivenIntrinsics& given) {
+/// Error, which names `where`: one of the four is given without the others, or such as no camera has.
+inline Result<void> check(const GivenIntrinsics& given, const std::string& where = "fx, fy, cx, cy") {
   const bool whole = given.fx != 0 && given.fy != 0 && given.cx != 0 && given.cy != 0;
   if (!given.any() || (whole && plausible(given.of_size(1, 1)))) return {};
-  return fail("no camera has these intrinsics", "fx, fy, cx, cy", "give all four, focal lengths from 1 to 1e5 px");
+  return fail("no camera has these intrinsics", where, "give all four, focal lengths from 1 to 1e5 px");
 }
 
 }  // namespace barehand

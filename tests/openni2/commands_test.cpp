@@ -99,6 +99,16 @@ TEST(OpenNiCommands, RefuseHalfOfTheIntrinsics) {
   }
 }
 
+TEST(OpenNiCommands, SayWhoseIntrinsicsOfTheConfigurationAreHalf) {
+  const test::TempFolder folder;
+  std::string text = barehand({"track", "--print-config"}).output;
+  text.replace(text.find("  fx: 0\n", text.find("\nopenni2:")), 8, "  fx: 500\n");
+  test::write_text(folder / "half.yaml", text);
+  const Outcome outcome = barehand({"track", "--source", "openni2", "--config", folder / "half.yaml", "--no-publish"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("openni2, fx, fy, cx, cy: no camera has these intrinsics"));
+}
+
 /// "6 frames in 1.0 s (6.0 frames/s): 5 published, 1 dropped, 0 failed".
 struct Counts {
   long captured = -1, published = 0, dropped = 0, failed = 0;
