@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace barehand {
 namespace {
@@ -11,6 +10,7 @@ using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 
 constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
+constexpr float kStandsOut = 0.005f;    // skin this far out of what it should be behind may go back into it [m]
 
 class Comparer {
  public:
@@ -77,21 +77,29 @@ class Comparer {
     const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
     if (z_data < z_model + tolerance) return;
     ++out_.visible[segment];
-    const std::int32_t nearest = obs_.nearest_hand.at(u, v);
-    if (nearest < 0) return;
-    const Vector3f model = model_point(i, j), hand = out_.rays.point(nearest, obs_.depth);
-    const Vector3f hidden = nearest_hiding_place(u, v, model).value_or(hand);
-    const float to_hand = (hand - model).norm(), to_hidden = (hidden - model).norm();  // Eq. 1
-    add(Kind::outside, i, j, to_hidden < to_hand ? hidden : hand, std::min(to_hidden, to_hand));
+    const std::int32_t hand = obs_.nearest_hand.at(u, v);
+    if (hand < 0) return;
+    // Skin that shows no data would be explained nearest aside, or hidden behind what it hardly stands out of (Eq. 1).
+    const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
+    const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
+    if (back < std::min(kStandsOut, distance_aside))
+      add(Kind::behind, i, j, out_.rays.point(u, v, z_model + back), back);
+    else
+      add(Kind::outside, i, j, aside, distance_aside);
   }
 
-  // Skin that shows no data may as well lie behind an object: where it would be nearest, at its own depth.
-  std::optional<Vector3f> nearest_hiding_place(int u, int v, const Vector3f& model) const {
+  // On the hand's data at the pixel `hand`, or hidden at its own depth, there or behind the nearest object.
+  Vector3f nearest_aside(int u, int v, std::int32_t hand, const Vector3f& model) const {
+    const auto behind = [&](std::int32_t pixel) {
+      const int row = out_.rays.row_of(pixel);
+      return out_.rays.point(pixel - row * obs_.depth.width(), row, model.z());
+    };
+    const bool hand_hides = obs_.depth[hand] < model.z() - static_cast<float>(params_.self_occlusion);
+    const Vector3f at_hand = hand_hides ? behind(hand) : out_.rays.point(hand, obs_.depth);
     const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
-    if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance))
-      return std::nullopt;
-    const int row = out_.rays.row_of(object);
-    return out_.rays.point(object - row * obs_.depth.width(), row, model.z());
+    if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance)) return at_hand;
+    const Vector3f at_object = behind(object);
+    return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
   }
 
   void judge_unexplained(int i, int j, int u, int v) {

@@ -32,7 +32,9 @@ void visit(V& v, ComparisonParams& p) {
 
 /// One piece of evidence: where the model's skin should move to.
 struct Correspondence {
-  enum class Kind { surface, outside, unexplained };
+  /// surface: both are hand; outside: skin that shows no data would be nearest beside where it is; behind: nearest
+  /// just behind what is seen there; unexplained: hand data that no model pixel covers.
+  enum class Kind { surface, outside, behind, unexplained };
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
   Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero where it was left out
@@ -40,7 +42,7 @@ struct Correspondence {
 };
 
 /// Evidence of a whole rendered hand against an observation, in both directions: model explained by data (surface,
-/// outside) and data explained by model (unexplained). Missing depth is no evidence.
+/// outside, behind) and data explained by model (unexplained). Missing depth is no evidence.
 struct ModelComparison {
   std::vector<Correspondence> correspondences;
   double score = 0;  ///< mean capped distance over all evidence [m]; lower is better; the cap if there is none

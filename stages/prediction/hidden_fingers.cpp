@@ -53,19 +53,28 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, c
 }
 
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
-                               const Seen& seen, double widening) {
-  constexpr double kMemory = 1.5;  // s, in which the difference from the neighbours falls to a third
+                               const std::array<double, kSegmentCount>& shown, double seen_fraction, double widening) {
+  constexpr double kMemory = 1.5;      // s, in which the difference from the neighbours falls to a third
+  constexpr double kSliver = 0.3;      // of a finger's segment: so little of it does not tell how a grasp closes
+  constexpr double kThumbShare = 0.5;  // of what its two joints bend
   const double forgotten = 1 - std::exp(-dt / kMemory);
   const auto limits = widened_limits(profile, widening);
   const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
   const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
+  Seen seen;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = shown[s] >= seen_fraction;
+  const int thumb_middle = segment_of(0, 1), thumb_tip = segment_of(0, 2);
+  const bool only_thumb =
+      seen[thumb_middle] && seen[thumb_tip] &&
+      std::all_of(shown.begin() + segment_of(1, 0), shown.end(), [](double x) { return x < kSliver; });
+  const double with_thumb = only_thumb ? kThumbShare * (bent(thumb_middle) + bent(thumb_tip)) : 0;
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
     if (!hidden_to_its_tip(s, seen)) continue;
     const int parent = parent_of(s);
     result[s] = result[parent] * (now[parent].inverse() * now[s]);
     const double flexion = flexion_of(s);
-    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(0.0);
+    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
     aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
     result[s].R *= joint_rotation({std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi) - flexion, 0, 0});
   }

@@ -41,6 +41,7 @@ class DataTerm {
       use(c.normal, along, share * surface_.weight(distance_sq));
       return share * surface_.energy(distance_sq);
     }
+    if (c.kind == Kind::behind) return add_behind(r.z(), share, use);
     return c.kind == Kind::outside ? add_outside(r, share, use) : add_unexplained(r, c.normal, share, use);
   }
 
@@ -52,6 +53,15 @@ class DataTerm {
     if (distance_sq > outside_.gate_sq) return 0;
     const float weight = share * outside_.weight(distance_sq);
     for (int axis = 0; axis < 2; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], weight);
+    return share * outside_.energy(distance_sq);
+  }
+
+  // The skin may be at any depth behind the data.
+  template <class Use>
+  double add_behind(float along, float share, const Use& use) const {
+    const float distance_sq = sq(along);
+    if (distance_sq > outside_.gate_sq) return 0;
+    use(Vector3f(Vector3f::UnitZ()), along, share * outside_.weight(distance_sq));
     return share * outside_.energy(distance_sq);
   }
 

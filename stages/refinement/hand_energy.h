@@ -52,10 +52,10 @@ void visit(V& v, EnergyParams& p) {
 }
 
 /// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
-/// correspondence pulls along the model's normal, model outside the data in the image plane, unexplained data along the
-/// normal and, with the weight `tangential` (0 to 1), along the surface. Gates and scales are `widening` times as wide.
-/// Needs the comparison's normals. Adds to `tree`, and what the residuals say about the shape to `shape`; returns the
-/// robust energy.
+/// correspondence pulls along the model's normal, model outside the data in the image plane, model that should be
+/// behind it along the optical axis, unexplained data along the normal and, with the weight `tangential` (0 to 1),
+/// along the surface. Gates and scales are `widening` times as wide. Needs the comparison's normals. Adds to `tree`,
+/// and what the residuals say about the shape to `shape`; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, double widening, double tangential, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);

@@ -1,5 +1,8 @@
 #include "observe/model_comparison.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "support/painted_hand.h"
 
 namespace barehand {
@@ -100,20 +103,61 @@ class HidingPlaceTest : public CompareTest {
       }
     return compare_at(*observation_, shifted({0.02, 0, 0}));
   }
-  static int pulled_at_own_depth(const ModelComparison& comparison) {
+  int pulled_behind_object(const ModelComparison& comparison) const {
+    const Intrinsics& camera = observation_->frame->camera;
     int count = 0;
-    for (const Correspondence& c : comparison.correspondences)
-      count += c.kind == Correspondence::Kind::outside && c.data.z() == c.model.z() && c.data.x() > c.model.x();
+    for (const Correspondence& c : comparison.correspondences) {
+      const int u = static_cast<int>(std::lround(camera.fx * c.data.x() / c.data.z() + camera.cx)) - observation_->u0;
+      const int v = static_cast<int>(std::lround(camera.fy * c.data.y() / c.data.z() + camera.cy)) - observation_->v0;
+      count += c.kind == Correspondence::Kind::outside && c.data.z() == c.model.z() &&
+               observation_->label.at(u, v) == PixelLabel::object;
+    }
     return count;
   }
 };
 
 TEST_F(HidingPlaceTest, SkinOverBackgroundMayMoveBehindANearerObject) {
-  EXPECT_GT(pulled_at_own_depth(compare_beside_object(0.3f)), 5);
+  EXPECT_GT(pulled_behind_object(compare_beside_object(0.3f)), 5);
 }
 
 TEST_F(HidingPlaceTest, NothingHidesBehindWhatIsFartherAway) {
-  EXPECT_EQ(pulled_at_own_depth(compare_beside_object(0.6f)), 0);
+  EXPECT_EQ(pulled_behind_object(compare_beside_object(0.6f)), 0);
+}
+
+// Skin a little in front of something that is not hand, without data of its own, is nearest to lying behind it: what
+// that costs is how far it stands out, from nothing on.
+TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
+  const auto standing_out = [&](PixelLabel label, float by) {
+    const auto other = std::make_shared<HandObservation>(*observation_);  // fingers that are something else
+    for (int v = 0; v < 100; ++v)
+      for (int u = 0; u < 320; ++u)
+        if (other->label.at(u, v) != PixelLabel::background) other->label.at(u, v) = label;
+    const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
+    ModelComparison comparison = compare_at(*other, shifted({0, 0, -by - tolerance}));
+    std::erase_if(comparison.correspondences,
+                  [](const Correspondence& c) { return c.kind != Correspondence::Kind::behind; });
+    for (const Correspondence& c : comparison.correspondences)
+      EXPECT_LT((c.data.head<2>() / c.data.z() - c.model.head<2>() / c.model.z()).norm(), 1e-5);
+    const auto is_back = [&](const Correspondence& c) { return std::abs(c.data.z() - c.model.z() - by) < 1e-3; };
+    return std::ranges::count_if(comparison.correspondences, is_back);
+  };
+  for (const PixelLabel label : {PixelLabel::object, PixelLabel::background}) {
+    EXPECT_GT(standing_out(label, 0.003f), 50);
+    EXPECT_EQ(standing_out(label, 0.02f), 0) << "far out it goes aside";
+    EXPECT_EQ(standing_out(label, -0.01f), 0) << "hidden";
+  }
+}
+
+// A finger that looks out behind the hand itself is a step aside from being hidden, however deep it lies.
+TEST_F(CompareTest, SkinBesideTheHandMayHideBehindIt) {
+  const auto aside = [&](double deeper) {
+    int count = 0;
+    for (const Correspondence& c : compare_at(*observation_, shifted({0.006, 0, deeper})).correspondences)
+      count += c.kind == Correspondence::Kind::outside && c.data.z() == c.model.z();
+    return count;
+  };
+  EXPECT_GT(aside(params_.self_occlusion + 0.01), 20);
+  EXPECT_LT(aside(0), 3);
 }
 
 TEST_F(CompareTest, ForearmIsNotUnexplained) {

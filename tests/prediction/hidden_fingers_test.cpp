@@ -12,6 +12,7 @@ namespace barehand {
 namespace {
 
 constexpr double kWidening = 10 * kDegree;
+constexpr double kSeen = 0.15;
 constexpr double kAtOnce = 0;  // s, too short to forget anything
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2, kRing = 3, kLittle = 4;
 
@@ -24,6 +25,11 @@ class HiddenFingers : public testing::TestWithParam<Handedness> {
   }
   static void hide(std::array<bool, kSegmentCount>& seen, int finger, int from = 0) {
     for (int k = from; k < 3; ++k) seen[segment_of(finger, k)] = false;
+  }
+  HandPose following(const HandPose& before, const HandPose& now, double dt) const {
+    std::array<double, kSegmentCount> shown;
+    for (int s = 0; s < kSegmentCount; ++s) shown[s] = seen_[s] ? 1.0 : 0.0;
+    return with_hidden_following(profile_, before, now, dt, shown, kSeen, kWidening);
   }
   /// Degrees of flexion of every finger but the thumb, from its root to its tip.
   HandPose bent(double first, double second, double third, double thumb = 0) const {
@@ -74,7 +80,7 @@ TEST_P(HiddenFingers, FollowWhatTheirNeighboursAreSeenToBend) {
   for (const int finger : {kIndex, kLittle}) now = with_finger_of(now, before, finger);  // held where they vanished
   hide(seen_, kLittle);
   hide(seen_, kIndex, 1);
-  const HandPose followed = with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening);
+  const HandPose followed = following(before, now, kAtOnce);
   EXPECT_NEAR(flexion(followed, kLittle, 0), 28, 1e-6);  // the ring finger is next to it
   EXPECT_NEAR(flexion(followed, kLittle, 1), 42, 1e-6);
   EXPECT_NEAR(flexion(followed, kLittle, 2), 16, 1e-6);
@@ -92,14 +98,14 @@ TEST_P(HiddenFingers, BetweenTwoThatAreSeenFollowBoth) {
   HandPose now = with_finger_of(bent(30, 30, 10), bent(26, 30, 10), kLittle);
   now = with_finger_of(now, before, kRing);
   hide(seen_, kRing);
-  EXPECT_NEAR(flexion(with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening), kRing, 0), 28, 1e-6);
+  EXPECT_NEAR(flexion(following(before, now, kAtOnce), kRing, 0), 28, 1e-6);
 }
 
 TEST_P(HiddenFingers, ComeToBeBentLikeTheirNeighbours) {
   HandPose pose = with_finger_of(bent(20, 30, 10), bent(60, 0, 40), kLittle);
   hide(seen_, kLittle);
   const auto wait = [&](double seconds) {
-    for (int i = 0; i < 30; ++i) pose = with_hidden_following(profile_, pose, pose, seconds / 30, seen_, kWidening);
+    for (int i = 0; i < 30; ++i) pose = following(pose, pose, seconds / 30);
   };
   wait(1.5);
   EXPECT_NEAR(flexion(pose, kLittle, 0), 20 + 40 * std::exp(-1), 1e-6);
@@ -114,7 +120,7 @@ TEST_P(HiddenFingers, ComeToBeBentLikeTheirNeighbours) {
 TEST_P(HiddenFingers, StayAsTheyWereWhereNoneIsSeen) {
   HandPose pose = with_finger_of(bent(20, 30, 10), bent(60, 0, 40), kLittle);
   seen_.fill(false);
-  const HandPose later = with_hidden_following(profile_, pose, pose, 60, seen_, kWidening);
+  const HandPose later = following(pose, pose, 60);
   for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(later[s], pose[s]).norm(), 1e-9) << kSegmentNames[s];
 }
 
@@ -127,22 +133,54 @@ TEST_P(HiddenFingers, StayWithinTheirLimits) {
     HandPose further = now;
     for (const int finger : {kIndex, kMiddle, kRing})
       further = with_finger_of(further, bent(20, most - 8 + step, 10), finger);
-    return flexion(with_hidden_following(profile_, before, further, kAtOnce, seen_, kWidening), kLittle, 1);
+    return flexion(following(before, further, kAtOnce), kLittle, 1);
   };
   EXPECT_NEAR(aside(5), most - 3, 1e-6);
   EXPECT_NEAR(aside(20), most, 1e-6);
 }
 
-TEST_P(HiddenFingers, DoNotMoveWithTheThumbNorTheThumbWithThem) {
+TEST_P(HiddenFingers, LeaveTheThumbWhereItIs) {
   const HandPose before = bent(20, 30, 10, 0), now = bent(30, 40, 20, 25);
+  hide(seen_, kThumb);
+  const HandPose followed = following(before, now, kAtOnce);
+  for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(followed[s], now[s]).norm(), 1e-9) << kSegmentNames[s];
+}
+
+TEST_P(HiddenFingers, CloseWithTheThumbWhereNoneIsSeen) {
+  const HandPose before = bent(20, 30, 10, 0), now = bent(20, 30, 10, 10);  // two joints of the thumb, each by 10
+  for (int finger = kIndex; finger < kFingerCount; ++finger) hide(seen_, finger);
+  const HandPose closed = following(before, now, kAtOnce);
+  for (int finger = kIndex; finger < kFingerCount; ++finger) {
+    EXPECT_NEAR(flexion(closed, finger, 0), 30, 1e-6);
+    EXPECT_NEAR(flexion(closed, finger, 1), 40, 1e-6);
+    EXPECT_NEAR(flexion(closed, finger, 2), 15, 1e-6);
+  }
+}
+
+TEST_P(HiddenFingers, DoNotMoveWithTheThumbWhereAFingerOrNoThumbIsSeen) {
+  const HandPose before = bent(20, 30, 10, 0), now = bent(20, 30, 10, 10);
   const auto stays = [&] {
-    const HandPose followed = with_hidden_following(profile_, before, now, kAtOnce, seen_, kWidening);
+    const HandPose followed = following(before, now, kAtOnce);
     for (int s = 1; s < kSegmentCount; ++s) EXPECT_LT(boxminus(followed[s], now[s]).norm(), 1e-9) << kSegmentNames[s];
   };
-  hide(seen_, kThumb);
+  for (int finger = kIndex; finger < kFingerCount; ++finger) hide(seen_, finger);
+  seen_[segment_of(kLittle, 0)] = true;
   stays();
-  for (bool& seen : seen_) seen = !seen;
+  seen_[segment_of(kLittle, 0)] = false;
+  seen_[segment_of(kThumb, 2)] = false;
   stays();
+}
+
+TEST_P(HiddenFingers, CloseWithTheThumbBesideASliverOfAFinger) {
+  const HandPose before = bent(20, 30, 10, 0), now = bent(20, 30, 10, 10);
+  const auto middle_joint = [&](double shown_of_a_knuckle) {
+    std::array<double, kSegmentCount> shown{};
+    for (int k = 0; k < 3; ++k) shown[segment_of(kThumb, k)] = 1;
+    shown[segment_of(kLittle, 0)] = shown_of_a_knuckle;
+    return flexion(with_hidden_following(profile_, before, now, kAtOnce, shown, kSeen, kWidening), kRing, 1);
+  };
+  EXPECT_NEAR(middle_joint(kSeen + 0.05), 40, 1e-6);
+  EXPECT_NEAR(middle_joint(0.5), 30, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothHands, HiddenFingers, testing::Values(Handedness::right, Handedness::left),

@@ -30,7 +30,7 @@ class EnergyTest : public ::testing::Test {
     pose_skin(skin_, pose_, posed);
     for (int i = 0; i < 300; ++i) {
       Correspondence c;
-      c.kind = static_cast<Kind>(i % 3);
+      c.kind = static_cast<Kind>(i % 4);
       c.vertex = static_cast<int>(random.bits() % posed.size());
       c.model = posed[c.vertex];
       c.normal = Eigen::Vector3f(random.normal(), random.normal(), random.normal()).normalized();
