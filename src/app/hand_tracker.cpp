@@ -222,8 +222,8 @@ void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = fit.refined.matched[s] >= params_.seen_fraction;
   HandPose pose = fit.refined.pose;
   if (params_.hidden_follow)
-    pose = with_hidden_following(*model_->profile, motion_.pose(), pose, fit.prediction->dt, fit.refined.matched,
-                                 params_.seen_fraction, params_.initialiser.widening);
+    pose = with_hidden_following(*model_->profile, motion_.pose(), pose, fit.prediction->dt, seen, fit.refined.matched,
+                                 params_.initialiser.widening);
   motion_.update(pose, seen, *fit.prediction);
 }
 

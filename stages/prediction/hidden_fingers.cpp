@@ -53,7 +53,7 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, c
 }
 
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
-                               const std::array<double, kSegmentCount>& shown, double seen_fraction, double widening) {
+                               const Seen& seen, const std::array<double, kSegmentCount>& shown, double widening) {
   constexpr double kMemory = 1.5;      // s, in which the difference from the neighbours falls to a third
   constexpr double kSliver = 0.3;      // of a finger's segment: so little of it does not tell how a grasp closes
   constexpr double kThumbShare = 0.5;  // of what its two joints bend
@@ -61,8 +61,6 @@ HandPose with_hidden_following(const HandProfile& profile, const HandPose& befor
   const auto limits = widened_limits(profile, widening);
   const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
   const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
-  Seen seen;
-  for (int s = 0; s < kSegmentCount; ++s) seen[s] = shown[s] >= seen_fraction;
   const int thumb_middle = segment_of(0, 1), thumb_tip = segment_of(0, 2);
   const bool only_thumb =
       seen[thumb_middle] && seen[thumb_tip] &&

@@ -17,9 +17,10 @@ HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose,
 /// `now` with every finger that is hidden, or hidden from some joint on, bent on there by as much as the nearest ones
 /// that are seen have bent since `before`, `dt` [s] ago, within the profile's limits widened by `widening` [rad]. How
 /// it was bent otherwise is forgotten within seconds: it comes to be bent like them. Where no finger is seen, all bend
-/// with a thumb that is, as a grasp closes all digits at once. The thumb and what is seen stay. `shown` is the fraction
-/// of each segment's skin that data shows; from `seen_fraction` on the segment counts as seen.
+/// with a thumb that is, as a grasp closes all digits at once. The thumb and what is seen stay. `shown`: the fraction
+/// of each segment's skin that data shows.
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
-                               const std::array<double, kSegmentCount>& shown, double seen_fraction, double widening);
+                               const std::array<bool, kSegmentCount>& seen,
+                               const std::array<double, kSegmentCount>& shown, double widening);
 
 }  // namespace barehand

@@ -35,17 +35,28 @@ class DataTerm {
   double add(const Correspondence& c, const SkinVertex& v, const Use& use) const {
     const Vector3f r = c.model - c.data;
     const float share = c.weight * trust(v);
-    if (c.kind == Kind::surface) {
-      const float along = c.normal.dot(r), distance_sq = sq(along);
-      if (distance_sq > surface_.gate_sq) return 0;
-      use(c.normal, along, share * surface_.weight(distance_sq));
-      return share * surface_.energy(distance_sq);
-    }
-    if (c.kind == Kind::behind) return add_behind(r.z(), share, use);
+    if (c.kind == Kind::surface) return add_along(c.normal, r, surface_, share, use);
+    if (c.kind == Kind::behind) return add_along(Vector3f::UnitZ(), r, outside_, share, use);
     return c.kind == Kind::outside ? add_outside(r, share, use) : add_unexplained(r, c.normal, share, use);
   }
 
  private:
+  // Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
+  struct Robust {
+    float scale_sq, gate_sq, information;
+    float weight(float distance_sq) const { return information * sq(scale_sq / (scale_sq + distance_sq)); }
+    float energy(float distance_sq) const { return information * scale_sq * distance_sq / (scale_sq + distance_sq); }
+  };
+
+  template <class Use>
+  static double add_along(const Vector3f& direction, const Vector3f& r, const Robust& robust, float share,
+                          const Use& use) {
+    const float along = direction.dot(r), distance_sq = sq(along);
+    if (distance_sq > robust.gate_sq) return 0;
+    use(direction, along, share * robust.weight(distance_sq));
+    return share * robust.energy(distance_sq);
+  }
+
   // The silhouette says nothing about depth.
   template <class Use>
   double add_outside(const Vector3f& r, float share, const Use& use) const {
@@ -53,15 +64,6 @@ class DataTerm {
     if (distance_sq > outside_.gate_sq) return 0;
     const float weight = share * outside_.weight(distance_sq);
     for (int axis = 0; axis < 2; ++axis) use(Vector3f(Vector3f::Unit(axis)), r[axis], weight);
-    return share * outside_.energy(distance_sq);
-  }
-
-  // The skin may be at any depth behind the data.
-  template <class Use>
-  double add_behind(float along, float share, const Use& use) const {
-    const float distance_sq = sq(along);
-    if (distance_sq > outside_.gate_sq) return 0;
-    use(Vector3f(Vector3f::UnitZ()), along, share * outside_.weight(distance_sq));
     return share * outside_.energy(distance_sq);
   }
 
@@ -79,12 +81,6 @@ class DataTerm {
     return share * unexplained_.energy(distance_sq);
   }
 
-  // Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
-  struct Robust {
-    float scale_sq, gate_sq, information;
-    float weight(float distance_sq) const { return information * sq(scale_sq / (scale_sq + distance_sq)); }
-    float energy(float distance_sq) const { return information * scale_sq * distance_sq / (scale_sq + distance_sq); }
-  };
   float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
   float trust(const SkinVertex& v) const { return (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b); }
   static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }

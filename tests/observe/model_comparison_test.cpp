@@ -107,8 +107,9 @@ class HidingPlaceTest : public CompareTest {
     const Intrinsics& camera = observation_->frame->camera;
     int count = 0;
     for (const Correspondence& c : comparison.correspondences) {
-      const int u = static_cast<int>(std::lround(camera.fx * c.data.x() / c.data.z() + camera.cx)) - observation_->u0;
-      const int v = static_cast<int>(std::lround(camera.fy * c.data.y() / c.data.z() + camera.cy)) - observation_->v0;
+      const Eigen::Vector2d pixel = camera.project(c.data.cast<double>());
+      const int u = static_cast<int>(std::lround(pixel.x())) - observation_->u0;
+      const int v = static_cast<int>(std::lround(pixel.y())) - observation_->v0;
       count += c.kind == Correspondence::Kind::outside && c.data.z() == c.model.z() &&
                observation_->label.at(u, v) == PixelLabel::object;
     }
