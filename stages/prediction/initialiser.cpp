@@ -254,7 +254,7 @@ void Initialiser::align(Trial& trial, const HandObservation& observation, const 
   const HandPose pose = posed(*profile_, trial.scored.articulated);
   VisiblePoints visible;
   const auto model = visible.of(surface_, pose, observation.frame->camera, params_.icp.model_points);
-  const IcpResult icp = align_rigid(model, cloud, SE3{}, 0, params_.icp);
+  const IcpResult icp = align_rigid(model, cloud, SE3{}, motion_bound(params_.icp), params_.icp);
   if (!icp.reliable) return;
   ScoredPose aligned = trial.scored;
   aligned.articulated.T_camera_palm = icp.motion * aligned.articulated.T_camera_palm;

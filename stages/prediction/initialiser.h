@@ -50,7 +50,7 @@ struct InitialiserParams {
   SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200, 0};  ///< for every frame while the hand is lost
   CoarseScoreParams score;
   PoseSearchParams search;
-  IcpParams icp;
+  RegistrationParams icp;
 };
 
 template <class V>

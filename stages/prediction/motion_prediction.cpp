@@ -94,7 +94,7 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   const double ahead = recent && params_.velocity ? result.dt : 0;
   const SE3 last_motion = boxplus(pose_[kPalm], ahead * global_velocity_) * pose_[kPalm].inverse();
   const auto model = visible_points_.of(surface, pose_, observation.frame->camera, icp_params_.model_points);
-  result.icp = align_rigid(model, cloud_, last_motion, result.dt, icp_params_);
+  result.icp = align_rigid(model, cloud_, last_motion, motion_bound(icp_params_, result.dt), icp_params_);
 
   const HandPose carried = moved(last_motion, pose_);
   const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};

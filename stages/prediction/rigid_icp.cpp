@@ -36,7 +36,7 @@ Vector3d centroid_of(std::span<const OrientedPoint> points) {
 /// are nearly independent.
 class Registration {
  public:
-  Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const IcpParams& params)
+  Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const RegistrationParams& params)
       : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)), nearest_(model.size(), 0) {}
 
   /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point. Where little moves,
@@ -117,7 +117,7 @@ class Registration {
 
   std::span<const OrientedPoint> model_;
   const ObservedCloud& cloud_;
-  const IcpParams& params_;
+  const RegistrationParams& params_;
   Vector3d pivot_;
   FrameVector<std::size_t> nearest_;  // of every model point when it was last matched: most likely still near
 };
@@ -136,11 +136,8 @@ void leave_one_of_each(FrameVector<SE3>& motions, const Vector3d& pivot) {
   motions.erase(kept, motions.end());
 }
 
-bool believable(const SE3& motion, const Vector3d& pivot, double dt, const IcpParams& params) {
-  const double shift = (motion * pivot - pivot).norm();
-  const double angle = log_so3(motion.R).norm();
-  return motion.all_finite() && shift < params.slack + params.max_speed * dt &&
-         angle < params.slack / 0.1 + params.max_angular_speed * dt;
+bool believable(const SE3& motion, const Vector3d& pivot, const MotionBound& bound) {
+  return motion.all_finite() && (motion * pivot - pivot).norm() < bound.shift && log_so3(motion.R).norm() < bound.angle;
 }
 
 }  // namespace
@@ -157,7 +154,7 @@ IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair) {
 }
 
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
-                      double dt, const IcpParams& params) {
+                      const MotionBound& bound, const RegistrationParams& params) {
   if (!params.enabled || static_cast<int>(cloud.size()) < params.min_points || model.size() < 20) return {};
   Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
@@ -174,7 +171,7 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   double best_cost = std::numeric_limits<double>::infinity();
   for (const SE3& coarse_motion : motions) {
     const SE3 motion = registration.run(coarse_motion, coarse, params.iterations, 1);
-    if (!believable(motion, pivot, dt, params)) continue;
+    if (!believable(motion, pivot, bound)) continue;
     const auto fit = registration.fit(motion);
     if (fit.cost >= best_cost) continue;
     best_cost = fit.cost;

@@ -7,23 +7,21 @@
 
 namespace barehand {
 
-/// Registration of the previous hand surface to the new frame: the large global motion (paper Sec. 4.4, its [2]).
-struct IcpParams {
+/// Rigid registration of a posed hand surface to a frame (paper Sec. 4.4, its [2]).
+struct RegistrationParams {
   bool enabled = true;
-  int model_points = 200;         ///< visible surface points that take part
-  int iterations = 30;            ///< per start, at most
-  double scale_start = 0.030;     ///< [m] Geman-McClure scale of the first iteration
-  double scale_end = 0.004;       ///< [m] and of the last
-  double point_weight = 0.03;     ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
-  int min_points = 100;           ///< fewer observed points: hold
-  double min_inliers = 0.5;       ///< fraction of unhidden model points that must match to be reliable
-  double max_speed = 4.0;         ///< [m/s] faster motion is not believed
-  double max_angular_speed = 20;  ///< [rad/s]
-  double slack = 0.03;            ///< [m] allowed whatever the frame interval; rotations: slack / 0.1 m
+  int model_points = 200;      ///< visible surface points that take part
+  int iterations = 30;         ///< per start, at most
+  double scale_start = 0.030;  ///< [m] Geman-McClure scale of the first iteration
+  double scale_end = 0.004;    ///< [m] and of the last
+  double point_weight = 0.03;  ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
+  int min_points = 100;        ///< fewer observed points: hold
+  double min_inliers = 0.5;    ///< fraction of unhidden model points that must match to be reliable
+  double slack = 0.03;         ///< [m] motion that is always believed; rotations: slack / 0.1 m
 };
 
 template <class V>
-void visit(V& v, IcpParams& p) {
+void visit(V& v, RegistrationParams& p) {
   v("enabled", p.enabled, "align rigidly by ICP (Sec. 4.4); off: no motion");
   v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
   v("iterations", p.iterations, 1, 200, "per start, at most");
@@ -33,9 +31,32 @@ void visit(V& v, IcpParams& p) {
     "weight of point-to-point beside point-to-plane in the last iteration; 1 in the first");
   v("min_points", p.min_points, 3, 1000000, "fewer observed points: no motion");
   v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of unhidden model points that must match");
+  v("slack", p.slack, 0.0, 1.0, "m, motion that is always believed (rotation: slack / 0.1 m)");
+}
+
+/// Registration of the previous hand surface to the new frame: the large global motion. It may be faster than slack
+/// allows by these times the frame interval.
+struct IcpParams : RegistrationParams {
+  double max_speed = 4.0;         ///< [m/s]
+  double max_angular_speed = 20;  ///< [rad/s]
+};
+
+template <class V>
+void visit(V& v, IcpParams& p) {
+  visit(v, static_cast<RegistrationParams&>(p));
   v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion between two frames is not believed");
   v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is not believed");
-  v("slack", p.slack, 0.0, 1.0, "m, motion allowed whatever the frame interval (rotation: slack / 0.1 m)");
+}
+
+/// Motion beyond these is not believed.
+struct MotionBound {
+  double shift;  ///< [m] of the model's centroid
+  double angle;  ///< [rad]
+};
+inline MotionBound motion_bound(const RegistrationParams& p) { return {p.slack, p.slack / 0.1}; }
+/// `dt` [s] since the frame in which the model was posed.
+inline MotionBound motion_bound(const IcpParams& p, double dt) {
+  return {p.slack + p.max_speed * dt, p.slack / 0.1 + p.max_angular_speed * dt};
 }
 
 /// Motion of the hand between two frames in camera coordinates: p_new = motion * p_old.
@@ -47,9 +68,8 @@ struct IcpResult {
 };
 
 /// Best of three starts: identity, shift of the centroid, `last_motion` (already scaled to this frame interval).
-/// `dt` [s] since the frame in which `model` was posed.
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
-                      double dt, const IcpParams& params);
+                      const MotionBound& bound, const RegistrationParams& params);
 
 /// A matched pair with the plane normal used for it.
 struct IcpPair {
