@@ -56,7 +56,8 @@ struct MotionBound {
 inline MotionBound motion_bound(const RegistrationParams& p) { return {p.slack, p.slack / 0.1}; }
 /// `dt` [s] since the frame in which the model was posed.
 inline MotionBound motion_bound(const IcpParams& p, double dt) {
-  return {p.slack + p.max_speed * dt, p.slack / 0.1 + p.max_angular_speed * dt};
+  const MotionBound always = motion_bound(p);
+  return {always.shift + p.max_speed * dt, always.angle + p.max_angular_speed * dt};
 }
 
 /// Motion of the hand between two frames in camera coordinates: p_new = motion * p_old.

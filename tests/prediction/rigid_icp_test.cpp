@@ -74,6 +74,10 @@ class RigidIcp : public testing::Test {
     const Eigen::Matrix3d R = exp_so3(w);
     return {R, centre_ - R * centre_ + shift};
   }
+  /// To a frame that follows the one of `model_`.
+  IcpResult align(const ObservedCloud& cloud, const SE3& last_motion) const {
+    return align_rigid(model_, cloud, last_motion, motion_bound(params_, kFrame), params_);
+  }
   double error_of(const IcpResult& result, const SE3& truth) const {
     return test::mean_error(*profile_, moved(result.motion, before_), moved(truth, before_));
   }
@@ -97,7 +101,7 @@ TEST_F(RigidIcp, RecoversLargeMotions) {
   for (const SE3& truth : motions) {
     const auto observation = world.observe(moved(truth, before_));
     const ObservedCloud cloud(*observation);
-    const IcpResult result = align_rigid(model_, cloud, SE3{}, motion_bound(params_, kFrame), params_);
+    const IcpResult result = align(cloud, SE3{});
     EXPECT_TRUE(result.reliable);
     EXPECT_LT(error_of(result, truth), 0.003) << boxminus(truth, SE3{}).transpose();
     EXPECT_LT(result.rms, 0.003);
@@ -111,7 +115,7 @@ TEST_F(RigidIcp, LastMotionCarriesThroughWhereOtherStartsFail) {
   const ObservedCloud cloud(*observation);
   params_.max_angular_speed = 60;
   const SE3 almost = motion({0, 0, 1.2}, {0.04, 0.01, 0});
-  EXPECT_LT(error_of(align_rigid(model_, cloud, almost, motion_bound(params_, kFrame), params_), truth), 0.003);
+  EXPECT_LT(error_of(align(cloud, almost), truth), 0.003);
 }
 
 TEST_F(RigidIcp, OutliersDoNotPull) {
@@ -123,9 +127,7 @@ TEST_F(RigidIcp, OutliersDoNotPull) {
   for (std::size_t i = 0; i < outliers; ++i) {
     observation->cloud.emplace_back(random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), random.uniform(0.3, 0.5));
   }
-  EXPECT_LT(
-      error_of(align_rigid(model_, ObservedCloud(*observation), SE3{}, motion_bound(params_, kFrame), params_), truth),
-      0.005);
+  EXPECT_LT(error_of(align(ObservedCloud(*observation), SE3{}), truth), 0.005);
 }
 
 TEST_F(RigidIcp, PartialOcclusionDoesNotPull) {
@@ -135,16 +137,13 @@ TEST_F(RigidIcp, PartialOcclusionDoesNotPull) {
   const std::size_t all = observation->cloud.size();
   test::PointWorld::occlude(*observation, 177, 0.3f);
   ASSERT_LT(observation->cloud.size(), 0.75 * all);
-  EXPECT_LT(
-      error_of(align_rigid(model_, ObservedCloud(*observation), SE3{}, motion_bound(params_, kFrame), params_), truth),
-      0.005);
+  EXPECT_LT(error_of(align(ObservedCloud(*observation), SE3{}), truth), 0.005);
 }
 
 TEST_F(RigidIcp, HoldsWithTooFewPoints) {
   HandObservation observation = *test::PointWorld(*profile_).observe(before_);
   observation.cloud.resize(params_.min_points - 1);
-  const IcpResult result =
-      align_rigid(model_, ObservedCloud(observation), SE3{}, motion_bound(params_, kFrame), params_);
+  const IcpResult result = align(ObservedCloud(observation), SE3{});
   EXPECT_FALSE(result.reliable);
   EXPECT_LT(boxminus(result.motion, SE3{}).norm(), 1e-15);
 }
@@ -155,7 +154,7 @@ TEST_F(RigidIcp, HoldsWhenTheMotionIsNotBelievable) {
   params_.slack = 0.01;
   const auto observation = world.observe(moved(motion({0, 0, 0}, {-0.06, -0.03, 0}), before_));
   const ObservedCloud cloud(*observation);
-  const IcpResult result = align_rigid(model_, cloud, SE3{}, motion_bound(params_, kFrame), params_);
+  const IcpResult result = align(cloud, SE3{});
   EXPECT_LT(boxminus(result.motion, SE3{}).head<3>().norm(), 0.5 * kFrame + 0.01 + 1e-9);
 }
 
@@ -164,7 +163,7 @@ TEST_F(RigidIcp, HoldsWhenLittleOfTheModelMatches) {
   std::erase_if(observation.cloud, [](const Eigen::Vector3f& p) { return p.x() > 0.02f; });
   ASSERT_GT(static_cast<int>(observation.cloud.size()), params_.min_points);
   params_.min_inliers = 0.9;
-  EXPECT_FALSE(align_rigid(model_, ObservedCloud(observation), SE3{}, motion_bound(params_, kFrame), params_).reliable);
+  EXPECT_FALSE(align(ObservedCloud(observation), SE3{}).reliable);
 }
 
 }  // namespace
