@@ -21,12 +21,12 @@ float sq(float x) { return x * x; }
 
 class DataTerm {
  public:
-  DataTerm(const EnergyParams& p, double widening, double tangential)
-      : surface_{scale_sq(p.robust_scale, widening), scale_sq(p.gate, widening), information(p, 1)},
-        outside_{scale_sq(p.silhouette_scale, widening), scale_sq(p.silhouette_gate, widening),
+  DataTerm(const EnergyParams& p, const DataWeighting& w)
+      : surface_{scale_sq(p.robust_scale, w.widening), scale_sq(p.gate, w.widening), information(p, 1)},
+        outside_{scale_sq(p.silhouette_scale, w.widening), scale_sq(p.silhouette_gate, w.widening),
                  information(p, p.weight_outside)},
         unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
-        tangential_(static_cast<float>(tangential)),
+        tangential_(static_cast<float>(w.tangential)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
   /// Calls `use(direction, residual, information)` with the residual model - data in every direction that counts, up to
@@ -93,18 +93,25 @@ class DataTerm {
   float palm_trust_;
 };
 
+float shown_weight_b(const SkinVertex& v, const std::array<double, kSegmentCount>& hidden) {
+  const double a = (1 - v.weight_b) * (1 - hidden[v.a]), b = v.weight_b * (1 - hidden[v.b]);
+  return a + b > 0 ? static_cast<float>(b / (a + b)) : v.weight_b;
+}
+
 }  // namespace
 
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
-                      const EnergyParams& params, double widening, double tangential, GaussianTree& tree,
+                      const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape) {
-  const DataTerm term(params, widening, tangential);
+  const DataTerm term(params, weighting);
   ResidualMoments sums(pose);
   double total = 0;
   for (const Correspondence& c : comparison.correspondences) {
     const SkinVertex& v = skin.vertices[c.vertex];
+    SkinVertex moved = v;
+    moved.weight_b = shown_weight_b(v, weighting.hidden);
     total += term.add(c, v, [&](const Vector3f& direction, float residual, float information) {
-      sums.add(v, c.model, direction, residual, information);
+      sums.add(moved, c.model, direction, residual, information);
       if (shape) shape->add(c, v, direction, residual, information);
     });
   }

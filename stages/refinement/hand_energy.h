@@ -51,13 +51,22 @@ void visit(V& v, EnergyParams& p) {
   v("prior_unseen_deg", p.prior_unseen_deg, 0.1, 3600.0, "degrees, pull of unseen joints to their prediction");
 }
 
+/// How the data counts in one step.
+struct DataWeighting {
+  double widening = 1;    ///< gates and scales are so many times as wide
+  double tangential = 0;  ///< 0 to 1, of the pull of unexplained data along the surface
+  /// 0 to 1: so much less of the pull at skin between two segments moves this one, and more the other. The normal
+  /// equations are those of the energy where all are 0.
+  std::array<double, kSegmentCount> hidden{};
+};
+
 /// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
 /// correspondence pulls along the model's normal, model outside the data in the image plane, model that should be
-/// behind it along the optical axis, unexplained data along the normal and, with the weight `tangential` (0 to 1),
-/// along the surface. Gates and scales are `widening` times as wide. Needs the comparison's normals. Adds to `tree`,
-/// and what the residuals say about the shape to `shape`; returns the robust energy.
+/// behind it along the optical axis, unexplained data along the normal and in part along the surface. Needs the
+/// comparison's normals. Adds to `tree`, and what the residuals say about the shape to `shape`; returns the robust
+/// energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
-                      const EnergyParams& params, double widening, double tangential, GaussianTree& tree,
+                      const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);
 
 /// Soft joints (Eq. 4-6) as least squares: gap, flexion and abduction beyond their limits, twist. Returns the energy.

@@ -18,11 +18,14 @@ constexpr int kFineSteps = 3;
 constexpr double kCoarseCell = 0.006;       // m, of its skin
 constexpr std::size_t kManyPixels = 10000;  // of a hand: every other cell is enough of them
 
-// How freely a segment may leave its prediction: fully once 40 % of its skin agrees with data.
-std::array<double, kSegmentCount> freedom(const RefinedPose& at_start) {
-  std::array<double, kSegmentCount> free;
-  for (int s = 0; s < kSegmentCount; ++s) free[s] = std::clamp(at_start.matched[s] / 0.4, 0.0, 1.0);
-  return free;
+constexpr double kFree = 0.4;   // of a segment's skin agrees with data: it may leave its prediction freely
+constexpr double kShown = 0.1;  // of it agrees: skin at its joints may turn it
+
+// How far each segment's fraction that agrees with data is on the way to `enough`, 0 to 1.
+std::array<double, kSegmentCount> towards(double enough, const RefinedPose& pose) {
+  std::array<double, kSegmentCount> share;
+  for (int s = 0; s < kSegmentCount; ++s) share[s] = std::clamp(pose.matched[s] / enough, 0.0, 1.0);
+  return share;
 }
 
 }  // namespace
@@ -58,13 +61,11 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
   }
 }
 
-bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening,
-                      const Skin& skin, Workspace& work, RefinedPose& refined) const {
+bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen,
+                      const DataWeighting& weighting, const Skin& skin, Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
   refined.evidence.set_zero();
-  // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
-  const double tangential = profile_->origin == ProfileOrigin::measured ? std::clamp(widening - 1, 0.0, 1.0) : 1;
-  add_data_terms(skin, pose, work.comparison, params_.energy, widening, tangential, refined.evidence);
+  add_data_terms(skin, pose, work.comparison, params_.energy, weighting, refined.evidence);
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
@@ -120,11 +121,18 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     result.pose = start;
   }
   summarise(*work, result);
-  const std::array<double, kSegmentCount> seen = freedom(result);
+  const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
+  DataWeighting weighting;
+  // How skin folds at a joint is a guess until it is scanned: frame after frame it would turn a hidden finger.
+  if (!profile_->scanned_skin)
+    for (int s = 0; s < kSegmentCount; ++s) weighting.hidden[s] = 1 - shown[s];
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
-    const double widening = 1 + (params_.first_widening - 1) * (1 - progress);
-    if (!step(predicted, seen, widening, detail(i).skin, *work, result)) break;
+    weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
+    // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
+    const bool measured = profile_->origin == ProfileOrigin::measured;
+    weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
+    if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);
   }
@@ -145,10 +153,10 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   energy.robust_scale = kShapeRobustScale;
   ShapeMoments moments;
   moments.reset(pose, skin_->vertices.size());
-  add_data_terms(*skin_, pose, work->comparison, energy, 1, 0, tree, &moments);
+  add_data_terms(*skin_, pose, work->comparison, energy, {}, tree, &moments);
   add_joint_terms(*profile_, limits_, pose, energy, tree);
   contact_.add_terms(pose, energy.sigma_overlap, tree);
-  add_prior_terms(*profile_, pose, freedom(judged), pose, energy, tree);
+  add_prior_terms(*profile_, pose, towards(kFree, judged), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
   moments.add_to(*skin_, basis, equations);
   add_joint_shape(*profile_, pose, basis, energy.sigma_gap, equations);

@@ -79,8 +79,8 @@ class Refinement {
   void compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail, Normals normals,
                   Workspace& work) const;
   void summarise(const Workspace& work, RefinedPose& result) const;
-  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, double widening, const Skin& skin,
-            Workspace& work, RefinedPose& refined) const;
+  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, const DataWeighting& weighting,
+            const Skin& skin, Workspace& work, RefinedPose& refined) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;

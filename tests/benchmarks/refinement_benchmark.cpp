@@ -40,7 +40,7 @@ void data_terms(benchmark::State& state) {
   GaussianTree tree;
   tree.set_zero();
   for (auto _ : state)
-    benchmark::DoNotOptimize(add_data_terms(*w.skin, w.predicted, evidence, w.tracker.refinement.energy, 1, 0, tree));
+    benchmark::DoNotOptimize(add_data_terms(*w.skin, w.predicted, evidence, w.tracker.refinement.energy, {}, tree));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(evidence.correspondences.size()));
 }
 BENCHMARK(data_terms)->Unit(benchmark::kMicrosecond);

@@ -44,7 +44,7 @@ class EnergyTest : public ::testing::Test {
   GaussianTree data_terms(const ModelComparison& comparison, double tangential) const {
     GaussianTree tree;
     tree.set_zero();
-    add_data_terms(skin_, pose_, comparison, params_, 1, tangential, tree);
+    add_data_terms(skin_, pose_, comparison, params_, {.tangential = tangential}, tree);
     return tree;
   }
 
@@ -57,7 +57,7 @@ class EnergyTest : public ::testing::Test {
     }
     GaussianTree unused;
     unused.set_zero();
-    return add_data_terms(skin_, pose, comparison, params_, 1, tangential, unused);
+    return add_data_terms(skin_, pose, comparison, params_, {.tangential = tangential}, unused);
   }
 
   template <class Energy>
@@ -108,6 +108,25 @@ TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
   EXPECT_TRUE(trusted_less.H_self[tip].isApprox(equal.H_self[tip]));
   EXPECT_LT(trusted_less.H_self[kPalm](0, 0), 0.3 * equal.H_self[kPalm](0, 0));
   EXPECT_LT(trusted_less.H_self[thumb_root](0, 0), 0.5 * equal.H_self[thumb_root](0, 0));
+}
+
+TEST_F(EnergyTest, PullAtTheJointsOfAHiddenSegmentMovesItsNeighbours) {
+  const int root = segment_of(1, 0);
+  params_.palm_trust = 1;
+  GaussianTree hidden;
+  hidden.set_zero();
+  DataWeighting weighting;
+  weighting.hidden[root] = 1;
+  add_data_terms(skin_, pose_, evidence(), params_, weighting, hidden);
+  const ModelComparison comparison = evidence();
+  for (SkinVertex& v : skin_.vertices)
+    if (v.weight_b > 0 && (v.a == root || v.b == root)) v.weight_b = v.a == root ? 1 : 0;
+  const GaussianTree bound_to_others = data_terms(comparison, 0);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    EXPECT_TRUE(hidden.H_self[s].isApprox(bound_to_others.H_self[s])) << s;
+    EXPECT_TRUE(hidden.g[s].isApprox(bound_to_others.g[s])) << s;
+  }
+  EXPECT_GT(hidden.H_self[root].trace(), 0) << "its own skin still pulls";
 }
 
 TEST_F(EnergyTest, JointGradientMatchesCentralDifferences) {

@@ -1,6 +1,6 @@
 #include "stages/refinement/refinement.h"
 
-#include "math/random.h"
+#include "math/angles.h"
 #include "support/painted_hand.h"
 
 namespace barehand {
@@ -13,6 +13,9 @@ class RefinementTest : public ::testing::Test {
     for (int s = 0; s < kSegmentCount; ++s)
       sum += (distal_end(*profile_, a, s) - distal_end(*profile_, b, s)).norm() / kSegmentCount;
     return sum;
+  }
+  static Eigen::Matrix3d relative_rotation(const HandPose& pose, int s) {
+    return pose[parent_of(s)].R.transpose() * pose[s].R;
   }
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   std::shared_ptr<const Skin> skin_ = std::make_shared<Skin>(make_blended_skin(*profile_, 0.004));
@@ -69,6 +72,36 @@ TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
       (distal_end(*profile_, refined.pose, segment_of(2, 2)) - distal_end(*profile_, truth, segment_of(2, 2))).norm(),
       0.006);
   EXPECT_LT(refined.visible[segment_of(2, 2)], 0.05);
+}
+
+TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
+  const int root = segment_of(2, 0);
+  Skin other_knuckles = *skin_;
+  for (SkinVertex& v : other_knuckles.vertices) {
+    if (v.weight_b == 0 || (v.a != kPalm && v.b != kPalm)) continue;
+    // The farther out on the finger, the more its skin stands out.
+    const bool on_palm = v.a == kPalm;
+    const Eigen::Vector3f out = (on_palm ? v.weight_b : 1 - v.weight_b) * 0.006f * Eigen::Vector3f::UnitY();
+    v.in_a -= out;
+    v.in_b -= out;
+  }
+  const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
+  auto observation = test::observe_skin(other_knuckles, truth);
+  const int knuckles = static_cast<int>(observation->frame->camera.project(truth[root].t).y());
+  for (int v = 0; v < knuckles; ++v)  // a board before all fingers
+    for (int u = 0; u < observation->depth.width(); ++u) {
+      observation->label.at(u, v) = PixelLabel::object;
+      observation->depth.at(u, v) = 0.3f;
+    }
+  const auto turned_after_a_second = [&](const Refinement& refinement) {
+    HandPose pose = truth;
+    for (int frame = 0; frame < 30; ++frame) pose = refinement.refine(*observation, pose, pose, 5).pose;
+    return log_so3(relative_rotation(truth, root).transpose() * relative_rotation(pose, root)).norm() / kDegree;
+  };
+  EXPECT_LT(turned_after_a_second(refinement_), 1.5);
+  auto scanned = std::make_shared<HandProfile>(*profile_);
+  scanned->scanned_skin = skin_;
+  EXPECT_GT(turned_after_a_second(Refinement(RefinementParams{}, scanned, skin_)), 4) << "a scan is believed";
 }
 
 }  // namespace

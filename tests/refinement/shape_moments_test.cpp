@@ -50,7 +50,7 @@ class ShapeMomentsTest : public ::testing::Test {
   double energy(const HandShape& change) const {
     GaussianTree unused;
     unused.set_zero();
-    double total = add_data_terms(skin_, pose_, reshaped_evidence(change), params_, 1, 0.5, unused);
+    double total = add_data_terms(skin_, pose_, reshaped_evidence(change), params_, {.tangential = 0.5}, unused);
     return total + add_joint_terms(profile_after(change), limits_, pose_, params_, unused);
   }
 
@@ -59,7 +59,7 @@ class ShapeMomentsTest : public ::testing::Test {
     out.set_zero();
     ShapeMoments moments;
     moments.reset(pose_, skin_.vertices.size());
-    add_data_terms(skin_, pose_, evidence_, params_, 1, 0.5, out.tree, &moments);
+    add_data_terms(skin_, pose_, evidence_, params_, {.tangential = 0.5}, out.tree, &moments);
     add_joint_terms(*mean_, limits_, pose_, params_, out.tree);
     moments.add_to(skin_, basis_, out);
     add_joint_shape(*mean_, pose_, basis_, params_.sigma_gap, out);
@@ -101,7 +101,7 @@ TEST_F(ShapeMomentsTest, MixedBlocksAreHowTheShapeChangesThePosesGradient) {
   const auto pose_gradient = [&](const HandShape& change) {
     GaussianTree tree;
     tree.set_zero();
-    add_data_terms(skin_, pose_, reshaped_evidence(change), params_, 1, 0.5, tree);
+    add_data_terms(skin_, pose_, reshaped_evidence(change), params_, {.tangential = 0.5}, tree);
     add_joint_terms(profile_after(change), limits_, pose_, params_, tree);
     return tree.g;
   };
