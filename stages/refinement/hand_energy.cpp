@@ -27,6 +27,7 @@ class DataTerm {
                  information(p, p.weight_outside)},
         unexplained_{outside_.scale_sq, outside_.gate_sq, information(p, p.weight_unexplained)},
         tangential_(static_cast<float>(w.tangential)),
+        folds_(static_cast<float>(w.folds)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
   /// Calls `use(direction, residual, information)` with the residual model - data in every direction that counts, up to
@@ -82,7 +83,10 @@ class DataTerm {
   }
 
   float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
-  float trust(const SkinVertex& v) const { return (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b); }
+  float trust(const SkinVertex& v) const {
+    const float of_segments = (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b);
+    return of_segments / (1 + sq(folds_ * std::min(v.weight_b, 1 - v.weight_b)));
+  }
   static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }
   static float information(const EnergyParams& p, double weight) {
     return static_cast<float>(weight / sq(p.sigma_depth));
@@ -90,6 +94,7 @@ class DataTerm {
 
   Robust surface_, outside_, unexplained_;
   float tangential_;  // share of the pull along the surface
+  float folds_;
   float palm_trust_;
 };
 

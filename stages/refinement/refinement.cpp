@@ -20,6 +20,7 @@ constexpr std::size_t kManyPixels = 10000;  // of a hand: every other cell is en
 
 constexpr double kFree = 0.4;   // of a segment's skin agrees with data: it may leave its prediction freely
 constexpr double kShown = 0.1;  // of it agrees: skin at its joints may turn it
+constexpr double kFolds = 4;    // DataWeighting::folds of a guess
 
 // How far each segment's fraction that agrees with data is on the way to `enough`, 0 to 1.
 std::array<double, kSegmentCount> towards(double enough, const RefinedPose& pose) {
@@ -106,8 +107,9 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
 
 RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                                     const HandPose& predicted, int iterations) const {
+  const auto is_fine = [&](int i) { return i + kFineSteps >= iterations; };
   // What step i sees; the score after the last one is a fine one.
-  const auto detail = [&](int i) { return i + kFineSteps < iterations ? coarse(observation) : fine(); };
+  const auto detail = [&](int i) { return is_fine(i) ? fine() : coarse(observation); };
   auto work = workspaces_.take();
   RefinedPose result;
   result.pose = starts[0];
@@ -122,9 +124,10 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   }
   summarise(*work, result);
   const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
+  // How skin folds at joints is a guess until it is scanned: frame after frame it would turn a hidden finger.
+  const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;
-  // How skin folds at a joint is a guess until it is scanned: frame after frame it would turn a hidden finger.
-  if (!profile_->scanned_skin)
+  if (!folds_known)
     for (int s = 0; s < kSegmentCount; ++s) weighting.hidden[s] = 1 - shown[s];
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
@@ -132,6 +135,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
     const bool measured = profile_->origin == ProfileOrigin::measured;
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
+    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // from afar they lead as well
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);

@@ -41,15 +41,15 @@ class EnergyTest : public ::testing::Test {
     return comparison;
   }
 
-  GaussianTree data_terms(const ModelComparison& comparison, double tangential) const {
+  GaussianTree data_terms(const ModelComparison& comparison, const DataWeighting& weighting) const {
     GaussianTree tree;
     tree.set_zero();
-    add_data_terms(skin_, pose_, comparison, params_, {.tangential = tangential}, tree);
+    add_data_terms(skin_, pose_, comparison, params_, weighting, tree);
     return tree;
   }
 
   // Energy with the evidence's model points carried along by the skin.
-  double data_energy(ModelComparison comparison, const HandPose& pose, double tangential) const {
+  double data_energy(ModelComparison comparison, const HandPose& pose, const DataWeighting& weighting) const {
     for (Correspondence& c : comparison.correspondences) {
       const SkinVertex& v = skin_.vertices[c.vertex];
       const auto carried = [&](int s) { return pose[s] * (pose_[s].inverse() * c.model.cast<double>()); };
@@ -57,7 +57,7 @@ class EnergyTest : public ::testing::Test {
     }
     GaussianTree unused;
     unused.set_zero();
-    return add_data_terms(skin_, pose, comparison, params_, {.tangential = tangential}, unused);
+    return add_data_terms(skin_, pose, comparison, params_, weighting, unused);
   }
 
   template <class Energy>
@@ -73,10 +73,11 @@ class EnergyTest : public ::testing::Test {
 
 TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
   const ModelComparison comparison = evidence();
-  for (const double tangential : {0.0, 0.4, 1.0}) {
-    GaussianTree tree = data_terms(comparison, tangential);
-    const auto energy = [&](const HandPose& pose) { return data_energy(comparison, pose, tangential); };
-    EXPECT_LT(gradient_error(energy, tree, 2e-4), 0.02) << tangential;  // single-precision points bound the accuracy
+  for (const DataWeighting& weighting : {DataWeighting{}, {.tangential = 0.4}, {.tangential = 1, .folds = 4}}) {
+    GaussianTree tree = data_terms(comparison, weighting);
+    const auto energy = [&](const HandPose& pose) { return data_energy(comparison, pose, weighting); };
+    // Single-precision points bound the accuracy.
+    EXPECT_LT(gradient_error(energy, tree, 2e-4), 0.02) << weighting.tangential;
     tree.g[segment_of(1, 1)] *= 0.5;
     EXPECT_GT(gradient_error(energy, tree, 2e-4), 0.05) << "the check must notice a wrong gradient";
   }
@@ -88,7 +89,7 @@ TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
   std::erase_if(comparison.correspondences, [](const Correspondence& c) { return c.kind != Kind::unexplained; });
   for (Correspondence& c : comparison.correspondences) c.data = c.model + 0.004f * c.normal.unitOrthogonal();
   const auto pull = [&](double tangential) {
-    const GaussianTree tree = data_terms(comparison, tangential);
+    const GaussianTree tree = data_terms(comparison, {.tangential = tangential});
     double sum = 0;
     for (const Vector6d& g : tree.g) sum += g.norm();
     return sum;
@@ -101,7 +102,7 @@ TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
 TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
   const auto information = [&](double palm_trust) {
     params_.palm_trust = palm_trust;
-    return data_terms(evidence(), 1);
+    return data_terms(evidence(), {.tangential = 1});
   };
   const GaussianTree equal = information(1), trusted_less = information(0.1);
   const int tip = segment_of(2, 2), thumb_root = segment_of(0, 0);
@@ -110,18 +111,32 @@ TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
   EXPECT_LT(trusted_less.H_self[thumb_root](0, 0), 0.5 * equal.H_self[thumb_root](0, 0));
 }
 
+TEST_F(EnergyTest, FoldsCountLessTheMoreEvenlyTwoSegmentsShareThem) {
+  ModelComparison comparison = evidence();
+  comparison.correspondences.resize(1);
+  SkinVertex& v = skin_.vertices[comparison.correspondences[0].vertex];
+  v.a = segment_of(2, 1);
+  v.b = segment_of(2, 2);
+  const auto fraction = [&](float share) {
+    v.weight_b = share;
+    return data_terms(comparison, {.folds = 4}).H_self[v.a].trace() / data_terms(comparison, {}).H_self[v.a].trace();
+  };
+  EXPECT_NEAR(fraction(0), 1, 1e-6);
+  EXPECT_NEAR(fraction(0.25f), 0.5, 1e-6);
+  EXPECT_NEAR(fraction(0.75f), 0.5, 1e-6);
+  EXPECT_NEAR(fraction(0.5f), 0.2, 1e-6);
+}
+
 TEST_F(EnergyTest, PullAtTheJointsOfAHiddenSegmentMovesItsNeighbours) {
   const int root = segment_of(1, 0);
   params_.palm_trust = 1;
-  GaussianTree hidden;
-  hidden.set_zero();
   DataWeighting weighting;
   weighting.hidden[root] = 1;
-  add_data_terms(skin_, pose_, evidence(), params_, weighting, hidden);
+  const GaussianTree hidden = data_terms(evidence(), weighting);
   const ModelComparison comparison = evidence();
   for (SkinVertex& v : skin_.vertices)
     if (v.weight_b > 0 && (v.a == root || v.b == root)) v.weight_b = v.a == root ? 1 : 0;
-  const GaussianTree bound_to_others = data_terms(comparison, 0);
+  const GaussianTree bound_to_others = data_terms(comparison, {});
   for (int s = 0; s < kSegmentCount; ++s) {
     EXPECT_TRUE(hidden.H_self[s].isApprox(bound_to_others.H_self[s])) << s;
     EXPECT_TRUE(hidden.g[s].isApprox(bound_to_others.g[s])) << s;
