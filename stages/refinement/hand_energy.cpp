@@ -85,7 +85,7 @@ class DataTerm {
   float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
   float trust(const SkinVertex& v) const {
     const float of_segments = (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b);
-    return of_segments / (1 + sq(folds_ * std::min(v.weight_b, 1 - v.weight_b)));
+    return of_segments / fold_penalty(v, folds_);
   }
   static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }
   static float information(const EnergyParams& p, double weight) {

@@ -58,7 +58,7 @@ struct DataWeighting {
   /// 0 to 1: so much less of the pull at skin between two segments moves this one, and more the other. The normal
   /// equations are those of the energy where all are 0.
   std::array<double, kSegmentCount> hidden{};
-  double folds = 0;  ///< skin between two segments, of which the smaller has the share w, counts 1 / (1 + (folds w)^2)
+  double folds = 0;  ///< by which skin between two segments counts less: fold_penalty()
 };
 
 /// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface

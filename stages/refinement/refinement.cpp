@@ -124,6 +124,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   }
   summarise(*work, result);
   const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
+  const bool measured = profile_->origin == ProfileOrigin::measured;
   // How skin folds at joints is a guess until it is scanned: frame after frame it would turn a hidden finger.
   const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;
@@ -133,7 +134,6 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
     // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
-    const bool measured = profile_->origin == ProfileOrigin::measured;
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // from afar they lead as well
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;

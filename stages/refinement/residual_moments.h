@@ -1,11 +1,20 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "hand/gaussian_tree.h"
 #include "hand/skin.h"
 
 namespace barehand {
+
+/// By how much skin near a joint counts less, as how it folds there is known badly: 1 + (`folds` w)^2, where w is the
+/// smaller of the two segments' shares in `v`.
+template <class Scalar>
+Scalar fold_penalty(const SkinVertex& v, Scalar folds) {
+  const Scalar fold = folds * Scalar(std::min(v.weight_b, 1 - v.weight_b));
+  return 1 + fold * fold;
+}
 
 /// Sums up the normal equations of thousands of one-dimensional residuals at points of the skin. The row of a residual
 /// along direction d at point p is (d, (p - t) x d) for a segment with origin t, times the segment's share of the

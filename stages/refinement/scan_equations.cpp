@@ -82,8 +82,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
     // Near joints skin folds and bulges, in the same way in all frames: it would draw joints away from their places.
-    const double shared = std::min(v.weight_b, 1 - v.weight_b);
-    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / (1 + sq(kFolds * shared));
+    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, kFolds);
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
     squares_ += sq(r);
     ++residuals_;

@@ -14,8 +14,13 @@ class RefinementTest : public ::testing::Test {
       sum += (distal_end(*profile_, a, s) - distal_end(*profile_, b, s)).norm() / kSegmentCount;
     return sum;
   }
-  static Eigen::Matrix3d relative_rotation(const HandPose& pose, int s) {
-    return pose[parent_of(s)].R.transpose() * pose[s].R;
+  /// Puts a board before the first `rows` of the image.
+  static void hide_above(int rows, HandObservation& observation) {
+    for (int v = 0; v < rows; ++v)
+      for (int u = 0; u < observation.depth.width(); ++u) {
+        observation.label.at(u, v) = PixelLabel::object;
+        observation.depth.at(u, v) = 0.3f;
+      }
   }
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   std::shared_ptr<const Skin> skin_ = std::make_shared<Skin>(make_blended_skin(*profile_, 0.004));
@@ -60,11 +65,7 @@ TEST_F(RefinementTest, JointsStayClosed) {
 TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.2);
   auto observation = test::observe_skin(*skin_, truth);
-  for (int v = 0; v < 130; ++v)  // a board before all fingers
-    for (int u = 0; u < 320; ++u) {
-      observation->label.at(u, v) = PixelLabel::object;
-      observation->depth.at(u, v) = 0.3f;
-    }
+  hide_above(130, *observation);  // all fingers
   HandPose start = truth;
   for (SE3& T : start) T.t += Eigen::Vector3d(0.004, 0.003, -0.004);
   const RefinedPose refined = refinement_.refine(*observation, start, start, 10);
@@ -87,16 +88,12 @@ TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
   }
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
   auto observation = test::observe_skin(other_knuckles, truth);
-  const int knuckles = static_cast<int>(observation->frame->camera.project(truth[root].t).y());
-  for (int v = 0; v < knuckles; ++v)  // a board before all fingers
-    for (int u = 0; u < observation->depth.width(); ++u) {
-      observation->label.at(u, v) = PixelLabel::object;
-      observation->depth.at(u, v) = 0.3f;
-    }
+  hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);  // to the knuckles
   const auto turned_after_a_second = [&](const Refinement& refinement) {
     HandPose pose = truth;
     for (int frame = 0; frame < 30; ++frame) pose = refinement.refine(*observation, pose, pose, 5).pose;
-    return log_so3(relative_rotation(truth, root).transpose() * relative_rotation(pose, root)).norm() / kDegree;
+    const auto in_palm = [&](const HandPose& of) { return of[kPalm].inverse() * of[root]; };
+    return boxminus(in_palm(pose), in_palm(truth)).tail<3>().norm() / kDegree;
   };
   EXPECT_LT(turned_after_a_second(refinement_), 1.5);
   auto scanned = std::make_shared<HandProfile>(*profile_);
