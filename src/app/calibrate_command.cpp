@@ -33,7 +33,7 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
-constexpr int kSettling = 60, kMostFrames = 64;  // tracked frames before the first that is kept; frames kept
+constexpr int kSettling = 60, kMostFrames = 128;  // tracked frames before the first that is kept; frames kept
 
 /// Keeps the hand as fitted last and frames to scan its skin from, and tells the person what to show next.
 class ScanSink : public Sink {

@@ -22,6 +22,7 @@ constexpr double kSigmaTurn = 4.5 * kDegree;   // of one step of a joint, so tha
 constexpr double kRobustSkin = 0.001;          // m, scale of Geman-McClure, as the deviation
 constexpr double kRobustNoise = 2;
 constexpr double kFolds = 10;           // skin that a second bone moves by a tenth counts half, by a half 1 / 26
+constexpr double kKnuckleFolds = 30;    // likewise where palm and fingers meet: webs move with more than two bones
 constexpr float kGate = 0.012f;         // m, larger distances are something else
 constexpr float kFacing = 0.3f;         // cosine: skin that turns away is not measured well
 constexpr double kDamping = 1e-3;       // relative, Levenberg
@@ -29,6 +30,12 @@ constexpr double kLongestStep = 0.010;  // m
 constexpr double kLargestTurn = 17 * kDegree;
 
 double sq(double x) { return x * x; }
+
+// Between the palm and a finger; the thumb's root is another matter, as it moves freely about its joint.
+bool at_knuckle(const SkinVertex& v) {
+  if (v.a != kPalm && v.b != kPalm) return false;
+  return (v.a == kPalm ? v.b : v.a) != segment_of(0, 0);
+}
 
 Eigen::MatrixXd dense(const GaussianTree& tree) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * kSegmentCount, 6 * kSegmentCount);
@@ -82,7 +89,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
     // Near joints skin folds and bulges, in the same way in all frames: it would draw joints away from their places.
-    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, kFolds);
+    const double folds = fold_penalty(v, at_knuckle(v) ? kKnuckleFolds : kFolds);
+    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / folds;
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
     squares_ += sq(r);
     ++residuals_;

@@ -13,8 +13,9 @@ namespace {
 
 constexpr int kRounds = 24, kRoundsOfSkin = 16;  // the latter where the joints stay
 constexpr int kSkinRounds = 2;                   // first ones, in which the skin alone settles: it is farthest off
-constexpr double kFullScan = 46;                 // frames: more of them say no more, as all err alike
-constexpr double kWidening = 20 * kDegree;       // of joint limits
+// Frames: more of them say no more, as all err alike; fewer where the joints stay, as skin seen in part strays then.
+constexpr double kFullScan = 100, kFullScanOfSkin = 46;
+constexpr double kWidening = 20 * kDegree;  // of joint limits
 
 class Scan {
  public:
@@ -36,7 +37,7 @@ class Scan {
     workers_.for_each_index(
         frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
-    const double weight = std::min(1.0, kFullScan / frames);
+    const double weight = std::min(1.0, (joints_are_known_ ? kFullScanOfSkin : kFullScan) / frames);
     ScanEquations shared;
     shared.set_zero(variables_.count());
     add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared);
