@@ -33,14 +33,15 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
-constexpr int kSettling = 60, kMostFrames = 128;  // tracked frames before the first that is kept; frames kept
+constexpr int kSettling = 60;                 // tracked frames before the first that is kept
+constexpr int kMost = 128, kMostOfSkin = 64;  // frames kept; the latter where the joints stay
 
 /// Keeps the hand as fitted last and frames to scan its skin from, and tells the person what to show next.
 class ScanSink : public Sink {
  public:
   struct Scan {
     ScanReport report;
-    ScanFrames frames{kSettling, kMostFrames};
+    ScanFrames frames;
     std::shared_ptr<const HandProfile> profile;  ///< null: no hand was tracked
   };
   explicit ScanSink(Scan& scan) : scan_(scan) {}
@@ -116,7 +117,8 @@ int run(const CalibrateOptions& o) {
     return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
   if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
 
-  ScanSink::Scan scan;
+  const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;
+  ScanSink::Scan scan{.report = {}, .frames = {kSettling, joints_stay ? kMostOfSkin : kMost}, .profile = nullptr};
   std::vector<std::unique_ptr<Sink>> sinks;
   sinks.push_back(std::make_unique<ScanSink>(scan));
   TrackOptions track_options = o.track;

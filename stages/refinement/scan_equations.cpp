@@ -82,6 +82,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
   residuals_ = 0;
   const double sigma_sq = sq(kSigmaSkin) + sq(kSigmaNoise * observation.noise);
   const double robust_sq = sq(kRobustSkin) + sq(kRobustNoise * observation.noise);
+  const bool joints_move = !model.joints_are_known();
   ResidualMoments poses(frame.pose);
   for (const Correspondence& c : comparison.correspondences) {
     const float r = c.normal.dot(c.model - c.data);
@@ -89,7 +90,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
     // Near joints skin folds and bulges, in the same way in all frames: it would draw joints away from their places.
-    const double folds = fold_penalty(v, at_knuckle(v) ? kKnuckleFolds : kFolds);
+    const double folds = fold_penalty(v, joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds);
     const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / folds;
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
     squares_ += sq(r);

@@ -118,7 +118,7 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
       end = model.in_parent[segment_of(2, 0)];
     } else if (!is_tip(s)) {
       end = model.in_parent[s + 1];
-    } else if (model.profile.origin != ProfileOrigin::measured) {
+    } else {
       // The skin ends one radius beyond the bone, as it did before.
       const Vector3d along = bone.distal.normalized();
       const TipGrowth growth = growth_of_tip(start_model.skin, model.skin, s, along);

@@ -17,6 +17,7 @@ struct ScanModel {
   std::vector<Eigen::Vector3f> normal_in_b;                            ///< of every vertex, as normal_in_a
   std::array<Eigen::Vector3d, kSegmentCount> in_parent{}, in_segment;  ///< joint of every segment but the palm [m]
   std::array<Eigen::Matrix3d, kSegmentCount> rest;                     ///< R_parent_segment, likewise
+  bool joints_are_known() const { return profile.origin == ProfileOrigin::measured; }
 };
 /// `cell` [m]: size of the skin's triangles.
 ScanModel make_scan_model(const HandProfile& profile, double cell);

@@ -24,7 +24,7 @@ class Scan {
         model_(start_),
         variables_(model_),
         limits_(widened_limits(start, kWidening)),
-        joints_are_known_(start.origin == ProfileOrigin::measured),
+        joints_are_known_(start_.joints_are_known()),
         frames_(std::move(frames)),
         equations_(frames_.size()),
         workers_(workers) {}

@@ -111,20 +111,16 @@ TEST_F(ScanTest, ABoneThatStandsOtherwiseAtRestTakesItsSkinAlong) {
     ASSERT_LT((hand.scanned_skin->vertices[i].in_a - before.vertices[i].in_a).norm(), 1e-7f) << i;
 }
 
-TEST_F(ScanTest, ATipEndsOneRadiusBeforeItsSkinUnlessItWasMeasured) {
+TEST_F(ScanTest, ATipEndsOneRadiusBeforeItsSkin) {
   const int s = segment_of(1, 2);
-  for (const ProfileOrigin origin : {ProfileOrigin::mean, ProfileOrigin::measured}) {
-    HandProfile given = *start_;
-    given.origin = origin;
-    const ScanModel before = make_scan_model(given, kCell);
-    ScanModel longer = before;
-    const Eigen::Vector3f along = given.segments[s].distal.normalized().cast<float>();
-    for (SkinVertex& v : longer.skin.vertices)
-      if (v.a == s) v.in_a += 0.002f * std::max(v.normal_in_a.dot(along), 0.0f) * v.normal_in_a;
-    const SegmentProfile& tip = scanned_profile(before, longer).segments[s];
-    EXPECT_NEAR(tip.length - given.segments[s].length, origin == ProfileOrigin::mean ? 0.002 : 0, 3e-4);
-    EXPECT_NEAR(tip.radius[1], given.segments[s].radius[1], 3e-4);
-  }
+  const ScanModel before = make_scan_model(*start_, kCell);
+  ScanModel longer = before;
+  const Eigen::Vector3f along = start_->segments[s].distal.normalized().cast<float>();
+  for (SkinVertex& v : longer.skin.vertices)
+    if (v.a == s) v.in_a += 0.002f * std::max(v.normal_in_a.dot(along), 0.0f) * v.normal_in_a;
+  const SegmentProfile& tip = scanned_profile(before, longer).segments[s];
+  EXPECT_NEAR(tip.length - start_->segments[s].length, 0.002, 3e-4);
+  EXPECT_NEAR(tip.radius[1], start_->segments[s].radius[1], 3e-4);
 }
 
 /// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
@@ -279,7 +275,7 @@ TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
   EXPECT_LT(mismatch.back(), 0.0006);
 }
 
-TEST_F(ScanTest, JointsAndTipsOfAMeasuredHandStay) {
+TEST_F(ScanTest, JointsOfAMeasuredHandStay) {
   HandProfile measured = *start_;
   measured.origin = ProfileOrigin::measured;
   const HandProfile thicker = reshaped(measured, shape_with({{"fingers_thickness", 0.08}, {"palm_thickness", 0.08}}));
@@ -287,10 +283,8 @@ TEST_F(ScanTest, JointsAndTipsOfAMeasuredHandStay) {
   const auto hand = scan_hand(measured, kCell, scan_of(thicker, measured), workers_,
                               [&](const ScanProgress& progress) { mismatch.push_back(progress.mismatch); });
   ASSERT_TRUE(hand);
-  for (int s = 1; s < kSegmentCount; ++s) {
+  for (int s = 1; s < kSegmentCount; ++s)
     EXPECT_LT((hand->rest_relative(s).matrix() - measured.rest_relative(s).matrix()).norm(), 1e-6) << s;
-    EXPECT_LT((hand->segments[s].distal - measured.segments[s].distal).norm(), 1e-5) << s;
-  }
   EXPECT_LT(mismatch.back(), 0.6 * mismatch.front());
 }
 
