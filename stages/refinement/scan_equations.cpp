@@ -90,8 +90,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
     // Near joints skin folds and bulges, in the same way in all frames: it would draw joints away from their places.
-    const double folds = fold_penalty(v, joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds);
-    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / folds;
+    const double folds = joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds;
+    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, folds);
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
     squares_ += sq(r);
     ++residuals_;

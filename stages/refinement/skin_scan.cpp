@@ -24,12 +24,11 @@ class Scan {
         model_(start_),
         variables_(model_),
         limits_(widened_limits(start, kWidening)),
-        joints_are_known_(start_.joints_are_known()),
         frames_(std::move(frames)),
         equations_(frames_.size()),
         workers_(workers) {}
 
-  int rounds() const { return joints_are_known_ ? kRoundsOfSkin : kRounds; }
+  int rounds() const { return start_.joints_are_known() ? kRoundsOfSkin : kRounds; }
   /// Root mean square mismatch before the round; none: it cannot be solved.
   std::optional<double> round(bool skin_only) {
     const int frames = static_cast<int>(frames_.size());
@@ -37,10 +36,10 @@ class Scan {
     workers_.for_each_index(
         frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
-    const double weight = std::min(1.0, (joints_are_known_ ? kFullScanOfSkin : kFullScan) / frames);
+    const double weight = std::min(1.0, (start_.joints_are_known() ? kFullScanOfSkin : kFullScan) / frames);
     ScanEquations shared;
     shared.set_zero(variables_.count());
-    add_scan_prior(model_, start_, variables_, skin_only || joints_are_known_, shared);
+    add_scan_prior(model_, start_, variables_, skin_only || start_.joints_are_known(), shared);
     double squares = 0;
     int residuals = 0;
     for (const ScanFrameEquations& equations : equations_) {
@@ -63,7 +62,6 @@ class Scan {
   ScanModel model_;
   const ScanVariables variables_;
   const std::array<JointLimits, kSegmentCount> limits_;
-  const bool joints_are_known_;
   std::vector<ScanFrame> frames_;
   std::vector<ScanFrameEquations> equations_;
   Workers& workers_;

@@ -123,6 +123,40 @@ TEST_F(ScanTest, ATipEndsOneRadiusBeforeItsSkin) {
   EXPECT_NEAR(tip.radius[1], start_->segments[s].radius[1], 3e-4);
 }
 
+TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
+  const HandPose pose = shown(*start_, 0, 0.1, 0.1, 0.1);
+  const auto observation = test::observe_skin(make_blended_skin(*start_, 0.004), pose);
+  const auto information = [&](ProfileOrigin origin) {  // about the offset of every vertex
+    HandProfile hand = *start_;
+    hand.origin = origin;
+    const ScanModel model = make_scan_model(hand, kCell);
+    const ScanVariables variables(model);
+    ScanFrameEquations frame;
+    EXPECT_TRUE(frame.linearise({observation, pose}, model, variables, widened_limits(hand, 0.3), true));
+    ScanEquations equations;
+    equations.set_zero(variables.count());
+    frame.add_to(equations);
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(variables.count());
+    for (const auto& entry : equations.H)
+      if (entry.row() == entry.col()) diagonal[entry.row()] += entry.value();
+    return Eigen::VectorXd(diagonal.segment(variables.offset(0), static_cast<int>(model.skin.vertices.size())));
+  };
+  const Eigen::VectorXd moving = information(ProfileOrigin::mean), known = information(ProfileOrigin::measured);
+  const ScanModel model = make_scan_model(*start_, kCell);
+  int at_knuckles = 0;
+  for (int i = 0; i < moving.size(); ++i) {
+    const SkinVertex& v = model.skin.vertices[i];
+    if (known[i] == 0) continue;
+    const double fold = std::min(v.weight_b, 1 - v.weight_b);
+    const bool of_finger_and_palm =
+        (v.a == kPalm && v.b != segment_of(0, 0)) || (v.b == kPalm && v.a != segment_of(0, 0));
+    at_knuckles += of_finger_and_palm && fold > 0.1;
+    const double less = of_finger_and_palm ? (1 + 100 * fold * fold) / (1 + 900 * fold * fold) : 1;
+    EXPECT_NEAR(moving[i] / known[i], less, 1e-6) << i;
+  }
+  EXPECT_GT(at_knuckles, 10);
+}
+
 /// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
 /// is found back in one step.
 class ScanEquationsTest : public ScanTest {
