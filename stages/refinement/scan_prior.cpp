@@ -1,5 +1,7 @@
 #include "stages/refinement/scan_prior.h"
 
+#include "stages/refinement/skin_middle.h"
+
 namespace barehand {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr double kAcrossBone = 0.002;    // m, of a joint
 constexpr double kAlongBone = 0.003;     // and of the thumb's root, which lies deep in flesh, in every direction
 constexpr double kBetweenBones = 0.001;  // m, of the two points of a joint
 constexpr double kRestTurn = 0.015;      // rad, of a joint's axes
+constexpr double kBesideMiddle = 0.001;  // m, of a finger's root from the middle of its skin
 
 constexpr double kOffset = 0.1;           // m, of a vertex: only so that unseen ones have a place
 constexpr double kSmoothOffset = 0.0025;  // m, difference along an edge
@@ -116,6 +119,22 @@ class Prior {
     out_.mean_rows += 6;
   }
 
+  // A finger is rooted in the middle of its skin from side to side. Images hardly tell where along the knuckle's axis.
+  void add_middle(int finger) {
+    const int segment = segment_of(finger, 0), joint = ScanVariables::joint(segment) + 3;
+    const auto middle = skin_middle(start_.skin, segment, start_.profile.segments[segment].length);
+    if (!middle) return;
+    double beside = middle->x - model_.in_segment[segment].x();
+    for (const auto& [vertex, change] : middle->per_offset) beside += change * offset_[vertex];
+    const auto add = [&](int unknown, double change) {
+      out_.means.emplace_back(out_.mean_rows, unknown, change / kBesideMiddle);
+      out_.g[unknown] -= change * beside / sq(kBesideMiddle);
+    };
+    add(joint, -1);
+    for (const auto& [vertex, change] : middle->per_offset) add(variables_.offset(vertex), change);
+    ++out_.mean_rows;
+  }
+
  private:
   const SkinVertex& vertex(int i) const { return start_.skin.vertices[i]; }
   double share_change(int i) const { return model_.skin.vertices[i].weight_b - vertex(i).weight_b; }
@@ -149,6 +168,8 @@ void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVa
   prior.add_vertices(hold_joints);
   prior.add_smoothness();
   for (int s = 0; s < kSegmentCount; ++s) prior.add_mean(s);
+  if (hold_joints) return;
+  for (int finger = 1; finger < kFingerCount; ++finger) prior.add_middle(finger);  // the thumb's root is deep in flesh
 }
 
 }  // namespace barehand

@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kRounds = 24, kRoundsOfSkin = 16;  // the latter where the joints stay
+constexpr int kRounds = 40, kRoundsOfSkin = 16;  // the latter where the joints stay
 constexpr int kSkinRounds = 2;                   // first ones, in which the skin alone settles: it is farthest off
 // Frames: more of them say no more, as all err alike; fewer where the joints stay, as skin seen in part strays then.
 constexpr double kFullScan = 100, kFullScanOfSkin = 46;

@@ -290,6 +290,51 @@ TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   EXPECT_LT((*solved - exact).norm(), 1e-4 * exact.norm());
 }
 
+/// The prior is quadratic in all but turns: its gradient falls as its matrix says. A turn is small here.
+TEST_F(ScanTest, ThePriorsGradientFallsAsItsMatrixSays) {
+  const ScanModel start = make_scan_model(*start_, kCell);
+  const ScanVariables variables(start);
+  Eigen::VectorXd step(variables.count());
+  for (int k = 0; k < step.size(); ++k) step[k] = std::sin(0.7 * k);
+  step *= 1e-4;
+  ScanModel model = start;
+  variables.apply(step, model);
+  for (int i = 0; i < static_cast<int>(model.skin.vertices.size()); ++i)  // shares end at 0 and 1
+    step[variables.share(i)] = model.skin.vertices[i].weight_b - start.skin.vertices[i].weight_b;
+  ScanEquations before, after;
+  for (auto [at, equations] : {std::pair(&start, &before), {&model, &after}}) {
+    equations->set_zero(variables.count());
+    add_scan_prior(*at, start, variables, false, *equations);
+  }
+  const Eigen::VectorXd expected = before.g - ScanSystem(before, {}, 1, workers_).times(step);
+  for (int k = 0; k < step.size(); ++k)  // damping adds a thousandth
+    ASSERT_NEAR(after.g[k], expected[k], 0.01 * expected.norm() / std::sqrt(expected.size())) << k;
+}
+
+TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
+  const ScanModel start = make_scan_model(*start_, kCell);
+  const ScanVariables variables(start);
+  const auto pull = [&](const ScanModel& model, bool hold) {  // sideways on every root, by each millimetre beside
+    ScanEquations equations;
+    equations.set_zero(variables.count());
+    add_scan_prior(model, start, variables, hold, equations);
+    std::array<double, kFingerCount> g;
+    for (int f = 0; f < kFingerCount; ++f) g[f] = equations.g[ScanVariables::joint(segment_of(f, 0)) + 3];
+    return g;
+  };
+  ScanModel beside = start;  // both points of every root, as if the joint moved: nothing else pulls but where it was
+  for (int f = 0; f < kFingerCount; ++f) {
+    const int s = segment_of(f, 0);
+    beside.in_segment[s].x() += 0.001;
+    beside.in_parent[s] += start.rest[s].col(0) * 0.001;
+  }
+  const auto free = pull(beside, false), at_start = pull(start, false), held = pull(beside, true);
+  for (int f = 1; f < kFingerCount; ++f) {
+    EXPECT_LT(free[f] - at_start[f], held[f] - 0.5 * 0.001 / (0.001 * 0.001)) << f;
+  }
+  EXPECT_NEAR(free[0] - at_start[0], held[0], 1e-6);
+}
+
 TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
   const HandProfile person = reshaped(*start_, shape_with({{"index_proximal_length", 0.08},
                                                            {"middle_intermediate_length", -0.08},
