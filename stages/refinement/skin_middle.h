@@ -13,8 +13,8 @@ struct SkinMiddle {
   double x = 0;                                    ///< in the bone's frame [m]
   std::vector<std::pair<int, double>> per_offset;  ///< vertex, and how x changes as it moves along its normal
 };
-/// From skin that follows `segment` alone, `length` [m] long: elliptic sections along a straight line, continued to the
-/// joint, as webs hide what is there. None: too little skin.
+/// From skin that follows `segment` alone, a bone of `length` [m] along -z: elliptic sections along a straight line,
+/// continued to the joint, as webs hide what is there. None: too little skin.
 std::optional<SkinMiddle> skin_middle(const Skin& skin, int segment, double length);
 
 }  // namespace barehand
