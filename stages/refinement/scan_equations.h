@@ -21,7 +21,8 @@ struct ScanFrame {
 /// Information of what must not move.
 inline constexpr double kHeld = 1e12;
 
-/// Normal equations H x = g of a scan's shared unknowns. Few unknowns meet in any one term, but for the means.
+/// Normal equations H x = g of a scan's shared unknowns. Few unknowns meet in any one term, but for
+/// means over the skin of a bone.
 struct ScanEquations {
   std::vector<Eigen::Triplet<double>> H;      ///< lower triangle; entries at the same place add up
   std::vector<Eigen::Triplet<double>> means;  ///< J, of terms that many unknowns share: J^T J belongs to H, too

@@ -91,11 +91,12 @@ class Prior {
 
   // The offsets of a segment neither shift nor turn it.
   void add_mean(int segment) {
-    std::vector<int> members;
+    std::vector<int> members, unknowns;
     Vector3d centre = Vector3d::Zero();
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i)
       if (vertex(i).a == segment) {
         members.push_back(i);
+        unknowns.push_back(variables_.offset(i));
         centre += vertex(i).in_a.cast<double>();
       }
     if (members.empty()) return;
@@ -110,29 +111,25 @@ class Prior {
       offset[k] = offset_[members[k]];
     }
     J /= static_cast<double>(count) * kMeanOffset;
-    const Eigen::VectorXd g = J.transpose() * (J * offset);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const int unknown = variables_.offset(members[k]);
-      out_.g[unknown] -= g[k];
-      for (int row = 0; row < 6; ++row) out_.means.emplace_back(out_.mean_rows + row, unknown, J(row, k));
-    }
-    out_.mean_rows += 6;
+    add_mean_rows(unknowns, J, J * offset);
   }
 
   // A finger is rooted in the middle of its skin from side to side. Images hardly tell where along the knuckle's axis.
   void add_middle(int finger) {
-    const int segment = segment_of(finger, 0), joint = ScanVariables::joint(segment) + 3;
+    const int segment = segment_of(finger, 0);
     const auto middle = skin_middle(start_.skin, segment, start_.profile.segments[segment].length);
     if (!middle) return;
     double beside = middle->x - model_.in_segment[segment].x();
-    for (const auto& [vertex, change] : middle->per_offset) beside += change * offset_[vertex];
-    const auto add = [&](int unknown, double change) {
-      out_.means.emplace_back(out_.mean_rows, unknown, change / kBesideMiddle);
-      out_.g[unknown] -= change * beside / sq(kBesideMiddle);
-    };
-    add(joint, -1);
-    for (const auto& [vertex, change] : middle->per_offset) add(variables_.offset(vertex), change);
-    ++out_.mean_rows;
+    std::vector<int> unknowns = {ScanVariables::joint(segment) + 3};
+    std::vector<double> J = {-1};
+    for (const auto& [vertex, change] : middle->per_offset) {
+      unknowns.push_back(variables_.offset(vertex));
+      J.push_back(change);
+      beside += change * offset_[vertex];
+    }
+    const auto count = static_cast<Eigen::Index>(J.size());
+    add_mean_rows(unknowns, Eigen::RowVectorXd::Map(J.data(), count) / kBesideMiddle,
+                  Eigen::VectorXd::Constant(1, beside / kBesideMiddle));
   }
 
  private:
@@ -142,6 +139,17 @@ class Prior {
   void add_one(int unknown, double value, double deviation) {
     out_.add(unknown, unknown, 1 / sq(deviation));
     out_.g[unknown] -= value / sq(deviation);
+  }
+
+  // Squares of `residuals`; a column of J for each unknown.
+  void add_mean_rows(const std::vector<int>& unknowns, const Eigen::MatrixXd& J, const Eigen::VectorXd& residuals) {
+    const Eigen::VectorXd g = J.transpose() * residuals;
+    const int rows = static_cast<int>(J.rows());
+    for (Eigen::Index k = 0; k < g.size(); ++k) {
+      out_.g[unknowns[k]] -= g[k];
+      for (int row = 0; row < rows; ++row) out_.means.emplace_back(out_.mean_rows + row, unknowns[k], J(row, k));
+    }
+    out_.mean_rows += rows;
   }
 
   void add_difference(int i, int j, double x, double y, double sign, double deviation) {
