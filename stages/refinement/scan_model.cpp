@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hand/implicit_hand.h"
+#include "stages/refinement/skin_sections.h"
 
 namespace barehand {
 namespace {
@@ -25,28 +26,38 @@ int partner(const ImplicitHand& hand, const HandProfile& profile, const SkinVert
   return nearest;
 }
 
-struct TipGrowth {
-  double longer = 0, thicker = 0;  // how far the skin's end moved along the bone, and its sides away from it [m]
-};
-
-// Least squares over what the skin shows: a single vertex may stick out where no frame saw it.
-TipGrowth growth_of_tip(const Skin& before, const Skin& now, int segment, const Vector3d& along) {
+// How far the skin's end moved along the bone [m]: least squares over what the skin shows, as a single vertex may stick
+// out where no frame saw it.
+double growth_of_end(const Skin& before, const Skin& now, int segment, const Vector3d& along) {
   constexpr double kEnd = 0.5;  // cosine: normals this near to the bone's direction are the end's
-  double end = 0, end_weight = 1e-9, sides = 0, side_weight = 1e-9;
+  double end = 0, weight = 1e-9;
   for (std::size_t i = 0; i < now.vertices.size(); ++i) {
     const SkinVertex& v = now.vertices[i];
-    if (v.a != segment) continue;
-    const double out = v.normal_in_a.dot(v.in_a - before.vertices[i].in_a);
     const double facing = v.normal_in_a.cast<double>().dot(along);
-    if (facing > kEnd) {
-      end += facing * out;
-      end_weight += facing * facing;
-    } else if (facing > -kEnd) {
-      sides += out;
-      side_weight += 1;
-    }
+    if (v.a != segment || facing <= kEnd) continue;
+    end += facing * v.normal_in_a.dot(v.in_a - before.vertices[i].in_a);
+    weight += facing * facing;
   }
-  return {end / end_weight, sides / side_weight};
+  return end / weight;
+}
+
+// The end of a fingertip's bone, in the frame of `bone`, which it had before; sets the radius there. The skin ends one
+// radius beyond it. Where joints are known so is the radius, but for how the skin has grown.
+Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segment, SegmentProfile& bone) {
+  const Vector3d along = bone.distal.normalized();
+  const double end = bone.length + bone.radius[1] + growth_of_end(start_model.skin, model.skin, segment, along);
+  const auto before = SkinSections::fit(start_model.skin, segment, bone.length, false);
+  const auto now = SkinSections::fit(model.skin, segment, bone.length, false);
+  if (!before || !now) return (end - bone.radius[1]) * along;
+  const bool known = model.joints_are_known();
+  const double beside = known ? bone.radius[1] - before->radius(1) : 0;
+  // radius = beside + now->radius(u) where u = (end - radius) / bone.length
+  const double slope = std::max((now->radius(1) - now->radius(0)) / bone.length, -0.5);
+  const double radius = (beside + now->radius(0) + slope * end) / (1 + slope);
+  bone.radius[1] = std::clamp(radius, 0.5 * bone.radius[1], 2 * bone.radius[1]);
+  Vector3d tip = (end - bone.radius[1]) * along;
+  if (!known) tip.x() = now->middle_x(-tip.z() / bone.length);
+  return tip;
 }
 
 // In a profile's skin the first segment of a vertex is the one with the larger share.
@@ -119,11 +130,7 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
     } else if (!is_tip(s)) {
       end = model.in_parent[s + 1];
     } else {
-      // The skin ends one radius beyond the bone, as it did before.
-      const Vector3d along = bone.distal.normalized();
-      const TipGrowth growth = growth_of_tip(start_model.skin, model.skin, s, along);
-      bone.radius[1] = std::max(bone.radius[1] + growth.thicker, 0.5 * bone.radius[1]);
-      end += (growth.longer - growth.thicker) * along;
+      end = tip_of(start_model, model, s, bone);
     }
     // The sections stay where the skin is.
     const Vector3d shift[2] = {start, end - bone.distal};

@@ -1,6 +1,6 @@
 #include "stages/refinement/scan_prior.h"
 
-#include "stages/refinement/skin_middle.h"
+#include "stages/refinement/skin_sections.h"
 
 namespace barehand {
 namespace {
@@ -117,12 +117,14 @@ class Prior {
   // A finger is rooted in the middle of its skin from side to side. Images hardly tell where along the knuckle's axis.
   void add_middle(int finger) {
     const int segment = segment_of(finger, 0);
-    const auto middle = skin_middle(start_.skin, segment, start_.profile.segments[segment].length);
-    if (!middle) return;
-    double beside = middle->x - model_.in_segment[segment].x();
+    const auto sections = SkinSections::fit(start_.skin, segment, start_.profile.segments[segment].length, true);
+    if (!sections) return;
+    double beside = sections->middle_x(0) - model_.in_segment[segment].x();
     std::vector<int> unknowns = {ScanVariables::joint(segment) + 3};
     std::vector<double> J = {-1};
-    for (const auto& [vertex, change] : middle->per_offset) {
+    for (std::size_t k = 0; k < sections->vertices().size(); ++k) {
+      const int vertex = sections->vertices()[k];
+      const double change = sections->middle_x_per_offset()[static_cast<Eigen::Index>(k)];
       unknowns.push_back(variables_.offset(vertex));
       J.push_back(change);
       beside += change * offset_[vertex];

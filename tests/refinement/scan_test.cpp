@@ -60,7 +60,9 @@ class ScanTest : public ::testing::Test {
 };
 
 TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
-  const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), make_scan_model(*start_, kCell));
+  HandProfile start = *start_;
+  start.origin = ProfileOrigin::measured;  // the tips of others move to where their skin says
+  const HandProfile hand = scanned_profile(make_scan_model(start, kCell), make_scan_model(start, kCell));
   const Skin skin = make_blended_skin(*start_, kCell);
   const HandPose pose = shown(*start_, 0.3, 0.8, 0.7, 0.5);
   std::vector<Eigen::Vector3f> before, after;
@@ -121,6 +123,55 @@ TEST_F(ScanTest, ATipEndsOneRadiusBeforeItsSkin) {
   const SegmentProfile& tip = scanned_profile(before, longer).segments[s];
   EXPECT_NEAR(tip.length - start_->segments[s].length, 0.002, 3e-4);
   EXPECT_NEAR(tip.radius[1], start_->segments[s].radius[1], 3e-4);
+}
+
+TEST_F(ScanTest, ATipOfThickerSkinIsFartherFromItsEnd) {
+  const int s = segment_of(1, 2);
+  const SegmentProfile& old = start_->segments[s];
+  const Eigen::Vector3f along = old.distal.normalized().cast<float>();
+  for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
+    HandProfile start = *start_;
+    start.origin = origin;
+    const ScanModel before = make_scan_model(start, kCell);
+    ScanModel thicker = before;
+    for (SkinVertex& v : thicker.skin.vertices)
+      if (v.a == s && v.normal_in_a.dot(along) < 0.5f)
+        v.in_a += 0.001f * (v.normal_in_a - v.normal_in_a.dot(along) * along);
+    const SegmentProfile& tip = scanned_profile(before, thicker).segments[s];
+    EXPECT_NEAR(tip.radius[1] - old.radius[1], 0.001, 3e-4);
+    EXPECT_NEAR(tip.length + tip.radius[1], old.length + old.radius[1], 1e-4);
+  }
+}
+
+TEST_F(ScanTest, AFittedRadiusIsThatOfTheSkinAndAMeasuredOneStays) {
+  const int s = segment_of(2, 2);
+  HandProfile start = *start_;
+  const SegmentProfile& bone = start.segments[s];
+  const double end = bone.length + bone.radius[1];
+  start.segments[s].radius[1] = bone.radius[1] + 0.001;  // the sections, which the skin follows, stay
+  for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
+    start.origin = origin;
+    const ScanModel model = make_scan_model(start, kCell);
+    const SegmentProfile& tip = scanned_profile(model, model).segments[s];
+    const double mean = 0.5 * (bone.half_width[1] + bone.half_thickness[1]);
+    EXPECT_NEAR(tip.radius[1], origin == ProfileOrigin::measured ? bone.radius[1] : mean, 3e-4);
+    EXPECT_NEAR(tip.length + tip.radius[1], end + 0.001, 1e-6);
+  }
+}
+
+TEST_F(ScanTest, AFittedTipLiesInTheMiddleOfItsSkin) {
+  const int s = segment_of(3, 2);
+  for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
+    HandProfile start = *start_;
+    start.origin = origin;
+    const ScanModel before = make_scan_model(start, kCell);
+    ScanModel aside = before;
+    for (SkinVertex& v : aside.skin.vertices)
+      if (v.a == s) v.in_a.x() += 0.002f;
+    const double moved =
+        scanned_profile(before, aside).segments[s].distal.x() - scanned_profile(before, before).segments[s].distal.x();
+    EXPECT_NEAR(moved, origin == ProfileOrigin::measured ? 0 : 0.002, 1e-4);
+  }
 }
 
 TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
