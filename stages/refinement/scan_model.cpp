@@ -41,8 +41,8 @@ double growth_of_end(const Skin& before, const Skin& now, int segment, const Vec
   return end / weight;
 }
 
-// The end of a fingertip's bone, in the frame of `bone`, which it had before; sets the radius there. The skin ends one
-// radius beyond it. Where joints are known so is the radius, but for how the skin has grown.
+// Where the bone of a fingertip ends in the frame that `bone` had at the start; sets the radius there. The skin ends
+// one radius beyond it. Where joints are known, so is the radius, but for how much thicker the skin has become.
 Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segment, SegmentProfile& bone) {
   const Vector3d along = bone.distal.normalized();
   const double end = bone.length + bone.radius[1] + growth_of_end(start_model.skin, model.skin, segment, along);

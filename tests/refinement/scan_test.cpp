@@ -120,7 +120,7 @@ TEST_F(ScanTest, ATipEndsOneRadiusBeforeItsSkin) {
   const Eigen::Vector3f along = start_->segments[s].distal.normalized().cast<float>();
   for (SkinVertex& v : longer.skin.vertices)
     if (v.a == s) v.in_a += 0.002f * std::max(v.normal_in_a.dot(along), 0.0f) * v.normal_in_a;
-  const SegmentProfile& tip = scanned_profile(before, longer).segments[s];
+  const SegmentProfile tip = scanned_profile(before, longer).segments[s];
   EXPECT_NEAR(tip.length - start_->segments[s].length, 0.002, 3e-4);
   EXPECT_NEAR(tip.radius[1], start_->segments[s].radius[1], 3e-4);
 }
@@ -137,7 +137,7 @@ TEST_F(ScanTest, ATipOfThickerSkinIsFartherFromItsEnd) {
     for (SkinVertex& v : thicker.skin.vertices)
       if (v.a == s && v.normal_in_a.dot(along) < 0.5f)
         v.in_a += 0.001f * (v.normal_in_a - v.normal_in_a.dot(along) * along);
-    const SegmentProfile& tip = scanned_profile(before, thicker).segments[s];
+    const SegmentProfile tip = scanned_profile(before, thicker).segments[s];
     EXPECT_NEAR(tip.radius[1] - old.radius[1], 0.001, 3e-4);
     EXPECT_NEAR(tip.length + tip.radius[1], old.length + old.radius[1], 1e-4);
   }
@@ -152,7 +152,7 @@ TEST_F(ScanTest, AFittedRadiusIsThatOfTheSkinAndAMeasuredOneStays) {
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
     start.origin = origin;
     const ScanModel model = make_scan_model(start, kCell);
-    const SegmentProfile& tip = scanned_profile(model, model).segments[s];
+    const SegmentProfile tip = scanned_profile(model, model).segments[s];
     const double mean = 0.5 * (bone.half_width[1] + bone.half_thickness[1]);
     EXPECT_NEAR(tip.radius[1], origin == ProfileOrigin::measured ? bone.radius[1] : mean, 3e-4);
     EXPECT_NEAR(tip.length + tip.radius[1], end + 0.001, 1e-6);
