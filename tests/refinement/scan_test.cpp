@@ -55,13 +55,17 @@ HandShape shape_with(std::initializer_list<std::pair<const char*, double>> value
 
 class ScanTest : public ::testing::Test {
  protected:
+  HandProfile started_as(ProfileOrigin origin) const {
+    HandProfile start = *start_;
+    start.origin = origin;
+    return start;
+  }
   const std::shared_ptr<const HandProfile> start_ = test::adult_hand();
   Workers workers_{1};
 };
 
 TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
-  HandProfile start = *start_;
-  start.origin = ProfileOrigin::measured;  // the tips of others move to where their skin says
+  const HandProfile start = started_as(ProfileOrigin::measured);  // the tips of others move to where their skin says
   const HandProfile hand = scanned_profile(make_scan_model(start, kCell), make_scan_model(start, kCell));
   const Skin skin = make_blended_skin(*start_, kCell);
   const HandPose pose = shown(*start_, 0.3, 0.8, 0.7, 0.5);
@@ -130,9 +134,7 @@ TEST_F(ScanTest, ATipOfThickerSkinIsFartherFromItsEnd) {
   const SegmentProfile& old = start_->segments[s];
   const Eigen::Vector3f along = old.distal.normalized().cast<float>();
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
-    HandProfile start = *start_;
-    start.origin = origin;
-    const ScanModel before = make_scan_model(start, kCell);
+    const ScanModel before = make_scan_model(started_as(origin), kCell);
     ScanModel thicker = before;
     for (SkinVertex& v : thicker.skin.vertices)
       if (v.a == s && v.normal_in_a.dot(along) < 0.5f)
@@ -162,9 +164,7 @@ TEST_F(ScanTest, AFittedRadiusIsThatOfTheSkinAndAMeasuredOneStays) {
 TEST_F(ScanTest, AFittedTipLiesInTheMiddleOfItsSkin) {
   const int s = segment_of(3, 2);
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
-    HandProfile start = *start_;
-    start.origin = origin;
-    const ScanModel before = make_scan_model(start, kCell);
+    const ScanModel before = make_scan_model(started_as(origin), kCell);
     ScanModel aside = before;
     for (SkinVertex& v : aside.skin.vertices)
       if (v.a == s) v.in_a.x() += 0.002f;
@@ -178,8 +178,7 @@ TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
   const HandPose pose = shown(*start_, 0, 0.1, 0.1, 0.1);
   const auto observation = test::observe_skin(make_blended_skin(*start_, 0.004), pose);
   const auto information = [&](ProfileOrigin origin) {  // about the offset of every vertex
-    HandProfile hand = *start_;
-    hand.origin = origin;
+    const HandProfile hand = started_as(origin);
     const ScanModel model = make_scan_model(hand, kCell);
     const ScanVariables variables(model);
     ScanFrameEquations frame;
@@ -405,8 +404,7 @@ TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
 }
 
 TEST_F(ScanTest, JointsOfAMeasuredHandStay) {
-  HandProfile measured = *start_;
-  measured.origin = ProfileOrigin::measured;
+  const HandProfile measured = started_as(ProfileOrigin::measured);
   const HandProfile thicker = reshaped(measured, shape_with({{"fingers_thickness", 0.08}, {"palm_thickness", 0.08}}));
   std::vector<double> mismatch;
   const auto hand = scan_hand(measured, kCell, scan_of(thicker, measured), workers_,
