@@ -42,7 +42,7 @@ scanned() {  # NAME OPTIONS...
   figures "$name: the same after the first 60 frames" "$out/fist_$name" --start 60
   judge "$name: scanned from the mean hand" "$out/fist_$name" "$from_mean"
   judge "$name: measured profile, without the scan" "$out/fist_$name" "$own" --config "$out/no_scan.yaml"
-  judge "$name: measured profile" "$out/fist_$name" "$own"
+  judge "$name: measured profile" "$out/fist_$name" "$own" --save-hand "$out/$name.way.json"
   figures "$name: the same after the first 60 frames" "$out/fist_$name" --start 60
   judge "$name: scanned from the measured profile" "$out/fist_$name" "$from_own"
 }
@@ -58,8 +58,6 @@ another slender --set scale=1.05 thickness=0.9 index=1.1 ring=1.05 little=0.95
 another stout --set scale=0.95 thickness=1.15 thumb=1.08 middle=0.95
 another narrow --set scale=1.08 thickness=0.95 index=0.95 little=1.08 thumb=1.05
 another broad --set scale=0.92 thickness=1.08 middle=1.06 thumb=0.94 ring=1.03
-"$barehand" track --source "folder:$out/fist_as_in_file" --hand "$out/fist_as_in_file/hand.json" --no-publish \
-  --save-hand "$out/as_in_file.way.json" >"$out/track.log" 2>&1
 for sequence in occlusion_{0,1,2,3,4,5,6} grasp_{mug,ball,pliers}; do
   simulated $sequence $sequence
   judge "$sequence: measured profile" "$out/$sequence" "$out/$sequence/hand.json"
