@@ -46,11 +46,13 @@ double growth_of_end(const Skin& before, const Skin& now, int segment, const Vec
 Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segment, SegmentProfile& bone) {
   const Vector3d along = bone.distal.normalized();
   const double end = bone.length + bone.radius[1] + growth_of_end(start_model.skin, model.skin, segment, along);
-  const auto before = SkinSections::fit(start_model.skin, segment, bone.length, false);
   const auto now = SkinSections::fit(model.skin, segment, bone.length, false);
-  if (!before || !now) return (end - bone.radius[1]) * along;
+  if (!now) return (end - bone.radius[1]) * along;
+  double beside = 0;
   const bool known = model.joints_are_known();
-  const double beside = known ? bone.radius[1] - before->radius(1) : 0;
+  if (known)
+    if (const auto before = SkinSections::fit(start_model.skin, segment, bone.length, false))
+      beside = bone.radius[1] - before->radius(1);
   // radius = beside + now->radius(u) where u = (end - radius) / bone.length
   const double slope = std::max((now->radius(1) - now->radius(0)) / bone.length, -0.5);
   const double radius = (beside + now->radius(0) + slope * end) / (1 + slope);
