@@ -1,0 +1,68 @@
+#include "io/place.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace barehand {
+namespace fs = std::filesystem;
+
+Target target_of(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  fs::path at = path;
+  for (int links = 0; links < kMostLinks; ++links) {
+    // The links of a process's descriptors lead to files that are open already.
+    const fs::path folder = fs::canonical(at.has_parent_path() ? at.parent_path() : fs::path("."), error);
+    if (folder.string().starts_with("/proc/")) return {path, true};
+
+    if (!fs::is_symlink(at, error)) break;
+    const fs::path next = fs::read_symlink(at, error);
+    at = next.is_absolute() ? next : at.parent_path() / next;
+  }
+  const fs::file_status status = fs::status(at, error);
+  return {at.string(), fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)};
+}
+
+Place::Place(const std::string& path) {
+  // The real path: a link's parents are not its target's.
+  std::error_code error;
+  const fs::path given = fs::absolute(target_of(path).path, error);
+  fs::path at = fs::weakly_canonical(given, error);
+  if (error) at = given.lexically_normal();
+  if (!at.has_filename()) at = at.parent_path();  // "folder/"
+
+  // Up to what is there; the names on the way are missing.
+  for (; !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path())
+    missing_.insert(missing_.begin(), at.filename().string());
+
+  // And what that is in.
+  for (;; at = at.parent_path()) {
+    struct stat status {};
+    if (stat(at.c_str(), &status) == 0) there_.push_back({status.st_dev, status.st_ino});
+    if (!at.has_relative_path()) break;
+  }
+}
+
+bool Place::operator==(const Place& other) const {
+  return !there_.empty() && !other.there_.empty() && there_.front() == other.there_.front() &&
+         missing_ == other.missing_;
+}
+
+bool Place::lies_in(const Place& folder) const {
+  if (folder.there_.empty()) return false;
+  const auto at = std::find(there_.begin(), there_.end(), folder.there_.front());
+  if (at == there_.end()) return false;
+  if (folder.exists()) return !exists() || at != there_.begin();
+  return at == there_.begin() && missing_.size() > folder.missing_.size() &&
+         std::equal(folder.missing_.begin(), folder.missing_.end(), missing_.begin());
+}
+
+bool Place::is_entry_of(const Place& folder) const {
+  if (!lies_in(folder)) return false;
+  if (!exists()) return missing_.size() == folder.missing_.size() + 1 && there_.front() == folder.there_.front();
+  return there_.size() > 1 && there_[1] == folder.there_.front();
+}
+
+}  // namespace barehand

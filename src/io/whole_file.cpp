@@ -1,0 +1,148 @@
+#include "io/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "io/place.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostDrafts = 10'000;
+
+tl::unexpected<Error> cannot_write(int reason, const std::string& path,
+                                   const std::string& remedy = "check the folder, its permissions and the free space") {
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path, remedy);
+}
+
+/// Pipes and some file systems cannot be synchronised, which is no failure.
+int synchronise(int file) {
+  if (fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP) return 0;
+  return errno;
+}
+
+void synchronise_folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  const int file = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  (void)synchronise(file);
+  close(file);
+}
+
+/// 0, or why not.
+int rename_unless_there(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  // A file system that cannot do both at once.
+  if (access(to.c_str(), F_OK) == 0) return EEXIST;
+  return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
+  WholeFile file;
+  const Target target = target_of(path);
+  file.path_ = path;
+  file.target_ = target.path;
+  file.direct_ = target.direct;
+  file.overwrite_ = overwrite;
+  if (target.direct) {
+    file.draft_ = path;
+    return file;
+  }
+
+  // What is there must be of the right kind and may be protected.
+  struct stat there {};
+  if (stat(target.path.c_str(), &there) == 0) {
+    if (S_ISDIR(there.st_mode)) return fail("is a folder", path, "give a file");
+    if (!overwrite) return fail("exists already", path, "choose another name, or replace it with --overwrite");
+    if (faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0)
+      return cannot_write(errno, path, "choose another name");
+  }
+
+  // A draft of its own, next to those that killed programs left.
+  for (int n = 1; n <= kMostDrafts; ++n) {
+    const std::string draft = target.path + std::string(kUnfinished) + (n > 1 ? "-" + std::to_string(n) : "");
+    file.lock_ = open(draft.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file.lock_ < 0 && errno == EEXIST) continue;
+    if (file.lock_ < 0) return cannot_write(errno, path);
+    file.draft_ = draft;
+    (void)flock(file.lock_, LOCK_EX | LOCK_NB);
+    return file;
+  }
+  return cannot_write(EEXIST, path, "too many files end in " + std::string(kUnfinished) + ": remove them");
+}
+
+WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
+  if (this == &other) return *this;
+  discard();
+  path_ = std::move(other.path_);
+  target_ = std::move(other.target_);
+  draft_ = std::exchange(other.draft_, {});
+  direct_ = other.direct_;
+  overwrite_ = other.overwrite_;
+  lock_ = std::exchange(other.lock_, -1);
+  return *this;
+}
+
+Result<void> WholeFile::finish() {
+  const std::string draft = std::exchange(draft_, {});
+  const int lock = std::exchange(lock_, -1);
+  if (direct_ || draft.empty()) return {};
+
+  // Opened anew: the writer may have made another file of this name.
+  int reason = 0;
+  const int file = open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) reason = errno;
+  struct stat replaced {};
+  if (file >= 0 && overwrite_ && stat(target_.c_str(), &replaced) == 0) (void)fchmod(file, replaced.st_mode & 07777);
+  if (file >= 0) reason = synchronise(file);
+  if (file >= 0) close(file);
+
+  // Only what is on the disk gets the name.
+  if (reason == 0 && overwrite_) reason = std::rename(draft.c_str(), target_.c_str()) == 0 ? 0 : errno;
+  if (reason == 0 && !overwrite_) reason = rename_unless_there(draft, target_);
+  if (lock >= 0) close(lock);
+  if (reason != 0) return cannot_write(reason, path_, "what was written is in " + draft);
+  synchronise_folder_of(target_);
+  return {};
+}
+
+void WholeFile::discard() {
+  if (!direct_ && !draft_.empty()) (void)unlink(draft_.c_str());
+  draft_.clear();
+  if (lock_ >= 0) close(std::exchange(lock_, -1));
+}
+
+Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
+  auto whole = WholeFile::create(path, true);
+  if (!whole) return tl::unexpected(whole.error());
+  errno = 0;
+  std::ofstream file(whole->draft(), std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) return cannot_write(errno, path);
+  return whole->finish();
+}
+
+bool finish_abandoned(const std::string& draft, const std::string& path) {
+  const int file = open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool abandoned = flock(file, LOCK_EX | LOCK_NB) == 0;
+  const bool done = abandoned && synchronise(file) == 0 && rename_unless_there(draft, path) == 0;
+  close(file);
+  if (done) synchronise_folder_of(path);
+  return done;
+}
+
+}  // namespace barehand
