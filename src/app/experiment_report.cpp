@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "core/format.h"
 #include "io/chart.h"
 #include "io/json_fields.h"
+#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -85,13 +85,6 @@ BoxChart chart_of(const ExperimentReport& report) {
   return chart;
 }
 
-Result<void> write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) return fail("cannot be written", path, "check the folder and the space on the disk");
-  return {};
-}
-
 }  // namespace
 
 std::string experiment_table(const ExperimentReport& report) {
@@ -112,8 +105,8 @@ std::string experiment_table(const ExperimentReport& report) {
 
 Result<void> write_experiment(const ExperimentReport& report, const std::string& directory) {
   const std::string path = directory + "/" + report.name;
-  return write_text(path + ".txt", experiment_table(report))
-      .and_then([&] { return write_text(path + ".csv", csv_of(report)); })
+  return write_whole_file(path + ".txt", experiment_table(report))
+      .and_then([&] { return write_whole_file(path + ".csv", csv_of(report)); })
       .and_then([&] { return json_fields::write_json(path + ".json", json_of(report)); })
       .and_then([&] { return write_chart(chart_of(report), path + ".png"); });
 }

@@ -17,14 +17,16 @@ class LogFrameWriter : public FrameWriter {
   Result<void> write(const RgbdFrame& frame) override {
     const auto message = encode_frame(frame, options_.encoding);
     if (!message) return tl::unexpected(message.error());
-    return log_->send(options_.channel, encode_message(*message), frame.utime);
+    return log_->send(options_.channel, encode_message(*message), frame.utime).map([&] { ++written_; });
   }
+  Result<void> finish() override { return written_ > 0 ? log_->finish() : Result<void>(); }
   std::string name() const override { return "LCM log " + path_; }
 
  private:
   std::string path_;
   FrameWriterOptions options_;
   std::unique_ptr<MessageSink> log_;
+  std::int64_t written_ = 0;
 };
 
 class FolderFrameWriter : public FrameWriter {
@@ -38,6 +40,7 @@ class FolderFrameWriter : public FrameWriter {
     depth_only.colour = {};
     return written(writer_.write(depth_only));
   }
+  Result<void> finish() override { return writer_.finish(); }
   std::string name() const override { return "folder " + path_; }
 
  private:

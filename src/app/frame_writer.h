@@ -11,13 +11,15 @@
 
 namespace barehand {
 
-/// Where recorded or converted frames go.
+/// Where recorded or converted frames go. Its destructor finishes it, too, but cannot report errors.
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
   /// What was written before stays readable whatever happens in this call; a full disk is an error, after which the
   /// next frame may succeed.
   virtual Result<void> write(const RgbdFrame& frame) = 0;
+  /// After the last frame: everything is on the disk and has its name when it returns. Nothing is left without a frame.
+  virtual Result<void> finish() = 0;
   /// "LCM log /data/a.lcmlog", for messages.
   virtual std::string name() const = 0;
 };

@@ -2,9 +2,7 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -12,6 +10,7 @@
 #include "core/format.h"
 #include "io/json_fields.h"
 #include "io/skin_json.h"
+#include "io/whole_file.h"
 #include "math/angles.h"
 
 namespace barehand {
@@ -239,14 +238,6 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   return profile;
 }
 
-// Where a profile is written before it takes the place of `path`. Into a device, and through a link, it goes at once.
-std::string draft_of(const std::string& path) {
-  std::error_code error;
-  const auto type = std::filesystem::symlink_status(path, error).type();
-  const bool replaced = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
-  return replaced ? path + ".new" : path;
-}
-
 }  // namespace
 
 Result<HandProfile> load_profile(const std::string& path) {
@@ -262,11 +253,12 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
 }
 
 Result<void> check_profile_path(const std::string& path) {
-  const std::string draft = draft_of(path);
-  if (!std::ofstream(draft, std::ios::app))
-    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
-                "check the folder and its permissions");
-  if (draft != path) std::remove(draft.c_str());
+  auto file = WholeFile::create(path, true);
+  if (!file) return tl::unexpected(file.error());
+  // A device or a descriptor tells by being opened.
+  errno = 0;
+  if (!std::ofstream(file->draft(), std::ios::app))
+    return fail(std::string("cannot be written: ") + std::strerror(errno), path, "check its permissions");
   return {};
 }
 
@@ -276,13 +268,7 @@ Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   if (profile.origin == ProfileOrigin::fitted) json["mean_hand"] = "fitted";
   for (int s = 0; s < kSegmentCount; ++s) json["segments"].push_back(to_json(profile.segments[s], s));
   if (profile.scanned_skin) json["skin"] = skin_to_json(*profile.scanned_skin);
-  const std::string draft = draft_of(path);
-  auto written = json_fields::write_json(draft, json);
-  if (draft == path) return written;
-  if (written && std::rename(draft.c_str(), path.c_str()) != 0)
-    written = fail(std::string("cannot be written: ") + std::strerror(errno), path);
-  if (!written) std::remove(draft.c_str());
-  return written;
+  return json_fields::write_json(path, json);
 }
 
 }  // namespace barehand

@@ -1,10 +1,10 @@
 #include "io/json_fields.h"
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "io/file_bytes.h"
+#include "io/whole_file.h"
 
 namespace barehand::json_fields {
 namespace {
@@ -42,11 +42,7 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 }
 
 Result<void> write_json(const std::string& path, const Json& json) {
-  std::ofstream file(path);
-  file << json.dump(1) << '\n';
-  file.close();
-  if (!file) return fail("cannot be written", path, "check the folder, its permissions and the free space");
-  return {};
+  return write_whole_file(path, json.dump(1) + "\n");
 }
 
 Result<double> Object::number(const char* key, double lo, double hi) const {

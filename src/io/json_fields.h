@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 Result<Json> read_json(const std::string& path);
 /// `where`: what the text comes from, for messages.
 Result<Json> parse_json(const std::string& text, const std::string& where);
-/// Writes `json` to a file; a directory that does not exist or a full disk is an error.
+/// Writes `json` to a file, replacing one that is there; a directory that does not exist or a full disk is an error.
 Result<void> write_json(const std::string& path, const Json& json);
 
 /// One JSON object and where it stands, so that every message names file, object and key.

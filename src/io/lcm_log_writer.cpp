@@ -1,35 +1,42 @@
 #include "io/lcm_log_writer.h"
 
+#include <fcntl.h>
 #include <stdio_ext.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <lcm/lcm-cpp.hpp>
 
 namespace barehand {
 
-LcmLogWriter::LcmLogWriter(std::string path, std::unique_ptr<lcm::LogFile> log)
-    : path_(std::move(path)), log_(std::move(log)) {}
+LcmLogWriter::LcmLogWriter(std::string path, WholeFile file, std::unique_ptr<lcm::LogFile> log)
+    : path_(std::move(path)), file_(std::move(file)), log_(std::move(log)) {}
 
-LcmLogWriter::~LcmLogWriter() = default;
+LcmLogWriter::~LcmLogWriter() {
+  if (events_ > 0) (void)finish();
+}
 
 Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& path, bool overwrite) {
-  std::error_code error;
-  if (!overwrite && std::filesystem::exists(path, error)) {
-    return fail("the file exists", path, "choose another name or allow overwriting");
-  }
+  auto file = WholeFile::create(path, overwrite);
+  if (!file) return tl::unexpected(file.error());
   errno = 0;
-  auto log = std::make_unique<lcm::LogFile>(path, "w");
+  auto log = std::make_unique<lcm::LogFile>(file->draft(), "w");
   if (!log->good()) {
     return fail(std::string("cannot create the log: ") + std::strerror(errno), path,
                 "check the folder and its permissions");
   }
-  return std::unique_ptr<LcmLogWriter>(new LcmLogWriter(path, std::move(log)));
+  return std::unique_ptr<LcmLogWriter>(new LcmLogWriter(path, std::move(*file), std::move(log)));
+}
+
+Result<void> LcmLogWriter::finish() {
+  if (!log_) return {};
+  log_.reset();
+  return file_.finish();
 }
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
+  if (!log_) return fail("the log is finished, nothing more is written", path_);
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   if (channel.empty() || channel.size() > kLongestChannel)
     return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
@@ -44,7 +51,16 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   disk_full_ = false;
   good_ += kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
   ++events_;
+  start_write_back();
   return {};
+}
+
+/// Now and then, so that not all of a large log is left to be waited for when it is finished.
+void LcmLogWriter::start_write_back() {
+  constexpr std::int64_t kPiece = 8 << 20;
+  if (good_ - written_back_ < kPiece) return;
+  (void)sync_file_range(fileno(log_->getFilePtr()), written_back_, good_ - written_back_, SYNC_FILE_RANGE_WRITE);
+  written_back_ = good_;
 }
 
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {

@@ -18,6 +18,8 @@ class MessageSink {
   virtual ~MessageSink() = default;
   /// `utime`: time of the measurement [us]; sinks that stamp events use it, never the wall clock.
   virtual Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) = 0;
+  /// After the last message: what was sent is where it belongs when this returns.
+  virtual Result<void> finish() { return {}; }
 };
 
 }  // namespace barehand

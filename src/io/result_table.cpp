@@ -140,15 +140,26 @@ Result<ResultTable> read_table(const std::string& path) {
   return builder.finish(false);
 }
 
-Result<TableWriter> TableWriter::create(const std::string& path) {
-  TableWriter writer;
-  writer.path_ = path;
-  writer.file_.reset(std::fopen(path.c_str(), "w"));
+Result<TableWriter> TableWriter::create(const std::string& path, bool overwrite) {
+  auto whole = WholeFile::create(path, overwrite);
+  if (!whole) return tl::unexpected(whole.error());
+  TableWriter writer(path, std::move(*whole));
+  writer.file_.reset(std::fopen(writer.whole_.draft().c_str(), "w"));
   if (writer.file_) std::setvbuf(writer.file_.get(), nullptr, _IONBF, 0);
   if (!writer.file_ || !writer.append(std::string(kHeader) + "\n"))
     return fail(std::string("cannot be written: ") + std::strerror(errno), path,
                 "check the folder, its permissions and the free space");
   return writer;
+}
+
+TableWriter::~TableWriter() {
+  if (frames_ > 0) (void)finish();
+}
+
+Result<void> TableWriter::finish() {
+  if (!file_) return {};
+  file_.reset();
+  return whole_.finish();
 }
 
 bool TableWriter::append(const std::string& text) {
@@ -159,10 +170,14 @@ bool TableWriter::append(const std::string& text) {
 }
 
 Result<void> TableWriter::write(const TableFrame& frame) {
+  if (!file_) return fail("the table is finished, nothing more is written", path_);
   if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   std::string text;
   for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
-  if (append(text)) return {};
+  if (append(text)) {
+    ++frames_;
+    return {};
+  }
   const int reason = errno;
   std::FILE* file = file_.get();
   std::clearerr(file);

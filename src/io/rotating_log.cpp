@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <ctime>
 #include <numeric>
+#include <optional>
 #include <regex>
+#include <vector>
 
 #include "core/format.h"
+#include "io/place.h"
 
 namespace barehand {
 namespace fs = std::filesystem;
@@ -22,6 +25,16 @@ std::string stamp(std::int64_t utime) {
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
+/// Of a file called as those of `set` are.
+std::optional<std::int64_t> number_in_set(const fs::path& file, const fs::path& set) {
+  static const std::regex name("(.*)-([0-9]{6,18})-[0-9]{8}T[0-9]{6}Z");
+  const std::string stem = file.stem().string();
+  std::smatch parts;
+  if (file.extension() != set.extension() || !std::regex_match(stem, parts, name)) return std::nullopt;
+  if (parts[1] != set.stem().string()) return std::nullopt;
+  return std::stoll(parts[2]);
+}
+
 bool no_room(const fs::path& folder) {
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
@@ -29,6 +42,10 @@ bool no_room(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool belongs_to_set(const fs::path& file, const fs::path& set) {
+  return number_in_set(file, set) && Place(folder_of(file)) == Place(folder_of(set));
+}
 
 RotatingLog::RotatingLog(fs::path path, LogRotation rotation, const Clock& clock)
     : path_(std::move(path)), rotation_(rotation), clock_(clock) {}
@@ -43,26 +60,36 @@ Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path
   fs::create_directories(folder, error);
   if (error) return fail("cannot be made: " + error.message(), folder.string(), "check the path and its permissions");
   std::unique_ptr<RotatingLog> log(new RotatingLog(path, rotation, clock));
+  log->finish_abandoned_files();
   log->find_files();
   return log;
 }
 
-void RotatingLog::find_files() {
-  const std::regex name("(.*)-([0-9]{6,18})-[0-9]{8}T[0-9]{6}Z");
-  std::error_code ignored;  // a folder that cannot be read shows when a file is made
+/// Before the first file of this run is made: until then no draft of the set is this one's.
+void RotatingLog::finish_abandoned_files() const {
+  const std::string ending = path_.extension().string() + std::string(kUnfinished);
+  std::error_code ignored;
+  std::vector<std::string> drafts;
   for (const auto& entry : fs::directory_iterator(folder_of(path_), ignored)) {
-    const std::string stem = entry.path().stem().string();
-    std::smatch parts;
-    if (entry.path().extension() != path_.extension() || !std::regex_match(stem, parts, name)) continue;
-    if (parts[1] != path_.stem().string()) continue;
-    files_.push_back({entry.path(), std::stoll(parts[2]), static_cast<std::int64_t>(entry.file_size(ignored))});
+    const std::string name = entry.path().filename().string();
+    const bool draft = name.ends_with(ending) && entry.file_size(ignored) > 0;
+    if (draft && number_in_set(name.substr(0, name.size() - kUnfinished.size()), path_)) drafts.push_back(entry.path());
   }
+  for (const std::string& draft : drafts) finish_abandoned(draft, draft.substr(0, draft.size() - kUnfinished.size()));
+}
+
+void RotatingLog::find_files() {
+  std::error_code ignored;  // a folder that cannot be read shows when a file is made
+  for (const auto& entry : fs::directory_iterator(folder_of(path_), ignored))
+    if (const auto number = number_in_set(entry.path(), path_))
+      files_.push_back({entry.path(), *number, static_cast<std::int64_t>(entry.file_size(ignored))});
   std::sort(files_.begin(), files_.end(), [](const File& a, const File& b) { return a.number < b.number; });
 }
 
 Result<void> RotatingLog::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
   const auto bytes = kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
-  if (log_ && is_full(bytes)) log_.reset();
+  if (log_ && is_full(bytes))
+    if (const auto closed = close(); !closed) return closed;
   while (rotation_.quota > 0 && used() + bytes > rotation_.quota && remove_oldest()) {
   }
   if (!log_)
@@ -71,8 +98,16 @@ Result<void> RotatingLog::send(const std::string& channel, std::span<const std::
   while (!sent && log_->disk_full() && rotation_.quota > 0 && remove_oldest())
     sent = log_->send(channel, message, utime);
   files_.back().bytes = log_->bytes();
-  if (log_->failed()) log_.reset();
+  if (log_->failed()) (void)close();
   return sent;
+}
+
+Result<void> RotatingLog::finish() { return log_ ? close() : Result<void>(); }
+
+Result<void> RotatingLog::close() {
+  const auto finished = log_->finish();
+  log_.reset();
+  return finished;
 }
 
 bool RotatingLog::is_full(std::int64_t more) const {

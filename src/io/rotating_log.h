@@ -18,9 +18,13 @@ struct LogRotation {
   std::int64_t quota = 0;       ///< of all files together [bytes]
 };
 
+/// Whether `file` is, by its name and folder, one of the logs of the set "take.lcmlog".
+bool belongs_to_set(const std::filesystem::path& file, const std::filesystem::path& set);
+
 /// A recording that never ends: a set of LCM logs, each complete in itself. "take.lcmlog" becomes
-/// take-000001-20261122T090000Z.lcmlog and so on, counted on from the files that are there. When the quota is used up,
-/// and when the disk is full, the oldest files of the set are removed, never the one that is written. Without a quota
+/// take-000001-20261122T090000Z.lcmlog and so on, counted on from the files that are there. A file has its name when it
+/// is closed (WholeFile); one that a killed program left gets it when the set goes on. When the quota is used up, and
+/// when the disk is full, the oldest files of the set are removed, never the one that is written. Without a quota
 /// nothing is removed.
 class RotatingLog : public MessageSink {
  public:
@@ -30,6 +34,7 @@ class RotatingLog : public MessageSink {
 
   /// An event that cannot be written is lost; the next one may succeed, in a new file if need be.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
+  Result<void> finish() override;
 
  private:
   struct File {
@@ -38,7 +43,9 @@ class RotatingLog : public MessageSink {
     std::int64_t bytes;
   };
   RotatingLog(std::filesystem::path path, LogRotation rotation, const Clock& clock);
+  void finish_abandoned_files() const;
   void find_files();
+  Result<void> close();
   bool is_full(std::int64_t more) const;
   Result<void> open_next();
   bool remove_oldest();

@@ -6,10 +6,16 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/file_bytes.h"
+#include "io/whole_file.h"
+
 namespace barehand {
 
 Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
   std::ifstream in(path);
+  if (!in && !is_missing(path + std::string(kUnfinished)))
+    return fail("is missing: the recording was not finished", path,
+                "rename " + path + std::string(kUnfinished) + " to play it as far as it got");
   if (!in) return fail("cannot be read", path, "a recording needs it, see docs/formats.md");
   const std::string folder = std::filesystem::path(path).parent_path().string();
   std::vector<StampedFile> files;

@@ -51,6 +51,7 @@ class FullDisk : public FrameWriter {
     if (left_-- > 0) return {};
     return fail("No space left on device");
   }
+  Result<void> finish() override { return {}; }
   std::string name() const override { return "full disk"; }
 
  private:
@@ -129,6 +130,7 @@ TEST_F(CopyFrames, ALiveCopyOutlivesAFullDisk) {
       if (frame.number == 1 || frame.number == 2) return fail("No space left on device");
       return {};
     }
+    Result<void> finish() override { return {}; }
     std::string name() const override { return "disk"; }
   } disk;
   ListSource source({frame_event(0), frame_event(1), frame_event(2), frame_event(3)}, true);

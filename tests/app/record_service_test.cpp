@@ -49,9 +49,9 @@ class Record : public ::testing::Test {
 };
 
 TEST_F(Record, AKilledRecordingReplaysUpToTheLastFrame) {
-  const std::string log = folder_ / "a.lcmlog";
+  const std::string log = folder_ / "a.lcmlog.unfinished";
   for (int i = 0; i < 5; ++i) {  // killed at different moments
-    ChildProcess child(command(log, {"--overwrite"}));
+    ChildProcess child(command(folder_ / "a.lcmlog"));
     const auto enough = static_cast<std::uintmax_t>(50'000 + 17'000 * i);
     std::error_code not_yet;
     for (std::uintmax_t size = 0; size == static_cast<std::uintmax_t>(-1) || size < enough;
@@ -132,7 +132,7 @@ TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
   ASSERT_TRUE(child.wait_for("No space left on device")) << child.output();
   disk_.make_room(child);
   ASSERT_TRUE(child.wait_for("writing again")) << child.output();
-  disk_.beside(child, "cp " + (folder_ / "take.lcmlog") + " " + (outside / "copy.lcmlog"));
+  disk_.beside(child, "cp " + (folder_ / "take.lcmlog.unfinished") + " " + (outside / "copy.lcmlog"));
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr(" lost: cannot write the log: No space left on device"));

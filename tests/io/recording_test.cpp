@@ -96,6 +96,35 @@ TEST_F(RecordingFolder, NothingIsOverwritten) {
   EXPECT_THAT(again.error().message(), HasSubstr("already holds a recording"));
 }
 
+TEST_F(RecordingFolder, PartsOfAnotherRecordingAreNotOverwritten) {
+  for (const char* part : {"camera.json", "rgb.txt", "depth.txt.unfinished", "rgb/000000.png", "depth/000000.png"}) {
+    fs::create_directories((path_ + "/" + part).substr(0, (path_ + "/" + part).rfind('/')));
+    test::write_text(path_ + "/" + part, "somebody's");
+    EXPECT_FALSE(RecordingWriter::create(path_)) << part;
+    EXPECT_EQ(test::read_text(path_ + "/" + part), "somebody's");
+    fs::remove_all(path_);
+  }
+}
+
+TEST_F(RecordingFolder, IsNoRecordingBeforeItIsFinished) {
+  auto writer = RecordingWriter::create(path_);
+  ASSERT_TRUE(writer->write(frame_at(0, 1)));
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("depth.txt: is missing"), HasSubstr("depth.txt.unfinished")));
+  ASSERT_TRUE(writer->finish());
+  EXPECT_EQ(open_error(), "accepted");
+  EXPECT_FALSE(writer->write(frame_at(1, 1))) << "after the end";
+}
+
+TEST_F(RecordingFolder, WithoutAFrameNothingIsLeft) {
+  ASSERT_TRUE(RecordingWriter::create(path_)->finish());
+  EXPECT_FALSE(fs::exists(path_));
+  fs::create_directory(path_);
+  test::write_text(path_ + "/notes.txt", "of the user");
+  ASSERT_TRUE(RecordingWriter::create(path_)->finish());
+  EXPECT_TRUE(fs::exists(path_ + "/notes.txt"));
+  EXPECT_FALSE(fs::exists(path_ + "/depth"));
+}
+
 TEST_F(RecordingFolder, CameraMayNotChange) {
   auto writer = RecordingWriter::create(path_);
   ASSERT_TRUE(writer->write(frame_at(0, 1)));
@@ -109,6 +138,7 @@ TEST_F(RecordingFolder, TimeMayNotGoBack) {
   ASSERT_TRUE(writer->write(frame_at(2'000'000, 1)));
   EXPECT_THAT(writer->write(frame_at(1'000'000, 1)).error().message(), HasSubstr("time goes back at frame 1"));
   ASSERT_TRUE(writer->write(frame_at(3'000'000, 1)));
+  ASSERT_TRUE(writer->finish());
   EXPECT_EQ(open_recording(path_)->entries.size(), 2u);
 }
 
@@ -124,14 +154,16 @@ TEST_F(RecordingFolder, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   RgbdFrame frame = frame_at(0, 1, false);
   auto writer = RecordingWriter::create(path_);
   for (; frame.utime < 20; ++frame.utime) ASSERT_TRUE(writer->write(frame));
-  const auto size = fs::file_size(path_ + "/depth.txt");
+  const std::string list = path_ + "/depth.txt.unfinished";
+  const auto size = fs::file_size(list);
   {
     const test::FileSizeLimit full(size + 5);  // the image fits, but half of its line
     EXPECT_FALSE(writer->write(frame));
-    EXPECT_EQ(fs::file_size(path_ + "/depth.txt"), size);
+    EXPECT_EQ(fs::file_size(list), size);
   }
   ++frame.utime;
   ASSERT_TRUE(writer->write(frame));
+  ASSERT_TRUE(writer->finish());
   const auto recording = open_recording(path_);
   ASSERT_TRUE(recording) << recording.error().message();
   EXPECT_EQ(recording->entries.size(), 21u);
@@ -149,6 +181,7 @@ TEST_F(RecordingFolder, StartsWhenThereIsRoomForTheFirstImage) {
     for (int i = 0; i < 2; ++i) EXPECT_FALSE(writer->write(frame));
   }
   EXPECT_EQ(writer->write(frame), 0);
+  ASSERT_TRUE(writer->finish());
   EXPECT_EQ(open_recording(path_)->entries.size(), 1u);
 }
 

@@ -24,9 +24,10 @@ TableFrame numbered_frame(std::int64_t number) {
 class Table : public testing::Test {
  protected:
   void write(std::initializer_list<std::int64_t> numbers) {
-    auto writer = TableWriter::create(path_);
+    auto writer = TableWriter::create(path_, true);
     ASSERT_TRUE(writer);
     for (std::int64_t number : numbers) ASSERT_TRUE(writer->write(numbered_frame(number)));
+    ASSERT_TRUE(writer->finish());
   }
   std::string error_of(const std::string& text) {
     test::write_text(path_, text);
@@ -74,6 +75,7 @@ TEST_F(Table, EstimateGivesBothEndsAndALostHandGivesNoRows) {
     estimate.status = status;
     ASSERT_TRUE(writer->write(estimate));
   }
+  ASSERT_TRUE(writer->finish());
   const auto table = read_table(path_);
   ASSERT_TRUE(table) << table.error().message();
   ASSERT_EQ(table->frames.size(), 1u);
@@ -99,7 +101,23 @@ TEST_F(Table, FinishedFramesSurviveACrashAtAnyByte) {
 TEST_F(Table, RowsAreOnDiskWhileTheWriterIsStillOpen) {
   auto writer = TableWriter::create(path_);
   ASSERT_TRUE(writer->write(numbered_frame(0)));
+  EXPECT_EQ(read_table(path_ + ".unfinished")->frames.size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(path_)) << "not whole yet";
+}
+
+TEST_F(Table, IsThereWithoutFramesOnlyIfFinished) {
+  EXPECT_TRUE(TableWriter::create(path_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  EXPECT_TRUE(TableWriter::create(path_)->finish());
+  EXPECT_TRUE(read_table(path_)->frames.empty());
+}
+
+TEST_F(Table, AnotherIsReplacedOnlyIfAllowed) {
+  write({0});
+  EXPECT_FALSE(TableWriter::create(path_));
   EXPECT_EQ(read_table(path_)->frames.size(), 1u);
+  write({0, 1});
+  EXPECT_EQ(read_table(path_)->frames.size(), 2u);
 }
 
 TEST_F(Table, FullDiskIsReported) {
@@ -110,17 +128,18 @@ TEST_F(Table, FullDiskIsReported) {
 TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   auto writer = TableWriter::create(path_);
   ASSERT_TRUE(writer->write(numbered_frame(0)));
-  const auto whole = std::filesystem::file_size(path_);
+  const auto whole = std::filesystem::file_size(path_ + ".unfinished");
   {
     const test::FileSizeLimit full(whole + 500);  // some rows of a frame
     for (int number : {1, 2}) {
       const auto written = writer->write(numbered_frame(number));
       ASSERT_FALSE(written);
       EXPECT_THAT(written.error().message(), HasSubstr("make room"));
-      EXPECT_EQ(std::filesystem::file_size(path_), whole) << "no part of a frame is left";
+      EXPECT_EQ(std::filesystem::file_size(path_ + ".unfinished"), whole) << "no part of a frame is left";
     }
   }
   ASSERT_TRUE(writer->write(numbered_frame(3)));
+  ASSERT_TRUE(writer->finish());
   const auto table = read_table(path_);
   ASSERT_TRUE(table) << table.error().message();
   EXPECT_FALSE(table->truncated);

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <lcm/lcm-cpp.hpp>
 
 #include "barehand/command_t.hpp"
 #include "drivers/lcm/frame_codec.h"
@@ -23,9 +24,16 @@ Bytes frame_bytes(std::int64_t number) { return encode_message(encode_frame(test
 
 class LcmLog : public testing::Test {
  protected:
+  /// To a log that can be read while it grows.
   void append(const std::string& channel, const Bytes& message) {
-    if (!writer_) writer_ = LcmLogWriter::create(path_, false).value();
-    ASSERT_TRUE(writer_->send(channel, message, 42));
+    if (!writer_) writer_ = std::make_unique<lcm::LogFile>(path_, "w");
+    lcm::LogEvent event;
+    event.timestamp = 42;
+    event.channel = channel;
+    event.datalen = static_cast<std::int32_t>(message.size());
+    event.data = const_cast<std::uint8_t*>(message.data());
+    ASSERT_EQ(writer_->writeEvent(&event), 0);
+    ASSERT_EQ(std::fflush(writer_->getFilePtr()), 0);
   }
   void append_frames(int count, const std::string& channel = "RGBD_FRAME") {
     for (int i = 0; i < count; ++i) append(channel, frame_bytes(100 + i));
@@ -56,7 +64,7 @@ class LcmLog : public testing::Test {
 
   test::TempFolder folder_;
   std::string path_ = folder_ / "test.lcmlog";
-  std::unique_ptr<LcmLogWriter> writer_;
+  std::unique_ptr<lcm::LogFile> writer_;
 };
 
 TEST_F(LcmLog, ReplaysFramesUnchanged) {

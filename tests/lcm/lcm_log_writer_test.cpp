@@ -43,9 +43,28 @@ TEST(LcmLogWriter, EveryEventIsInTheFileAtOnce) {
   auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
   for (int i = 1; i <= 3; ++i) {
     ASSERT_TRUE(log->send("A", kMessage, i));
-    EXPECT_EQ(LcmLogReader::open(folder / "a.lcmlog")->entries().size(), static_cast<std::size_t>(i));
-    EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), static_cast<std::uintmax_t>(log->bytes()));
+    EXPECT_EQ(LcmLogReader::open(folder / "a.lcmlog.unfinished")->entries().size(), static_cast<std::size_t>(i));
+    EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog.unfinished"), static_cast<std::uintmax_t>(log->bytes()));
   }
+}
+
+TEST(LcmLogWriter, HasItsNameWhenItIsFinished) {
+  const test::TempFolder folder;
+  auto log = LcmLogWriter::create(folder / "a.lcmlog", false).value();
+  ASSERT_TRUE(log->send("A", kMessage, 1));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.lcmlog"));
+  ASSERT_TRUE(log->finish());
+  EXPECT_EQ(LcmLogReader::open(folder / "a.lcmlog")->entries().size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.lcmlog.unfinished"));
+  EXPECT_FALSE(log->send("A", kMessage, 2)) << "after the end";
+}
+
+TEST(LcmLogWriter, OneWithoutEventsLeavesNothingUnlessFinished) {
+  const test::TempFolder folder;
+  EXPECT_TRUE(LcmLogWriter::create(folder / "a.lcmlog", false));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  EXPECT_TRUE(LcmLogWriter::create(folder / "a.lcmlog", false).value()->finish());
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.lcmlog"));
 }
 
 TEST(LcmLogWriter, ReplacesAFileOnlyIfAllowed) {
@@ -53,7 +72,7 @@ TEST(LcmLogWriter, ReplacesAFileOnlyIfAllowed) {
   std::ofstream(folder / "a.lcmlog") << "precious";
   EXPECT_FALSE(LcmLogWriter::create(folder / "a.lcmlog", false));
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), 8u);
-  EXPECT_TRUE(LcmLogWriter::create(folder / "a.lcmlog", true));
+  EXPECT_TRUE(LcmLogWriter::create(folder / "a.lcmlog", true).value()->finish());
   EXPECT_EQ(std::filesystem::file_size(folder / "a.lcmlog"), 0u);
 }
 
@@ -67,6 +86,7 @@ TEST(LcmLogWriter, AChannelThatNoReaderTakesIsAnError) {
   EXPECT_FALSE(log->send("", kMessage, 1));
   EXPECT_FALSE(log->send(std::string(64, 'A'), kMessage, 2));
   EXPECT_TRUE(log->send(std::string(63, 'A'), kMessage, 3));
+  ASSERT_TRUE(log->finish());
   const auto read = LcmLogReader::open(folder / "a.lcmlog");
   EXPECT_EQ(read->entries().size(), 1u);
   EXPECT_EQ(read->damaged_bytes(), 0);
@@ -108,6 +128,7 @@ TEST(LcmLogWriter, GoesOnWhenThereIsRoomAgain) {
     for (int i = 0; i < 3; ++i) ASSERT_FALSE(log->send("A", large, 3));
   }
   ASSERT_TRUE(log->send("A", large, 4));
+  ASSERT_TRUE(log->finish());
   const auto read = LcmLogReader::open(folder / "a.lcmlog");
   ASSERT_EQ(read->entries().size(), 3u);
   EXPECT_EQ(read->entries().back().timestamp, 4);

@@ -52,6 +52,8 @@ class Rotating : public ::testing::Test {
 TEST_F(Rotating, GoesOnInANewFileAtTheLargestSize) {
   const auto log = open({.max_bytes = 2500});
   for (int i = 1; i <= 5; ++i) send(*log, i);
+  EXPECT_EQ(names().back(), "take-000003-20260921T141320Z.lcmlog.unfinished") << "the one that is written";
+  ASSERT_TRUE(log->finish());
   EXPECT_THAT(names(), ElementsAre("take-000001-20260921T141320Z.lcmlog", "take-000002-20260921T141320Z.lcmlog",
                                    "take-000003-20260921T141320Z.lcmlog"));
   EXPECT_THAT(stamps(), ElementsAre(1, 2, 3, 4, 5));
@@ -87,6 +89,22 @@ TEST_F(Rotating, AnotherRunGoesOnWithTheSetAndItsQuota) {
   EXPECT_THAT(stamps(), ElementsAre(10, 11, 20, 21));
 }
 
+TEST_F(Rotating, WhatAKilledRunLeftIsPartOfTheSet) {
+  const std::string first = folder_ / "set/take-000001-20260921T141320Z.lcmlog";
+  {
+    const auto log = open({.max_bytes = 2000});
+    for (int i = 1; i <= 2; ++i) send(*log, i);
+  }
+  fs::rename(first, first + ".unfinished");
+  std::ofstream(folder_ / "set/other-000007-20260921T141320Z.lcmlog.unfinished") << "of another set";
+  {
+    const auto log = open({.max_bytes = 2000});
+    send(*log, 3);
+  }
+  EXPECT_THAT(names(), ElementsAre("other-000007-20260921T141320Z.lcmlog.unfinished",
+                                   "take-000001-20260921T141320Z.lcmlog", "take-000002-20260921T141320Z.lcmlog"));
+}
+
 TEST_F(Rotating, OtherFilesAreNotItsOwn) {
   fs::create_directory(folder_ / "set");
   const std::vector<std::string> others = {"other-000001-20260921T141320Z.lcmlog", "take-000001-20260921T141320Z.txt",
@@ -107,15 +125,16 @@ TEST_F(Rotating, AFileThatSomebodyRemovedIsNoTrouble) {
 
 /// Puts a device that is full in the place of a file that this process has open: nothing can be written, nor cut off.
 void break_open_file(const fs::path& path) {
+  bool broken = false;
   for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
     std::error_code gone;  // the descriptor that lists the folder
     if (fs::read_symlink(entry.path(), gone) != path) continue;
     const int full = ::open("/dev/full", O_WRONLY);
     ::dup2(full, std::stoi(entry.path().filename()));
     ::close(full);
-    return;
+    broken = true;
   }
-  ADD_FAILURE() << path << " is not open";
+  EXPECT_TRUE(broken) << path << " is not open";
 }
 
 TEST_F(Rotating, GoesOnInANewFileWhereAFailedWriteCannotBeUndone) {
