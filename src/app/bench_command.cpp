@@ -6,6 +6,7 @@
 #include "app/bench_options.h"
 #include "app/bench_run.h"
 #include "app/bench_sweep.h"
+#include "app/outputs.h"
 #include "core/parallel.h"
 
 namespace barehand {
@@ -37,6 +38,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   bench->add_option("--json", o.json, "file for the figures");
   bench->add_option("--plots", o.plots, "folder for plots (PNG) of what --json or --draw names");
   bench->add_option("--draw", o.draw, "measure nothing, draw this file of figures");
+  add_overwrite_option(*bench, o.overwrite);
   bench->footer("Frames are read or rendered before the clock starts.");
   bench->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }

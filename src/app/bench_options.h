@@ -22,6 +22,7 @@ struct BenchOptions {
   std::vector<std::string> sweeps;
   std::string lcm_url = "memq://";
   std::string json, plots, draw;  ///< "": not written, nothing drawn
+  bool overwrite = false;
 };
 
 }  // namespace barehand

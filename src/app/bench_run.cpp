@@ -5,8 +5,10 @@
 
 #include "app/bench_report.h"
 #include "app/bench_sweep.h"
+#include "app/data_files.h"
 #include "app/exit_code.h"
 #include "app/memory_check.h"
+#include "app/outputs.h"
 #include "app/run_inputs.h"
 #include "core/available_memory.h"
 #include "core/parallel.h"
@@ -66,6 +68,24 @@ Result<Input> read_input(const BenchOptions& options) {
   return Input{std::move(*store), profiles_of(*hands)};
 }
 
+/// Of the plots those that are drawn whatever is swept, and those of the sweeps asked for.
+Result<void> check_written(const BenchOptions& options) {
+  std::vector<InputFile> inputs{{"--draw", options.draw}};
+  for (const std::string& config : options.configs) inputs.push_back({"--config", find_config(config).value_or("")});
+  for (const std::string& hand : options.hands)
+    if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
+
+  const bool draws = !options.draw.empty() || (!options.json.empty() && !options.plots.empty());
+  const std::string folder = options.plots.empty() ? "." : options.plots;
+  std::vector<std::string> plots = {"stages", "memory"};
+  for (const std::string& sweep : options.sweeps) plots.push_back(sweep.substr(0, sweep.find('=')));
+  std::vector<Output> outputs{{"--json", options.draw.empty() ? options.json : ""}};
+  for (const std::string& plot : plots)
+    if (draws) outputs.push_back({"--plots", folder + "/" + plot + ".png"});
+  return check_outputs(options.draw.empty() ? files_of_source(options.source) : SourceFiles(), inputs, outputs,
+                       options.overwrite);
+}
+
 Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditions, const Input& input) {
   const FrameStore store = decimated(input.store, named.bench.decimate);
   auto result = run_case(named.bench, conditions, store, input.hands);
@@ -94,6 +114,7 @@ int tell(const Error& error, int exit_code) {
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
+  if (const auto free = check_written(options); !free) return tell(free.error(), kExitUsage);
   if (!options.draw.empty()) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
     return drawn ? kExitOk : tell(drawn.error(), kExitUsage);

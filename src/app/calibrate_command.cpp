@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/outputs.h"
 #include "app/run_inputs.h"
 #include "app/scan_frames.h"
 #include "app/scan_report.h"
@@ -123,9 +124,11 @@ int run(const CalibrateOptions& o) {
   sinks.push_back(std::make_unique<ScanSink>(scan));
   TrackOptions track_options = o.track;
   track_options.hands = {o.hand};
+  track_options.saved_later = o.out;
   std::cerr << kHowTo << std::endl;
   const auto tracked = track(track_options, *config, {}, std::move(sinks));
   if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
+  if (!scan.profile && tracked->exit_code == kExitFailure) return tracked->exit_code;  // it said why
   if (!scan.profile)
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
@@ -156,6 +159,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
   calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");
+  add_overwrite_option(*calibrate, o.track.overwrite);
   calibrate->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
   calibrate->add_option("--threads", o.track.threads, "cores to use; results do not depend on it")
       ->capture_default_str();

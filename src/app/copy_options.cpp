@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "app/outputs.h"
 #include "app/run_copy.h"
 #include "io/message_sink.h"
 
@@ -34,7 +35,7 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
         return name.empty() || name.size() > kLongestChannel ? "channel names have 1 to 63 bytes" : "";
       })
       ->capture_default_str();
-  command.add_flag("--overwrite", r.overwrite, "replace an existing log");
+  add_overwrite_option(command, r.overwrite);
 }
 
 }  // namespace barehand

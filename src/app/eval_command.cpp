@@ -7,6 +7,7 @@
 
 #include "app/eval_report.h"
 #include "app/exit_code.h"
+#include "app/outputs.h"
 #include "app/stated_poses.h"
 #include "io/hand_json.h"
 #include "io/recording.h"
@@ -19,6 +20,7 @@ struct EvalOptions {
   std::string hand, plots, json, fingertips, recording;
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
+  bool overwrite = false;
 };
 
 Result<void> check(const EvalOptions& o) {
@@ -41,6 +43,34 @@ Result<void> check(const EvalOptions& o) {
     return fail("--fingertips needs the camera and the fingers' thickness", "eval", "add --recording DIR and --hand");
   if (o.step == 0) return fail("a step of 0 is no order of frames", "--step", "choose 1, 2 ... or -1, -2 ...");
   return {};
+}
+
+/// Against all that is read; of the plots those that will be drawn.
+Result<void> check_written(const EvalOptions& o) {
+  std::vector<InputFile> inputs{{"--hand", o.hand}, {"--fingertips", o.fingertips}};
+  for (const std::string& path : o.results) inputs.push_back({"--result", path});
+  for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
+  for (const std::string& path : o.states) inputs.push_back({"--states", path});
+
+  std::vector<Output> outputs{{"--json", o.json}};
+  const auto plot = [&](const char* name) {
+    if (!o.plots.empty()) outputs.push_back({"--plots", o.plots + "/" + name});
+  };
+  if (!o.results.empty() && !o.truths.empty())
+    for (const char* name : {"runs.png", "segments.png", "time.png"}) plot(name);
+  if (!o.fingertips.empty()) plot("fingertips.png");
+  if (!o.states.empty())
+    for (const char* name : {"reliability.png", "confidence.png"}) plot(name);
+  const SourceFiles recording = o.recording.empty() ? SourceFiles() : files_of_source("folder:" + o.recording);
+  return check_outputs(recording, inputs, outputs, o.overwrite);
+}
+
+/// Tables without a row were read, too, and are the worst of results.
+void say_untracked(const EvalReport& report) {
+  for (const EvaluatedRun& run : report.runs)
+    if (run.evaluation.untracked == run.evaluation.frames.size())
+      std::fprintf(stderr, "barehand eval: %s: no hand was tracked in any of the %zu frames\n", run.result_path.c_str(),
+                   run.evaluation.frames.size());
 }
 
 std::string label_of(const EvalOptions& o, std::size_t i) {
@@ -78,6 +108,7 @@ Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTa
   if (!labels) return tl::unexpected(labels.error());
   const auto recording = open_recording(o.recording);
   if (!recording) return tl::unexpected(recording.error());
+  if (labels->empty()) return fail("holds no labels", o.fingertips, "there is nothing to compare with");
   report.fingertips = evaluate_fingertips(*labels, results, profile, recording->camera);
   return {};
 }
@@ -115,8 +146,9 @@ int fail_with(const Error& error, int code) {
 }
 
 int run(const EvalOptions& o) {
-  const auto report = check(o).and_then([&] { return evaluate_all(o); });
+  const auto report = check(o).and_then([&] { return check_written(o); }).and_then([&] { return evaluate_all(o); });
   if (!report) return fail_with(report.error(), kExitUsage);
+  say_untracked(*report);
   std::fputs(text_report(*report).c_str(), stdout);
   const auto written = write(*report, o);
   return written ? kExitOk : fail_with(written.error(), kExitFailure);
@@ -136,6 +168,7 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   eval->add_option("--step", o->step, "step between frames, as given to track");
   eval->add_option("--plots", o->plots, "folder for plots (PNG)");
   eval->add_option("--json", o->json, "file for the figures");
+  add_overwrite_option(*eval, o->overwrite);
   eval->add_option("--fingertips", o->fingertips, "fingertips labelled in the image: frame,finger,u,v,visible");
   eval->add_option("--recording", o->recording, "the recording that --fingertips belongs to");
   eval->callback([o, &exit_code] { exit_code = run(*o); });

@@ -6,10 +6,11 @@
 namespace barehand {
 
 Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path,
-                                                      const std::vector<std::shared_ptr<const HandProfile>>& profiles) {
+                                                      const std::vector<std::shared_ptr<const HandProfile>>& profiles,
+                                                      bool overwrite) {
   std::vector<TableWriter> writers;
   for (std::size_t k = 0; k < profiles.size(); ++k) {
-    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness));
+    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness), overwrite);
     if (!writer) return tl::unexpected(writer.error());
     writers.push_back(std::move(*writer));
   }
@@ -20,6 +21,15 @@ Result<void> ResultTableSink::consume(const TrackedFrame& tracked) {
   Result<void> result;
   for (std::size_t k = 0; k < writers_.size(); ++k)
     if (auto written = writers_[k].write(*tracked.estimates[k]); !written && result) result = std::move(written);
+  ++frames_;
+  return result;
+}
+
+Result<void> ResultTableSink::finish() {
+  Result<void> result;
+  if (frames_ == 0) return result;
+  for (TableWriter& writer : writers_)
+    if (auto finished = writer.finish(); !finished && result) result = std::move(finished);
   return result;
 }
 

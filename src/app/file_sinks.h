@@ -15,13 +15,17 @@ class ResultTableSink : public Sink {
  public:
   /// `profiles`: of the hands.
   static Result<std::unique_ptr<Sink>> create(const std::string& path,
-                                              const std::vector<std::shared_ptr<const HandProfile>>& profiles);
+                                              const std::vector<std::shared_ptr<const HandProfile>>& profiles,
+                                              bool overwrite);
   std::string name() const override { return "result table"; }
   Result<void> consume(const TrackedFrame& tracked) override;
+  /// Without a frame there is no table.
+  Result<void> finish() override;
 
  private:
   explicit ResultTableSink(std::vector<TableWriter> writers) : writers_(std::move(writers)) {}
   std::vector<TableWriter> writers_;
+  std::int64_t frames_ = 0;
 };
 
 /// --overlay: the tracked hands drawn over the images, on the first and then on each `every`-th frame.

@@ -24,7 +24,8 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", BAREHAND_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 failed while running, 2 wrong arguments or configuration, 130 interrupted.\n"
+      "Exit codes: 0 done, 1 failed while running or too few frames could be read, 2 wrong arguments, configuration or "
+      "files, 130 interrupted.\n"
       "barehand COMMAND --help says more.");
   cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
   int exit_code = kExitOk;

@@ -43,8 +43,9 @@ Result<void> BusSink::send_health_when_due() {
 }
 
 Result<std::unique_ptr<Sink>> StatesLogSink::create(const PublishParams& params, const std::string& prefix,
-                                                    const std::string& path, Slot<PublishParams>* news) {
-  auto log = LcmLogWriter::create(path, true);
+                                                    const std::string& path, bool overwrite,
+                                                    Slot<PublishParams>* news) {
+  auto log = LcmLogWriter::create(path, overwrite);
   if (!log) return tl::unexpected(log.error());
   auto publisher = Publisher::create(prefix, {log->get()});
   if (!publisher) return tl::unexpected(publisher.error());

@@ -61,11 +61,14 @@ class BusSink : public Sink {
 /// --states-log: the states alone, so that equal runs write equal bytes.
 class StatesLogSink : public Sink {
  public:
-  /// An existing file is replaced. `news` as above.
+  /// `news` as above.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
-                                              const std::string& path, Slot<PublishParams>* news = nullptr);
+                                              const std::string& path, bool overwrite,
+                                              Slot<PublishParams>* news = nullptr);
   std::string name() const override { return "states log"; }
   Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
+  /// Without a state there is no log.
+  Result<void> finish() override { return log_->events() > 0 ? log_->finish() : Result<void>(); }
 
  private:
   StatesLogSink(std::unique_ptr<LcmLogWriter> log, StatePublisher states)

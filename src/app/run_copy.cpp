@@ -5,10 +5,13 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <optional>
 
 #include "app/copy_frames.h"
+#include "app/data_files.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/outputs.h"
 #include "app/run_inputs.h"
 #include "app/service_manager.h"
 
@@ -34,6 +37,26 @@ FrameWriterOptions writer_options(const CopyRequest& request, double fps, const 
         LogRotation{static_cast<std::int64_t>(request.max_size), static_cast<std::int64_t>(request.max_age * 1e6),
                     static_cast<std::int64_t>(request.quota)};
   return options;
+}
+
+/// The file of a configuration; "": none is read.
+std::string config_file(const std::string& name) { return name.empty() ? "" : find_config(name).value_or(""); }
+
+Output output_of(const CopyRequest& request, bool rotates) {
+  const Output::Kind log = rotates ? Output::Kind::log_set : Output::Kind::file;
+  return {"--out", request.out, is_log_path(request.out) ? log : Output::Kind::recording};
+}
+
+/// What makes a copy that came to its end a failed one.
+std::optional<Error> failure_of(const CopyResult& result, const std::string& source, bool live) {
+  const std::string frames = std::to_string(result.written + result.skipped);
+  if (result.written == 0 && live) return Error{"no frame came, so nothing is written", source, ""};
+  if (result.written == 0)
+    return Error{"nothing could be read: none of " + frames + " frames, so nothing is written", source, ""};
+  if (!live && result.skipped > result.written)
+    return Error{"most frames are missing: " + std::to_string(result.skipped) + " of " + frames + " could not be read",
+                 source, ""};
+  return std::nullopt;
 }
 
 int exit_code_of(const CopyResult& result, bool live, int signal) {
@@ -101,7 +124,12 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   }
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
-  auto writer = open_frame_writer(request.out, writer_options(request, source->fps, clock));
+  const FrameWriterOptions written_as = writer_options(request, source->fps, clock);
+  const Output output = output_of(request, written_as.rotation.has_value());
+  const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},
+                                   request.overwrite);
+  if (!apart) return refuse(apart.error());
+  auto writer = open_frame_writer(request.out, written_as);
   if (!writer) return refuse(writer.error());
 
   CopyOptions options;
@@ -112,10 +140,13 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   options.quiet = service.present();
   if (service.present()) options.on_step = ServiceReport(service, (*writer)->name(), clock);
   service.ready("recording " + source->source->name());
-  const CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
+  CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
+  if (const auto finished = (*writer)->finish(); !finished && !result.error) result.error = finished.error();
+  const bool live = source->source->live();
+  if (!result.error && !result.stopped) result.error = failure_of(result, source->source->name(), live);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");
-  return exit_code_of(result, source->source->live(), interrupt.signal());
+  return exit_code_of(result, live, interrupt.signal());
 }
 
 }  // namespace barehand

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/exit_code.h"
+#include "app/outputs.h"
 #include "app/render_progress.h"
 #include "app/sim_run.h"
 #include "drivers/synthetic/synthetic_spec.h"
@@ -15,7 +16,7 @@ namespace {
 struct SimArguments {
   std::string name, out, noise, seed, frames, fps, hand;
   std::vector<std::string> set;
-  bool list = false;
+  bool list = false, overwrite = false;
 };
 
 std::string spec_of(const SimArguments& a) {
@@ -53,7 +54,7 @@ int run(const SimArguments& a) {
   if (a.out.empty())
     return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
   std::int64_t done = 0;
-  const auto frames = run_sim({spec_of(a), a.out}, [&](std::int64_t now, std::int64_t all) {
+  const auto frames = run_sim({spec_of(a), a.out, a.overwrite}, [&](std::int64_t now, std::int64_t all) {
     done = now;
     return render_progress(now, all);
   });
@@ -69,6 +70,7 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Render a synthetic sequence of a hand with ground truth");
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
   sim->add_option("--out", a->out, "folder to make, or FILE.lcmlog");
+  add_overwrite_option(*sim, a->overwrite);
   sim->add_option("--noise", a->noise, "none, kinect or tof");
   sim->add_option("--seed", a->seed, "of motion and noise");
   sim->add_option("--frames", a->frames, "end after this many frames");

@@ -10,8 +10,9 @@ namespace barehand {
 
 /// What `barehand sim` writes.
 struct SimOptions {
-  std::string spec;  ///< "NAME" or "NAME,key=value,...", as after "sim:" in --source
-  std::string out;   ///< folder, or an LCM log if it ends with .lcmlog
+  std::string spec;        ///< "NAME" or "NAME,key=value,...", as after "sim:" in --source
+  std::string out;         ///< folder, or an LCM log if it ends with .lcmlog
+  bool overwrite = false;  ///< of a log and the files beside it
 };
 
 /// Renders a whole sequence. Into a folder: a recording (docs/formats.md) with truth.csv, hand.json and, if the hand is

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/outputs.h"
 #include "app/track_options.h"
 #include "app/track_run.h"
 #include "core/parallel.h"
@@ -35,6 +36,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_option("--overlay-every", o.overlay_every, "draw every so many frames only")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_overwrite_option(*track, o.overwrite);
   track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
   track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   track->add_option("--seed", o.seed, "of the random numbers, instead of the configuration's");
@@ -42,7 +44,12 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
   track->add_flag("--print-config", o.print_config, "print the configuration in force, complete, and stop");
-  track->footer("Ctrl-C ends the run; what was tracked until then is written completely.");
+  track->footer(
+      "Ctrl-C ends the run; what was tracked until then is written completely. Files have their names when they are "
+      "whole; until then, and after a crash, they are NAME.unfinished. A live run does not stop at files that exist: "
+      "it "
+      "writes NAME-2, NAME-3 and so on.\n"
+      "Exit code 1 also where no frame of a recording could be read, or more than half of them could not.");
   track->callback([options, &exit_code] { exit_code = run_track(*options); });
 }
 

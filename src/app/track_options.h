@@ -16,7 +16,9 @@ struct TrackOptions {
   std::int64_t step = 1;
   std::string init = "auto";
   std::string result, states_log, overlay, save_hand;  ///< "": not written
-  int overlay_every = 1;                               ///< every so many frames are drawn
+  std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
+  bool overwrite = false;   ///< outputs replace files that exist
+  int overlay_every = 1;    ///< every so many frames are drawn
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< instead of the configuration's
   int threads = 1;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -9,6 +10,7 @@
 #include <stop_token>
 
 #include "app/config.h"
+#include "app/data_files.h"
 #include "app/exit_code.h"
 #include "app/file_sinks.h"
 #include "app/health_sink.h"
@@ -23,6 +25,7 @@
 #include "app/service_sink.h"
 #include "app/source_factory.h"
 #include "app/summary.h"
+#include "app/track_outputs.h"
 #include "app/track_stages.h"
 #include "core/available_memory.h"
 #include "core/parallel.h"
@@ -59,6 +62,7 @@ class TrackRun {
   Step open_input();
   Step use_hands();
   Step choose_start();
+  Step choose_outputs();
   Step open_outputs();
   Step open_bus();
   CommandedTracker::Inbox inbox() const;
@@ -70,8 +74,9 @@ class TrackRun {
   Result<Reload::Changes> exchange_configuration();
   Step add(Result<std::unique_ptr<Sink>> sink);
   int conclude(const RunResult& result);
+  int judge_frames(const PipelineHealth& health);
 
-  const TrackOptions& options_;
+  TrackOptions options_;
   const Config& config_;
   const std::function<Result<Config>()> reread_;
   SystemClock clock_;
@@ -99,9 +104,11 @@ Step TrackRun::prepare() {
   if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   if (const auto possible = check(config_.foreign_camera); !possible) return usage(possible.error());
-  return open_input().and_then([&] { return use_hands(); }).and_then([&] { return choose_start(); }).and_then([&] {
-    return open_outputs();
-  });
+  return open_input()
+      .and_then([&] { return use_hands(); })
+      .and_then([&] { return choose_start(); })
+      .and_then([&] { return choose_outputs(); })
+      .and_then([&] { return open_outputs(); });
 }
 
 Step TrackRun::open_input() {
@@ -138,6 +145,20 @@ Step TrackRun::choose_start() {
   return {};
 }
 
+Step TrackRun::choose_outputs() {
+  auto settled = settle_outputs(options_, find_config(options_.config).value_or(""), profiles_, input_.source->live());
+  if (!settled) return usage(settled.error());
+  const auto tell = [&](const std::string& wanted, const std::string& chosen) {
+    if (wanted != chosen) log_.logger().info("{} exists already, writing {}", wanted, chosen);
+  };
+  tell(options_.result, settled->result);
+  tell(options_.states_log, settled->states_log);
+  tell(options_.overlay, settled->overlay);
+  tell(options_.save_hand, settled->save_hand);
+  options_ = std::move(*settled);
+  return {};
+}
+
 Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
   if (!sink) return failure(sink.error());
   sinks_.push_back(std::move(*sink));
@@ -148,9 +169,10 @@ Step TrackRun::open_outputs() {
   Step ok;
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
-  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_));
+  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_, options_.overwrite));
   if (ok && !options_.states_log.empty())
-    ok = add(StatesLogSink::create(config_.publish, prefix, options_.states_log, &news_.states_log));
+    ok =
+        add(StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &news_.states_log));
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(
         options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
@@ -275,7 +297,26 @@ int TrackRun::conclude(const RunResult& result) {
     log_.logger().error(result.error->message());
     exit_code = kExitFailure;
   }
-  return exit_code;
+  return exit_code == kExitOk ? judge_frames(result.health) : exit_code;
+}
+
+/// Of a run that went to its end: whether a recording was read, and a line where nobody would notice otherwise.
+int TrackRun::judge_frames(const PipelineHealth& health) {
+  const std::int64_t frames = health.captured + health.skipped, unusable = health.skipped + health.failed;
+  if (!input_.source->live() && health.published == 0) {
+    log_.logger().error("{}: nothing was tracked: of {} frames {} could not be read and {} failed; nothing is written",
+                        input_.source->name(), frames, health.skipped, health.failed);
+    return kExitFailure;
+  }
+  if (!input_.source->live() && 2 * unusable > frames) {
+    log_.logger().error("{}: most frames are missing: of {} frames {} could not be read and {} failed",
+                        input_.source->name(), frames, health.skipped, health.failed);
+    return kExitFailure;
+  }
+  const auto tracked = [](const StatusCounts& hand) { return hand.of(TrackStatus::tracking) > 0; };
+  if (const auto& hands = progress_->counts(); health.published > 0 && std::ranges::none_of(hands, tracked))
+    log_.logger().warn("no hand was found in any of {} frames", health.published);
+  return kExitOk;
 }
 
 Result<Config> configuration(const TrackOptions& options) {

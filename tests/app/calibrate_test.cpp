@@ -77,11 +77,32 @@ TEST_F(Calibrate, WithoutAHandNothingIsSaved) {
   wall.camera = {64, 48, 60, 60, 31.5, 23.5};
   wall.depth.reset(64, 48, 800);
   auto writer = RecordingWriter::create(folder_ / "wall");
-  ASSERT_TRUE(writer && writer->write(wall));
+  ASSERT_TRUE(writer && writer->write(wall) && writer->finish());
   ChildProcess child(calibrate("folder:" + (folder_ / "wall")));
   EXPECT_EQ(child.finish(), 1);
   EXPECT_THAT(child.output(), HasSubstr("no hand was tracked, nothing to save"));
   EXPECT_FALSE(std::filesystem::exists(profile_));
+}
+
+TEST_F(Calibrate, TheHandThatItStartsFromIsNotReplaced) {
+  const std::string given = folder_ / "given.json";
+  ASSERT_TRUE(save_profile(*test::adult_hand(), given));
+  const std::string before = test::read_text(given);
+  std::filesystem::create_symlink(given, profile_);
+  auto arguments = calibrate("sim:scan,frames=2,width=80,height=60");
+  arguments.insert(arguments.end(), {"--hand", given, "--overwrite"});
+  ChildProcess child(arguments);
+  EXPECT_EQ(child.finish(), 2);
+  EXPECT_THAT(child.output(), AllOf(HasSubstr("--out " + profile_), HasSubstr("--hand " + given)));
+  EXPECT_EQ(test::read_text(given), before);
+}
+
+TEST_F(Calibrate, AProfileIsReplacedOnlyIfAllowed) {
+  test::write_text(profile_, "somebody's");
+  ChildProcess child(calibrate("sim:scan,frames=2,width=80,height=60"));
+  EXPECT_EQ(child.finish(), 2);
+  EXPECT_THAT(child.output(), HasSubstr("--overwrite"));
+  EXPECT_EQ(test::read_text(profile_), "somebody's");
 }
 
 TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
@@ -89,7 +110,7 @@ TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
        {std::tuple("--hand", std::string("both"), "is not one hand"),
         {"--hand", folder_ / "nobody.json", "nobody.json"},
         {"--out", folder_ / "nowhere/mine.json", "No such file or directory"},
-        {"--out", folder_.path(), "Is a directory"},
+        {"--out", folder_.path(), "is a folder"},
         {"--out", folder_ / (std::string(300, 'x') + "/mine.json"), "name too long"}}) {
     auto arguments = calibrate("sim:scan");
     if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);

@@ -21,6 +21,7 @@ namespace barehand {
 namespace {
 
 using ::testing::HasSubstr;
+namespace fs = std::filesystem;
 
 class CopyCommands : public testing::Test {
  protected:
@@ -66,6 +67,61 @@ TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
   EXPECT_EQ(barehand({"convert", in, out}).exit_code, 2);
   EXPECT_EQ(std::filesystem::file_size(out), 8u);
   EXPECT_EQ(barehand({"convert", in, out, "--overwrite"}).exit_code, 0);
+}
+
+/// Refused with a message that has all of `words`, and the input as it was.
+void expect_refused(const std::vector<std::string>& arguments, const std::string& input,
+                    const std::vector<std::string>& words) {
+  const std::string before = test::read_text(input);
+  const Outcome outcome = barehand(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  for (const std::string& word : words) EXPECT_THAT(outcome.output, HasSubstr(word));
+  EXPECT_EQ(test::read_text(input), before);
+}
+
+TEST_F(CopyCommands, TheSourceIsNeverReplaced) {
+  const std::string in = folder_ / "a.lcmlog", hard = folder_ / "hard.lcmlog", soft = folder_ / "soft.lcmlog";
+  ASSERT_EQ(barehand({"convert", recording(), in}).exit_code, 0);
+  fs::create_hard_link(in, hard);
+  fs::create_symlink("a.lcmlog", soft);
+  for (const std::string& out : {in, folder_ / "./a.lcmlog", folder_ / "recording/../a.lcmlog", hard, soft}) {
+    expect_refused({"convert", in, out, "--overwrite"}, in, {out, in, "never replaced"});
+    expect_refused({"record", "--source", "log:" + in, "--out", out, "--overwrite"}, in, {out});
+  }
+  expect_refused({"convert", in, folder_.path()}, in, {"is or contains the source"});
+}
+
+TEST_F(CopyCommands, ASetOfLogsIsNotRecordedIntoItself) {
+  fs::create_directory(folder_ / "set");
+  const std::string part = folder_ / "set/take-000001-20260921T141320Z.lcmlog";
+  ASSERT_EQ(barehand({"convert", recording(), part}).exit_code, 0);
+  expect_refused({"record", "--source", "log:" + (folder_ / "set"), "--out", folder_ / "set/b.lcmlog"}, part,
+                 {"would become a part of the source"});
+  expect_refused({"record", "--source", "log:" + part, "--out", folder_ / "set/take.lcmlog", "--quota", "1MB"}, part,
+                 {"names a set of logs that", part});
+  expect_refused({"convert", folder_ / "set", folder_ / "set"}, part, {});
+}
+
+TEST_F(CopyCommands, WhereNothingCouldBeReadNothingIsLeft) {
+  const std::string in = recording();
+  fs::remove_all(in + "/depth");
+  for (const std::string& out : {folder_ / "b.lcmlog", folder_ / "b"}) {
+    const Outcome outcome = barehand({"convert", in, out});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("none of 3 frames"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the recording alone";
+  }
+}
+
+TEST_F(CopyCommands, MoreThanHalfOfTheFramesMustBeThere) {
+  const std::string in = recording();
+  fs::remove(in + "/depth/000001.png");
+  EXPECT_EQ(barehand({"convert", in, folder_ / "b.lcmlog"}).exit_code, 0) << "one of three";
+  fs::remove(in + "/depth/000002.png");
+  const Outcome outcome = barehand({"convert", in, folder_ / "c.lcmlog"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("most frames are missing: 2 of 3"));
+  EXPECT_EQ(LcmLogSource::open(folder_ / "c.lcmlog").value()->remaining(), 1) << "what was read is kept";
 }
 
 TEST_F(CopyCommands, IntrinsicsComeFromTheConfigurationUnlessTheyAreGiven) {
@@ -137,16 +193,17 @@ TEST_F(CopyCommands, AFullDiskFailsAndSaysWhatIsKept) {
 TEST_F(CopyCommands, ControlCEndsALiveRecording) {
   ChildProcess child(
       {BAREHAND_PROGRAM, "record", "--source", "lcm", "--lcm-url", "memq://", "--out", folder_ / "a.lcmlog"});
-  while (!std::filesystem::exists(folder_ / "a.lcmlog")) std::this_thread::yield();
+  while (!std::filesystem::exists(folder_ / "a.lcmlog.unfinished")) std::this_thread::yield();
   child.signal(SIGINT);
   EXPECT_EQ(child.finish(), 130);
   EXPECT_THAT(child.output(), HasSubstr("stopped"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path())) << "no frame came";
 }
 
 TEST_F(CopyCommands, ARecordingThatIsStoppedIsNotDone) {
   ChildProcess child({BAREHAND_PROGRAM, "record", "--source", "sim:fist,loop=true,width=160,height=120", "--out",
                       folder_ / "a.lcmlog"});
-  while (!std::filesystem::exists(folder_ / "a.lcmlog")) std::this_thread::yield();
+  while (!std::filesystem::exists(folder_ / "a.lcmlog.unfinished")) std::this_thread::yield();
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 130) << child.output();
 }

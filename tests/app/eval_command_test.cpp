@@ -77,7 +77,7 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
   RgbdFrame frame;
   frame.camera = {320, 240, 250, 250, 160, 120};
   frame.depth.reset(320, 240);
-  ASSERT_TRUE(writer->write(frame));
+  ASSERT_TRUE(writer->write(frame) && writer->finish());
   // Tip of the truth: u = 160 - 250 * 0.038 / 0.5 = 141.
   test::write_text(folder_ / "tips.csv", "frame,finger,u,v,visible\n1,index,141,123,1\n");
   ASSERT_EQ(run("eval --result %/truth.csv --fingertips %/tips.csv --recording %/recording --hand %/hand.json "
@@ -146,6 +146,40 @@ TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
     EXPECT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog"), 2);
     EXPECT_THAT(err_, HasSubstr(complaint));
   }
+}
+
+TEST_F(EvalCommand, WhatIsReadIsNeverReplaced) {
+  std::filesystem::create_hard_link(folder_ / "out.csv", folder_ / "link.json");
+  std::filesystem::create_directories(folder_ / "plots");
+  std::filesystem::create_symlink("../truth.csv", folder_ / "plots/time.png");
+  const std::string truth = test::read_text(folder_ / "truth.csv"), result = test::read_text(folder_ / "out.csv");
+  for (const char* output : {"--json %/truth.csv", "--json %/hand.json", "--json %/link.json", "--plots %/plots"}) {
+    EXPECT_EQ(run(std::string("eval --truth %/truth.csv --result %/out.csv --hand %/hand.json --overwrite ") + output),
+              2);
+    EXPECT_THAT(err_, HasSubstr("never replaced")) << output;
+  }
+  EXPECT_EQ(test::read_text(folder_ / "truth.csv"), truth);
+  EXPECT_EQ(test::read_text(folder_ / "out.csv"), result);
+}
+
+TEST_F(EvalCommand, FiguresAndPlotsAreReplacedOnlyIfAllowed) {
+  const std::string line = "eval --truth %/truth.csv --result %/out.csv --json %/e.json --plots %/plots";
+  ASSERT_EQ(run(line), 0);
+  EXPECT_EQ(run(line), 2);
+  EXPECT_THAT(err_, HasSubstr("--overwrite"));
+  std::filesystem::remove(folder_ / "e.json");
+  EXPECT_EQ(run(line), 2) << "plots are there";
+  EXPECT_EQ(run(line + " --overwrite"), 0);
+}
+
+TEST_F(EvalCommand, ATableWithoutFramesIsAResultButNoTruth) {
+  ASSERT_TRUE(TableWriter::create(folder_ / "none.csv")->finish());
+  EXPECT_EQ(run("eval --truth %/truth.csv --result %/none.csv"), 0);
+  EXPECT_THAT(err_, HasSubstr("none.csv: no hand was tracked in any of the 3 frames"));
+  EXPECT_EQ(run("eval --truth %/none.csv --result %/out.csv"), 2);
+  EXPECT_EQ(run("eval --truth %/none.csv --result %/none.csv"), 2);
+  test::write_text(folder_ / "empty.csv", "");
+  EXPECT_EQ(run("eval --truth %/truth.csv --result %/empty.csv"), 2);
 }
 
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {

@@ -82,7 +82,7 @@ TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
   lost->status = TrackStatus::lost;
   Slot<PublishParams> news;
   {
-    auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", &news).value();
+    auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", false, &news).value();
     ASSERT_TRUE(sink->consume({nullptr, {}, {estimate}}));
     PublishParams no_hold;
     no_hold.hold_time = 0;

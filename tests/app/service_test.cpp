@@ -193,7 +193,13 @@ TEST_F(Service, LeavesNothingBehindWhenStartedAndStoppedAgainAndAgain) {
     }
   }
   unsetenv("TMPDIR");
-  EXPECT_EQ(std::distance(fs::directory_iterator(here), {}), 1) << "the states log alone";
+  for (const auto& entry : fs::directory_iterator(here)) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(std::regex_match(name, std::regex("states(-[2-6])?\\.lcmlog"))) << name;
+    const auto log = LcmLogReader::open(entry.path());
+    EXPECT_TRUE(log && log->damaged_bytes() == 0) << name;
+  }
+  EXPECT_GT(std::distance(fs::directory_iterator(here), {}), 1) << "what a run wrote is not replaced by the next";
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -256,7 +262,8 @@ TEST_F(Service, WritesResultsAgainWhenTheFullDiskHasRoom) {
   ASSERT_TRUE(child.wait_for("result table works again")) << child.output();
   const std::string told = child.output();
   for (int second = 0; second < 2; ++second) EXPECT_FALSE(socket_.wait_for("STATUS").empty());
-  disk.beside(child, "cp " + table + " " + log + " " + outside.path());
+  disk.beside(child, "cp " + table + ".unfinished " + (outside / "result.csv") + " && cp " + log + ".unfinished " +
+                         (outside / "states.lcmlog"));
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_LE(count(told, "failed in result table"), 8) << told;

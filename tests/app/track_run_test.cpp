@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -15,6 +16,7 @@
 namespace barehand {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -28,7 +30,7 @@ class TrackRun : public ::testing::Test {
     frame.utime = 1'000'000;
     frame.camera = {64, 48, 60, 60, 31.5, 23.5};
     frame.depth.reset(64, 48, 800);
-    ASSERT_TRUE(writer->write(frame));
+    ASSERT_TRUE(writer->write(frame) && writer->finish());
   }
 
   /// A hand before a wall that turns a little, over six frames.
@@ -48,15 +50,23 @@ class TrackRun : public ::testing::Test {
         frame.depth[k] = static_cast<std::uint16_t>(observation->depth[k] / frame.depth_unit);
       ASSERT_TRUE(writer->write(frame));
     }
+    ASSERT_TRUE(writer->finish());
   }
   void repeat(int frames) {
     std::ofstream list(folder_ + "/depth.txt");
     for (int i = 1; i <= frames; ++i) list << i << ".0 depth/000000.png\n";
   }
   std::vector<std::string> track(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {BAREHAND_PROGRAM,        "track",        "--source",
-                                          "folder:" + folder_,     "--no-publish", "--result",
-                                          folder_ + "/result.csv", "--states-log", folder_ + "/states.lcmlog"};
+    std::vector<std::string> arguments = {BAREHAND_PROGRAM,
+                                          "track",
+                                          "--source",
+                                          "folder:" + folder_,
+                                          "--no-publish",
+                                          "--result",
+                                          folder_ + "/result.csv",
+                                          "--states-log",
+                                          folder_ + "/states.lcmlog",
+                                          "--overwrite"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -210,6 +220,118 @@ TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
     EXPECT_THAT(child.output(), HasSubstr("the CPU compares samples, not a GPU: ")) << trouble;
     EXPECT_EQ(file_bytes("/result.csv"), expected) << trouble;
   }
+}
+
+TEST_F(TrackRun, WhatIsReadIsNeverReplaced) {
+  fs::create_directory(folder_ + "/rgb");
+  test::write_text(folder_ + "/rgb/000000.jpg", "a picture");
+  fs::create_directory_symlink(folder_ + "/rgb", place_ / "pictures");
+  fs::create_hard_link(folder_ + "/depth/000000.png", place_ / "hard.csv");
+  const std::string images = file_bytes("/depth/000000.png") + file_bytes("/rgb/000000.jpg");
+  for (const auto& [option, output] :
+       std::vector<std::pair<std::string, std::string>>{{"--overlay", folder_ + "/rgb"},
+                                                        {"--overlay", place_ / "pictures"},
+                                                        {"--overlay", folder_ + "/rgb/new"},
+                                                        {"--overlay", folder_},
+                                                        {"--overlay", place_.path()},
+                                                        {"--result", folder_ + "/truth.csv"},
+                                                        {"--result", folder_ + "/camera.json"},
+                                                        {"--result", folder_ + "/depth/result.csv"},
+                                                        {"--result", place_ / "hard.csv"},
+                                                        {"--states-log", folder_ + "/depth.txt"},
+                                                        {"--save-hand", place_ / "pictures/hand.json"}}) {
+    ChildProcess child(
+        {BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--overwrite", option, output});
+    EXPECT_EQ(child.finish(), 2) << option << " " << output << child.output();
+    EXPECT_THAT(child.output(), AllOf(HasSubstr(option + " " + output), HasSubstr("source folder:" + folder_)));
+  }
+  EXPECT_EQ(file_bytes("/depth/000000.png") + file_bytes("/rgb/000000.jpg"), images);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 4) << "camera.json, depth, depth.txt, rgb";
+}
+
+TEST_F(TrackRun, TwoOutputsAreNotOneFile) {
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--result",
+                      place_ / "out", "--states-log", folder_ + "/../out"});
+  EXPECT_EQ(child.finish(), 2);
+  EXPECT_THAT(child.output(), AllOf(HasSubstr("--states-log"), HasSubstr("--result"), HasSubstr("two names")));
+  EXPECT_FALSE(fs::exists(place_ / "out"));
+}
+
+TEST_F(TrackRun, ExistingFilesAreReplacedOnlyIfAllowed) {
+  const std::string table = place_ / "result.csv";
+  test::write_text(table, "somebody's");
+  std::vector<std::string> arguments = {BAREHAND_PROGRAM, "track",    "--source", "folder:" + folder_,
+                                        "--no-publish",   "--result", table};
+  ChildProcess refused(arguments);
+  EXPECT_EQ(refused.finish(), 2);
+  EXPECT_THAT(refused.output(), AllOf(HasSubstr("--result " + table), HasSubstr("--overwrite")));
+  EXPECT_EQ(test::read_text(table), "somebody's");
+  arguments.push_back("--overwrite");
+  EXPECT_EQ(ChildProcess(arguments).finish(), 0);
+  EXPECT_TRUE(read_table(table));
+}
+
+TEST_F(TrackRun, ALiveRunGoesOnBesideWhatIsThere) {
+  const std::string table = place_ / "result.csv";
+  test::write_text(table, "of yesterday");
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "sim:fist,live=true,frames=3,width=80,height=60",
+                      "--no-publish", "--result", table});
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("exists already, writing " + (place_ / "result-2.csv")));
+  EXPECT_EQ(test::read_text(table), "of yesterday");
+  EXPECT_TRUE(read_table(place_ / "result-2.csv"));
+}
+
+TEST_F(TrackRun, PipesAndDevicesAreOutputs) {
+  ChildProcess child({"bash", "-c",
+                      std::string(BAREHAND_PROGRAM) + " track --source folder:" + folder_ +
+                          " --no-publish --states-log /dev/null --overlay " + (place_ / "pictures") +
+                          " --result >(cat >" + (place_ / "copy.csv") + "); wait $!"});
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_TRUE(read_table(place_ / "copy.csv"));
+  EXPECT_TRUE(fs::exists(place_ / "pictures/000000.jpg"));
+}
+
+TEST_F(TrackRun, WhereNoFrameCouldBeReadNothingIsLeft) {
+  fs::rename(folder_ + "/depth", place_ / "not_unpacked");
+  ChildProcess child(track({"--overlay", folder_ + "/film.mp4"}));
+  EXPECT_EQ(child.finish(), 1);
+  EXPECT_THAT(child.output(), HasSubstr("nothing was tracked: of 1 frames 1 could not be read"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "camera.json and depth.txt";
+}
+
+TEST_F(TrackRun, MoreThanHalfOfTheFramesMustBeThere) {
+  const auto with_missing = [&](int missing) {
+    repeat(3);
+    std::ofstream list(folder_ + "/depth.txt", std::ios::app);
+    for (int i = 0; i < missing; ++i) list << 10 + i << ".0 depth/missing.png\n";
+    list.close();
+    ChildProcess child(track({}));
+    return std::pair(child.finish(), child.output());
+  };
+  EXPECT_EQ(with_missing(3).first, 0);
+  const auto [exit_code, output] = with_missing(4);
+  EXPECT_EQ(exit_code, 1);
+  EXPECT_THAT(output, HasSubstr("most frames are missing: of 7 frames 4 could not be read"));
+  EXPECT_EQ(logged_frames(), 3u) << "what was read is kept";
+}
+
+TEST_F(TrackRun, FramesWithoutAHandAreAResult) {
+  ChildProcess child(track({}));
+  EXPECT_EQ(child.finish(), 0);
+  EXPECT_THAT(child.output(), HasSubstr("no hand was found in any of 1 frames"));
+  EXPECT_TRUE(read_table(folder_ + "/result.csv")->frames.empty());
+}
+
+TEST_F(TrackRun, AKilledRunLeavesItsDraftsReadable) {
+  repeat(1'000'000);
+  ChildProcess child(track({"--health"}));
+  ASSERT_TRUE(child.wait_for("captured ")) << child.output();
+  child.signal(SIGKILL);
+  EXPECT_EQ(child.finish(), 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(folder_ + "/result.csv"));
+  EXPECT_TRUE(read_table(folder_ + "/result.csv.unfinished"));
+  EXPECT_FALSE(LcmLogReader::open(folder_ + "/states.lcmlog.unfinished")->entries().empty());
 }
 
 TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {

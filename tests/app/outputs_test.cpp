@@ -1,0 +1,105 @@
+#include "app/outputs.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "support/temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Kind = Output::Kind;
+namespace fs = std::filesystem;
+
+/// A recording, beside it a set of two logs.
+class Outputs : public ::testing::Test {
+ protected:
+  Outputs() {
+    for (const char* folder : {"rec/depth", "rec/rgb", "elsewhere", "set"}) fs::create_directories(folder_ / folder);
+    for (const char* file : {"rec/camera.json", "rec/hand.json", "rec/depth/0.png", "rec/rgb/0.jpg", "elsewhere/1.png"})
+      test::write_text(folder_ / file, "x");
+    test::write_text(folder_ / "rec/depth.txt", "1.0 depth/0.png\n2.0 ../elsewhere/1.png\n");
+    test::write_text(folder_ / "rec/rgb.txt", "1.0 rgb/0.jpg\n");
+    for (const char* log : {"set/a-000001-20260921T141320Z.lcmlog", "set/lcmlog-2026-09-21.00"})
+      test::write_text(folder_ / log, "\xED\xA1\xDA\x01 and so on");
+    test::write_text(folder_ / "set/notes.csv", "x");
+  }
+  /// "" where it is allowed.
+  std::string complaint(const SourceFiles& source, const std::string& path, Kind kind = Kind::file,
+                        bool overwrite = true) const {
+    const auto checked = check_outputs(source, {}, {{"--out", path, kind}}, overwrite);
+    return checked ? "" : checked.error().message();
+  }
+  const test::TempFolder folder_;
+};
+
+TEST_F(Outputs, NewFilesMayStandBesideTheFilesOfARecording) {
+  const SourceFiles recording = files_of_source("folder:" + (folder_ / "rec"));
+  for (const char* name : {"rec/out.csv", "rec/states.lcmlog", "rec/film.mp4", "rec/plots/time.png"})
+    EXPECT_EQ(complaint(recording, folder_ / name), "") << name;
+  EXPECT_EQ(complaint(recording, folder_ / "rec/overlay", Kind::pictures), "");
+}
+
+TEST_F(Outputs, WhatARecordingConsistsOfIsRefused) {
+  const SourceFiles recording = files_of_source("folder:" + (folder_ / "rec"));
+  for (const char* name : {"rec/camera.json", "rec/depth.txt", "rec/rgb.txt", "rec/truth.csv", "rec/hand.json",
+                           "rec/fingertips_2d.csv", "rec/depth/0.png", "rec/rgb/new.csv", "elsewhere/1.png"})
+    EXPECT_THAT(complaint(recording, folder_ / name), AllOf(HasSubstr(folder_ / name), HasSubstr("rec"))) << name;
+  for (const char* name : {"rec", "rec/", "rec/rgb", "rec/depth/deeper", "elsewhere", "."})
+    EXPECT_NE(complaint(recording, folder_ / name, Kind::pictures), "") << name;
+  EXPECT_NE(complaint(recording, folder_ / "rec", Kind::recording), "");
+}
+
+TEST_F(Outputs, AHandMayBeAddedToARecordingWithoutOne) {
+  fs::remove(folder_ / "rec/hand.json");
+  EXPECT_EQ(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "rec/hand.json"), "");
+}
+
+TEST_F(Outputs, LogsOfASetAreToldByTheirContent) {
+  const SourceFiles set = files_of_source("log:" + (folder_ / "set"));
+  EXPECT_NE(complaint(set, folder_ / "set/lcmlog-2026-09-21.00"), "");
+  EXPECT_EQ(complaint(set, folder_ / "set/notes.csv"), "") << "no log";
+  EXPECT_EQ(complaint(set, folder_ / "set/result.csv"), "");
+  EXPECT_NE(complaint(set, folder_ / "set/new.lcmlog"), "") << "it would be played";
+  EXPECT_NE(complaint(set, folder_ / "set/a.lcmlog", Kind::log_set), "");
+  EXPECT_NE(complaint(set, folder_ / "set", Kind::recording), "");
+}
+
+TEST_F(Outputs, ASetThatASingleLogBelongsToIsRefused) {
+  const SourceFiles log = files_of_source("log:" + (folder_ / "set/a-000001-20260921T141320Z.lcmlog"));
+  EXPECT_NE(complaint(log, folder_ / "set/a.lcmlog", Kind::log_set), "");
+  EXPECT_EQ(complaint(log, folder_ / "set/b.lcmlog", Kind::log_set), "");
+  EXPECT_EQ(complaint(log, folder_ / "elsewhere/a.lcmlog", Kind::log_set), "");
+}
+
+TEST_F(Outputs, NetworksSensorsAndTheSimulatorHaveNoFiles) {
+  for (const char* spec : {"lcm", "openni2", "openni2:1d27/0601", "sim:fist"})
+    EXPECT_TRUE(files_of_source(spec).files.empty()) << spec;
+  EXPECT_EQ(files_of_source("openni2:a.oni").files.front(), "a.oni");
+}
+
+TEST_F(Outputs, OtherInputsAndOutputsAreRefused) {
+  const std::string a = folder_ / "rec/hand.json", b = folder_ / "b";
+  fs::create_symlink(a, b);
+  const auto over_input = check_outputs({}, {{"--hand", a}}, {{"--save-hand", b}}, true);
+  ASSERT_FALSE(over_input);
+  EXPECT_THAT(over_input.error().message(), AllOf(HasSubstr("--save-hand " + b), HasSubstr("--hand " + a)));
+  EXPECT_FALSE(check_outputs({}, {}, {{"--result", folder_ / "c"}, {"--states-log", folder_ / "./c"}}, true));
+  EXPECT_TRUE(check_outputs({}, {}, {{"--result", "/dev/null"}, {"--states-log", "/dev/null"}}, false));
+  EXPECT_TRUE(check_outputs({}, {{"--hand", ""}}, {{"--result", ""}}, false));
+}
+
+TEST_F(Outputs, WhatExistsIsReplacedOnlyIfAllowed) {
+  EXPECT_THAT(complaint({}, folder_ / "set/notes.csv", Kind::file, false), HasSubstr("--overwrite"));
+  EXPECT_EQ(complaint({}, folder_ / "set/notes.csv"), "");
+  EXPECT_EQ(complaint({}, folder_ / "set", Kind::pictures, false), "") << "there are no pictures in it";
+  test::write_text(folder_ / "set/000012.jpg", "x");
+  EXPECT_THAT(complaint({}, folder_ / "set", Kind::pictures, false), HasSubstr("holds pictures"));
+  EXPECT_EQ(complaint({}, folder_ / "set", Kind::pictures), "");
+}
+
+}  // namespace
+}  // namespace barehand
