@@ -2,11 +2,12 @@
 # Tracks one log: an element of an array job. Run again, it leaves alone what is finished.
 #   one_log.sh LOG OUT [TRACK OPTIONS]      makes OUT/NAME/ of NAME.lcmlog: states.lcmlog, result.csv, report.txt, command
 # The folder appears when all of it is complete and on disk. After a failure OUT/NAME.failed.txt says why.
-# Exit code: 0 finished, now or before; else that of barehand track: 1 failed while running, 2 the log or the options
-# cannot be used, 130 stopped before the end. One thread, unless --threads says otherwise. BAREHAND names another program than the one on the PATH.
+# Exit code: 0 finished, now or before; else that of barehand track: 1 failed while running, or none or less than half of
+# the frames could be read; 2 the log or the options cannot be used; 130 stopped before the end. One thread, unless
+# --threads says otherwise. BAREHAND names another program than the one on the PATH.
 set -u
 
-[ $# -ge 2 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 log=$1 out=$2
 shift 2
 [[ " $* " == *" --threads"* ]] || set -- --threads 1 "$@"  # one core per log, or they get in each other's way
@@ -35,6 +36,10 @@ while kill -0 $child 2>/dev/null; do  # the wait ended with the signal, and the 
   code=$?
 done
 [ -z "$stopped" ] || code=130
+if [ $code = 0 ] && ! { [ -s "$draft/result.csv" ] && [ -s "$draft/states.lcmlog" ]; }; then
+  echo "error: a result is missing or empty" >>"$draft/report.txt"
+  code=1
+fi
 
 if [ $code = 0 ]; then
   printf '%s\n' "$command" >"$draft/command"

@@ -5,7 +5,8 @@ set -u
 
 BAREHAND=$(realpath "$1")
 export BAREHAND
-batch=$(realpath "$2")/deploy/batch
+tree=$(realpath "$2")
+batch=$tree/deploy/batch
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -37,23 +38,33 @@ mkdir other
 cp log1.lcmlog other
 head -c 5000 /dev/urandom >broken.lcmlog
 head -c $(($(stat -c %s log1.lcmlog) * 3 / 4)) log1.lcmlog >"cut off.lcmlog"
-printf '%s\n' log1.lcmlog broken.lcmlog "cut off.lcmlog" log2.lcmlog missing.lcmlog >logs.txt
+# Frames of another program, whose intrinsics were not given.
+cp "$tree/tests/fuzz/corpus/lcm_log/kinect_raw_rgb" unreadable.lcmlog
+printf '%s\n' log1.lcmlog broken.lcmlog "cut off.lcmlog" log2.lcmlog missing.lcmlog unreadable.lcmlog >logs.txt
 
 check "failures are told" exits 1 "$batch/parallel.sh" logs.txt out "${start[@]}"
+check "the summary counts" grep -qx "3 of 6 logs are finished" command.out
+for log in broken missing unreadable; do
+  check "the summary lists $log" grep -q "^not finished: $log.lcmlog: .*$log.lcmlog" command.out
+done
+check "one without a readable frame is not finished" grep -q "nothing was tracked" out/unreadable.failed.txt
 check "the others are finished" test "$(finished out)" = "cut off log1 log2"
 check "all frames are tracked" test "$(frames out/log1/result.csv)" = 4
 check "states are logged" test -s out/log1/states.lcmlog
 check "a damaged log is said" grep -q "damaged or cut off" "out/cut off/report.txt"
 check "the broken one says why" grep -q broken.lcmlog out/broken.failed.txt
 check "the missing one says why" grep -q missing.lcmlog out/missing.failed.txt
-check "the exit codes are kept" test "$(tail -n +2 out/joblog | cut -f7 | sort | paste -sd' ')" = "0 0 0 2 2"
+check "the exit codes are kept" test "$(tail -n +2 out/joblog | cut -f7 | sort | paste -sd' ')" = "0 0 0 1 2 2"
 check "no drafts are left" test -z "$(ls out/.unfinished)"
 
 before=$(stat -c %i:%Y out/log1/*)
 cp whole.lcmlog broken.lcmlog
 cp whole.lcmlog missing.lcmlog
+check "one without a readable frame is tried again" exits 1 "$batch/one_log.sh" unreadable.lcmlog out "${start[@]}"
+cp whole.lcmlog unreadable.lcmlog
 check "the second run finishes the rest" exits 0 "$batch/parallel.sh" logs.txt out "${start[@]}"
-check "all are finished" test "$(finished out)" = "broken cut off log1 log2 missing"
+check "all are finished" test "$(finished out)" = "broken cut off log1 log2 missing unreadable"
+check "the summary has nothing to list" exits 0 "$batch/summary.sh" logs.txt out
 check "what was finished is left alone" test "$(stat -c %i:%Y out/log1/*)" = "$before"
 check "old failures are forgotten" test -z "$(ls out/*.failed.txt 2>/dev/null)"
 check "what is finished is not tracked again" exits 0 env BAREHAND=false "$batch/one_log.sh" log1.lcmlog out "${start[@]}"
@@ -63,7 +74,7 @@ check "another log of this name needs another folder" exits 2 "$batch/one_log.sh
 # Long enough to be stopped in the middle.
 simulate long.lcmlog --frames 60
 until_it_tracks() {  # OUT JOB
-  until [ -n "$(find "$1" -name result.csv -size +0 2>/dev/null)" ]; do
+  until [ -n "$(find "$1" -name result.csv.unfinished -size +0 2>/dev/null)" ]; do
     kill -0 "$2" 2>/dev/null || { echo "FAILED: it ended before it was stopped"; exit 1; }
     sleep 0.02
   done

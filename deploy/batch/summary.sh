@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Says how many logs of a list are finished, and which are not and why. Also while jobs run, and after them.
+#   summary.sh LIST OUT      LIST: a file with the path of a log a line; OUT: where one_log.sh put its folders
+# Exit code: 0 all finished, 1 some are not, 2 the list cannot be read.
+set -u
+
+[ $# = 2 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+list=$1 out=$2
+[ -r "$list" ] || { echo "$list: cannot be read" >&2; exit 2; }
+mapfile -t logs <"$list"
+
+all=0
+unfinished=()
+for log in "${logs[@]}"; do
+  [ -n "$log" ] || continue
+  all=$((all + 1))
+  name=$(basename "$log" .lcmlog)
+  [ -d "$out/$name" ] && continue
+  why="stopped, or not started yet"
+  if [ -f "$out/$name.failed.txt" ]; then
+    why=$(grep -E '^(error|barehand track)' "$out/$name.failed.txt" | tail -n 1)
+    why=${why:-$(tail -n 1 "$out/$name.failed.txt")}
+  fi
+  unfinished+=("$log: $why")
+done
+
+echo "$((all - ${#unfinished[@]})) of $all logs are finished"
+[ ${#unfinished[@]} = 0 ] && exit 0
+printf 'not finished: %s\n' "${unfinished[@]}"
+exit 1
