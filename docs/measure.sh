@@ -7,14 +7,14 @@ mkdir -p "$out"
 row() {  # NAME RECORDING CONFIG EXTRA...
   local name=$1 recording=$2 config=$3
   shift 3
-  "$barehand" track --source "folder:$data/$recording" --config "$config" --no-publish --result "$out/$name.csv" "$@" \
+  "$barehand" track --source "folder:$data/$recording" --config "$config" --no-publish --overwrite --result "$out/$name.csv" "$@" \
     >"$out/$name.log" 2>&1 || echo "$name: track failed, see $out/$name.log"
 }
 judge() {  # TITLE RECORDING NAME EXTRA...
   local title=$1 recording=$2 name=$3
   shift 3
   echo "== $recording, $title"
-  "$barehand" eval --truth "$data/$recording/truth.csv" --result "$out/$name.csv" "$@"
+  "$barehand" eval --overwrite --truth "$data/$recording/truth.csv" --result "$out/$name.csv" "$@"
 }
 for recording in fist_twice occlusion_0 occlusion_3 occlusion_6 grasp_ball tz19_kinect; do
   own=$data/$recording/hand.json
@@ -46,7 +46,7 @@ for recording in fist_twice grasp_ball tz19_kinect; do
   judge "mean hand, not fitted" $recording $mean.not_fitted
 done
 
-"$barehand" calibrate --source "folder:$data/fist_twice" --hand "$data/fist_twice/hand.json" --out "$out/mine.json" \
+"$barehand" calibrate --source "folder:$data/fist_twice" --hand "$data/fist_twice/hand.json" --overwrite --out "$out/mine.json" \
   >"$out/calibrate.log" 2>&1 || echo "calibrate failed, see $out/calibrate.log"
 for recording in fist_twice occlusion_0 occlusion_3 occlusion_6 grasp_ball; do
   row $recording.scanned $recording default --hand "$out/mine.json"

@@ -7,7 +7,7 @@ barehand=$1 data=$2 out=$3
 first=20
 mkdir -p "$out"
 judge() {  # FOLDER NAME
-  "$barehand" track --source "folder:$1" --hand "$1/hand.json" --no-publish --result "$out/$2.csv" >"$out/$2.log" 2>&1
+  "$barehand" track --source "folder:$1" --hand "$1/hand.json" --no-publish --overwrite --result "$out/$2.csv" >"$out/$2.log" 2>&1
   echo "== $2, from frame $first on"
   "$barehand" eval --truth "$1/truth.csv" --result "$out/$2.csv" --start $first
 }

@@ -14,7 +14,7 @@ figures() {  # TITLE FOLDER EXTRA...: of the last run
     /lost/ && !lost {lost = $6} $1 == "frame" && $2 + 0 {printf "mean %s, median %s, max %s mm, lost %s\n", $3, $4, $10, lost}'
 }
 judge() {  # TITLE FOLDER HAND EXTRA...
-  "$barehand" track --source "folder:$2" --hand "$3" --no-publish --result "$out/result.csv" "${@:4}" \
+  "$barehand" track --source "folder:$2" --hand "$3" --no-publish --overwrite --result "$out/result.csv" "${@:4}" \
     >"$out/track.log" 2>&1
   figures "$1" "$2"
 }
@@ -28,13 +28,13 @@ scan_from_mean() {  # NAME OPTIONS...: a hand of that name
   shift
   simulated "scan_$name" scan "$@"
   simulated "fist_$name" fist "$@"
-  "$barehand" calibrate --source "folder:$out/scan_$name" --out "$out/$name.mean.json" \
+  "$barehand" calibrate --source "folder:$out/scan_$name" --overwrite --out "$out/$name.mean.json" \
     >"$out/calibrate_$name.mean.log" 2>&1
 }
 scanned() {  # NAME OPTIONS...
   scan_from_mean "$@"
   local name=$1 own="$out/fist_$1/hand.json" from_mean="$out/$1.mean.json" from_own="$out/$1.own.json"
-  "$barehand" calibrate --source "folder:$out/scan_$name" --hand "$own" --out "$from_own" \
+  "$barehand" calibrate --source "folder:$out/scan_$name" --hand "$own" --overwrite --out "$from_own" \
     >"$out/calibrate_$name.own.log" 2>&1
   judge "$name: mean hand, not fitted" "$out/fist_$name" "$adult" --config "$out/not_fitted.yaml"
   judge "$name: mean hand, without the scan" "$out/fist_$name" "$adult" --config "$out/no_scan.yaml"

@@ -229,10 +229,10 @@ def disk_full_while_tracking(build, folder):
 
 
 def killed(build, folder):
-    log, barehand = folder + "/killed.lcmlog", os.path.join(build, "src/app/barehand")
+    log, barehand = folder + "/killed.lcmlog.unfinished", os.path.join(build, "src/app/barehand")
     torn = []
     for i in range(20):
-        program = Program(build, ["record", "--source", HAND, "--out", log, "--overwrite"])
+        program = Program(build, ["record", "--source", HAND, "--out", folder + "/killed.lcmlog"])
         while not os.path.exists(log) or os.path.getsize(log) < 2_000_000 + 100_000 * i:
             time.sleep(0.001)
         program.stop(signal.SIGKILL)

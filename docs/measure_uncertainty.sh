@@ -16,12 +16,12 @@ judge() {  # TITLE HAND FOLDER...: HAND is own, or a profile for all
   shift 2
   for folder in "$@"; do
     log="$out/$(basename "$folder").$(basename "$hand" .json).lcmlog"
-    "$barehand" track --source "folder:$folder" --no-publish --states-log "$log" \
+    "$barehand" track --source "folder:$folder" --no-publish --overwrite --states-log "$log" \
       --hand "$([ "$hand" = own ] && echo "$folder/hand.json" || echo "$hand")" >"$log.txt" 2>&1
     pairs+=(--truth "$folder/truth.csv" --states "$log")
   done
   echo "== $title"
-  "$barehand" eval "${pairs[@]}" --plots "$out/$title"
+  "$barehand" eval "${pairs[@]}" --overwrite --plots "$out/$title"
 }
 larger="scale=1.12 thickness=1.1 index=1.08 middle=1.08 ring=1.08"
 simulated fist fist
