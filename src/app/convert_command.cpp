@@ -23,6 +23,7 @@ int convert(const std::string& in, CopyRequest request) {
 
 void add_convert_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
+  request->out_option = "out";
   auto in = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
       "convert", "Turn a recording folder or an .oni file into an LCM log, or a log or .oni file into a folder");

@@ -1,5 +1,7 @@
 #include "app/file_sinks.h"
 
+#include <filesystem>
+
 #include "io/hand_json.h"
 #include "io/path_of_hand.h"
 
@@ -34,9 +36,19 @@ Result<void> ResultTableSink::finish() {
 }
 
 Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every) {
+  std::error_code ignored;
+  const bool there = std::filesystem::exists(path, ignored);
   auto writer = OverlayWriter::open(path, fps / every);
   if (!writer) return tl::unexpected(writer.error());
-  return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every));
+  const bool made = !there && std::filesystem::is_directory(path, ignored);
+  return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every, made ? path : ""));
+}
+
+Result<void> OverlaySink::finish() {
+  auto finished = writer_.finish();
+  std::error_code ignored;
+  if (seen_ == 0 && !made_.empty()) std::filesystem::remove(made_, ignored);  // only where it is empty
+  return finished;
 }
 
 Result<std::unique_ptr<Sink>> SaveHandSink::create(const std::string& path,

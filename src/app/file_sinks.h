@@ -37,12 +37,15 @@ class OverlaySink : public Sink {
     if (seen_++ % every_ != 0) return {};
     return writer_.write(*tracked.frame, tracked.estimates);
   }
-  Result<void> finish() override { return writer_.finish(); }
+  /// A folder that was made for nothing is removed.
+  Result<void> finish() override;
 
  private:
-  OverlaySink(OverlayWriter writer, int every) : writer_(std::move(writer)), every_(every) {}
+  OverlaySink(OverlayWriter writer, int every, std::string made)
+      : writer_(std::move(writer)), every_(every), made_(std::move(made)) {}
   OverlayWriter writer_;
   const std::int64_t every_;
+  const std::string made_;  // the folder, if it was not there
   std::int64_t seen_ = 0;
 };
 

@@ -97,10 +97,14 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
     before.emplace_back(&output, place);
   }
 
-  for (const Output& output : outputs)
+  std::error_code ignored;
+  for (const Output& output : outputs) {
+    if (output.kind == Output::Kind::file && fs::is_directory(output.path, ignored))
+      return refuse(output, "is a folder", "give a file");
     if (!overwrite && is_taken(output))
       return refuse(output, output.kind == Output::Kind::pictures ? "holds pictures already" : "exists already",
                     "choose another name, or replace it with --overwrite");
+  }
   return {};
 }
 

@@ -44,7 +44,7 @@ std::string config_file(const std::string& name) { return name.empty() ? "" : fi
 
 Output output_of(const CopyRequest& request, bool rotates) {
   const Output::Kind log = rotates ? Output::Kind::log_set : Output::Kind::file;
-  return {"--out", request.out, is_log_path(request.out) ? log : Output::Kind::recording};
+  return {request.out_option, request.out, is_log_path(request.out) ? log : Output::Kind::recording};
 }
 
 /// What makes a copy that came to its end a failed one.

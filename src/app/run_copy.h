@@ -15,9 +15,9 @@ namespace barehand {
 struct CopyRequest {
   SourceRequest source;
   std::string config;  ///< its groups foreign_camera and openni2 hold where `source` gives no intrinsics; "": none
-  std::string out;
-  std::string colour = "png";  ///< png, jpeg, raw, none
-  std::string depth = "rvl";   ///< rvl, zlib, raw
+  std::string out, out_option = "--out";  ///< its path; how messages call it
+  std::string colour = "png";             ///< png, jpeg, raw, none
+  std::string depth = "rvl";              ///< rvl, zlib, raw
   int jpeg_quality = 92;
   std::string out_channel = "RGBD_FRAME";
   bool overwrite = false;
