@@ -7,6 +7,7 @@
 
 #include "app/eval_report.h"
 #include "app/exit_code.h"
+#include "app/standard_streams.h"
 #include "app/stated_poses.h"
 #include "io/hand_json.h"
 #include "io/recording.h"
@@ -119,6 +120,7 @@ int run(const EvalOptions& o) {
   if (!report) return fail_with(report.error(), kExitUsage);
   std::fputs(text_report(*report).c_str(), stdout);
   const auto written = write(*report, o);
+  if (written && o.json.empty() && o.plots.empty()) return printed(kExitOk);
   return written ? kExitOk : fail_with(written.error(), kExitFailure);
 }
 

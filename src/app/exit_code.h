@@ -8,6 +8,7 @@ enum ExitCode : int {
   kExitFailure = 1,        ///< something went wrong while running; what was written until then is kept
   kExitUsage = 2,          ///< wrong arguments, configuration or input file; nothing was started
   kExitInterrupted = 130,  ///< Ctrl-C, or SIGTERM before a recording's end; what was written is complete and flushed
+  kExitBrokenPipe = 141,   ///< nobody reads any more what a command prints, as of a filter that SIGPIPE ends
 };
 
 }  // namespace barehand
