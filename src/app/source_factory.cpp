@@ -10,6 +10,7 @@
 #include "io/file_bytes.h"
 #include "io/hand_json.h"
 #include "io/path_of_hand.h"
+#include "io/stamped_list.h"
 
 namespace barehand {
 namespace {
@@ -17,6 +18,18 @@ namespace {
 constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, openni2, openni2:SENSOR, openni2:FILE.oni, sim:NAME";
 
 bool is_oni_file(const std::string& name) { return name.ends_with(".oni"); }
+
+/// A list that somebody else made may name any file of this machine.
+std::optional<std::string> outside_warning(const Recording& recording) {
+  std::int64_t count = 0;
+  std::string first;
+  for (const RecordingEntry& entry : recording.entries)
+    for (const std::string& file : {entry.depth_file, entry.colour_file})
+      if (!file.empty() && is_outside(recording.directory, file) && count++ == 0) first = file;
+  if (count == 0) return std::nullopt;
+  return recording.directory + ": its lists name " + std::to_string(count) + " images outside of the folder, first " +
+         first;
+}
 
 Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
   auto source = FolderSource::open(directory, {request.start, request.step});
@@ -27,6 +40,7 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
+  open.warning = outside_warning((*source)->recording());
   open.fps = (*source)->recording().fps;
   open.source = std::move(*source);
   return open;

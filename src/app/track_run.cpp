@@ -27,6 +27,7 @@
 #include "app/track_stages.h"
 #include "core/available_memory.h"
 #include "core/parallel.h"
+#include "io/file_bytes.h"
 #include "io/pose_json.h"
 #include "stages/publish/publisher.h"
 
@@ -314,8 +315,12 @@ int run_track(const TrackOptions& options) {
     return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
   // Where there is a terminal, SIGHUP means that it is gone.
   const bool daemon = isatty(STDIN_FILENO) == 0;
-  const auto outcome =
-      track(options, *config, daemon ? [&] { return configuration(options); } : std::function<Result<Config>()>());
+  const auto reread = [&]() -> Result<Config> {
+    if (is_pipe(options.config))
+      return fail("was a pipe, which cannot be read again", options.config, "start with a file to change it later");
+    return configuration(options);
+  };
+  const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
   if (!outcome) return tell(outcome.error());
   std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
   return outcome->exit_code;

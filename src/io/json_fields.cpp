@@ -30,7 +30,7 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
 }  // namespace
 
 Result<Json> read_json(const std::string& path) {
-  return read_file(path).and_then([&](const std::string& text) { return parse_json(text, path); });
+  return read_text(path).and_then([&](const std::string& text) { return parse_json(text, path); });
 }
 
 Result<Json> parse_json(const std::string& text, const std::string& where) {
@@ -42,8 +42,9 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 }
 
 Result<void> write_json(const std::string& path, const Json& json) {
+  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace);  // paths need not be UTF-8
   std::ofstream file(path);
-  file << json.dump(1) << '\n';
+  file << text << '\n';
   file.close();
   if (!file) return fail("cannot be written", path, "check the folder, its permissions and the free space");
   return {};
