@@ -58,6 +58,9 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   open.frames = (*source)->remaining();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warning = path + ": " + std::to_string(bytes) + " bytes are damaged or cut off; every whole event is played";
+  if (const auto& left_out = (*source)->left_out(); !left_out.empty())
+    open.warning = (open.warning ? *open.warning + "\n" : "") + path + ": " + std::to_string(left_out.size()) +
+                   " of its logs cannot be played, first " + left_out.front().message();
   open.source = std::move(*source);
   return open;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <ctime>
 #include <numeric>
-#include <regex>
 
 #include "core/format.h"
+#include "io/log_names.h"
 
 namespace barehand {
 namespace fs = std::filesystem;
@@ -48,14 +48,10 @@ Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path
 }
 
 void RotatingLog::find_files() {
-  const std::regex name("(.*)-([0-9]{6,18})-[0-9]{8}T[0-9]{6}Z");
   std::error_code ignored;  // a folder that cannot be read shows when a file is made
   for (const auto& entry : fs::directory_iterator(folder_of(path_), ignored)) {
-    const std::string stem = entry.path().stem().string();
-    std::smatch parts;
-    if (entry.path().extension() != path_.extension() || !std::regex_match(stem, parts, name)) continue;
-    if (parts[1] != path_.stem().string()) continue;
-    files_.push_back({entry.path(), std::stoll(parts[2]), static_cast<std::int64_t>(entry.file_size(ignored))});
+    const auto number = number_in_set(entry.path(), path_);
+    if (number) files_.push_back({entry.path(), *number, static_cast<std::int64_t>(entry.file_size(ignored))});
   }
   std::sort(files_.begin(), files_.end(), [](const File& a, const File& b) { return a.number < b.number; });
 }
