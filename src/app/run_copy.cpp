@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <optional>
 
 #include "app/copy_frames.h"
 #include "app/exit_code.h"
@@ -101,7 +103,17 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   }
   if (!source) return refuse(source.error());
   if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
-  auto writer = open_frame_writer(request.out, writer_options(request, source->fps, clock));
+  const FrameWriterOptions output = writer_options(request, source->fps, clock);
+  std::optional<FileLock> lock;
+  if (output.rotation && is_log_path(request.out)) {
+    auto taken = lock_set(request.out, std::chrono::seconds(3));  // a service before this one may be about to end
+    if (!taken) {
+      refuse(taken.error());
+      return kExitFailure;  // it may be free later
+    }
+    lock = std::move(*taken);
+  }
+  auto writer = open_frame_writer(request.out, output);
   if (!writer) return refuse(writer.error());
 
   CopyOptions options;

@@ -30,6 +30,17 @@ bool no_room(const fs::path& folder) {
 
 }  // namespace
 
+Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds patience) {
+  const fs::path folder = folder_of(path);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail("cannot be made: " + error.message(), folder.string(), "check the path and its permissions");
+  const std::string name = fs::path(path).filename().string();
+  auto lock = FileLock::take((folder / ("." + name + ".lock")).string(), patience);
+  if (!lock) lock.error().what = "this set of logs cannot be written, its lock " + lock.error().what;
+  return lock;
+}
+
 RotatingLog::RotatingLog(fs::path path, LogRotation rotation, const Clock& clock)
     : path_(std::move(path)), rotation_(rotation), clock_(clock) {}
 
