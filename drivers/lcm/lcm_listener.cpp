@@ -2,6 +2,8 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "drivers/lcm/channel_glob.h"
+
 namespace barehand {
 
 void LcmListener::hand_on(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
@@ -10,31 +12,17 @@ void LcmListener::hand_on(const lcm_recv_buf_t* buffer, const char* channel, voi
   self.handler_(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
 }
 
-std::string glob_to_regex(const std::string& glob) {
-  std::string regex;
-  for (const char c : glob) {
-    if (c == '*') {
-      regex += ".*";
-    } else if (c == '?') {
-      regex += '.';
-    } else {
-      if (std::string_view(".^$|()[]{}+\\").find(c) != std::string_view::npos) regex += '\\';
-      regex += c;
-    }
-  }
-  return regex;
-}
-
 LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler)
     : bus_(std::move(bus)), handler_(std::move(handler)) {
   subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, this);
+  broken_ = subscription_ == nullptr;  // liblcm cannot listen to what is no UTF-8
   thread_ = std::thread([this] { run(); });
 }
 
 LcmListener::~LcmListener() {
   stop_ = true;
   thread_.join();
-  lcm_unsubscribe(bus_->lcm().getUnderlyingLCM(), subscription_);
+  if (subscription_ != nullptr) lcm_unsubscribe(bus_->lcm().getUnderlyingLCM(), subscription_);
 }
 
 void LcmListener::run() {

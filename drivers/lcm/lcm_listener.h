@@ -21,7 +21,7 @@ class LcmListener {
   /// Called on the listener's thread; the bytes are valid during the call.
   using Handler = std::function<void(const std::string& channel, WireBytes message)>;
 
-  /// `channels` is a glob: "*RGBD_FRAME".
+  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". Without UTF-8 the connection is broken.
   LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler);
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;
@@ -42,8 +42,5 @@ class LcmListener {
   std::atomic<bool> stop_{false}, broken_{false};
   std::thread thread_;
 };
-
-/// The glob ('*', '?') as the regular expression that LCM wants.
-std::string glob_to_regex(const std::string& glob);
 
 }  // namespace barehand

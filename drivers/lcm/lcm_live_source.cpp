@@ -1,11 +1,15 @@
 #include "drivers/lcm/lcm_live_source.h"
 
 #include "barehand/rgbd_frame_t.hpp"
+#include "core/quote.h"
 #include "drivers/lcm/frame_message.h"
 
 namespace barehand {
 
 Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& url, const LcmLiveOptions& options) {
+  if (!is_utf8(options.channel))
+    return fail("LCM cannot listen to a channel whose name is no UTF-8", in_quotes(as_utf8(options.channel)),
+                "rename it where it is sent");
   auto bus = LcmBus::open(url);
   if (!bus) return tl::unexpected(bus.error());
   return std::make_unique<LcmLiveSource>(std::move(*bus), options);

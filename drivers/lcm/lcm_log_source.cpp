@@ -1,29 +1,28 @@
 #include "drivers/lcm/lcm_log_source.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "core/comma_list.h"
+#include "core/quote.h"
+#include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_message.h"
+#include "io/log_names.h"
 
 namespace barehand {
-namespace fs = std::filesystem;
 namespace {
 
-/// The log itself, or those of a folder; one without a byte, killed before its first event, is left out.
-Result<std::vector<std::string>> log_files(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) return std::vector<std::string>{path};
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path, error))
-    if (entry.path().extension() == ".lcmlog" && entry.file_size(error) > 0) files.push_back(entry.path().string());
-  if (files.empty()) return fail("the folder holds no .lcmlog files", path);
-  std::sort(files.begin(), files.end());
-  return files;
+/// How to say which channel is meant.
+std::string how_to_choose(const std::string& channel) {
+  return "choose one: run.frame_channel: " + in_quotes(channel) + " in the configuration of track, --channel " +
+         shell_word(channel) + " for record and convert";
+}
+
+std::string names(const std::set<std::string>& channels) {
+  std::vector<std::string> names;
+  for (const std::string& channel : channels) names.push_back(in_quotes(channel));
+  return comma_list(names);
 }
 
 }  // namespace
@@ -44,16 +43,20 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
 }
 
 Result<void> LcmLogSource::open_files() {
-  const auto files = log_files(path_);
+  const auto files = find_logs(path_);
   if (!files) return tl::unexpected(files.error());
   for (const std::string& file : *files) {
     auto reader = LcmLogReader::open(file);
-    if (!reader) return tl::unexpected(reader.error());
+    if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no whole event", file);
+    if (!reader) {
+      left_out_.push_back(reader.error());
+      continue;
+    }
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry});
     reader->close();
     files_.push_back(std::move(*reader));
   }
-  if (frames_.empty()) return fail("is not an LCM log: it holds no whole event", path_);
+  if (frames_.empty()) return tl::unexpected(left_out_.front());
   return {};
 }
 
@@ -65,18 +68,21 @@ Result<void> LcmLogSource::choose() {
     all.insert(event.entry.channel);
     if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
   }
+  const bool is_name = all.contains(pattern);
   std::erase_if(frames_, [&](const Event& event) {
-    return pattern.empty() ? !carries_frames(event.entry.hash)
-                           : fnmatch(pattern.c_str(), event.entry.channel.c_str(), 0) != 0;
+    const std::string& channel = event.entry.channel;
+    if (pattern.empty()) return !carries_frames(event.entry.hash);
+    return is_name ? channel != pattern : !matches_glob(pattern, channel);
   });
   if (pattern.empty() && with_frames.empty()) {
-    return fail("the log holds no frames; its channels are " + comma_list(all), path_,
+    return fail("the log holds no frames; its channels are " + names(all), path_,
                 "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
   }
   if (pattern.empty() && with_frames.size() > 1) {
-    return fail("the log holds frames on several channels: " + comma_list(with_frames), path_, "choose one");
+    return fail("the log holds frames on several channels: " + names(with_frames), path_,
+                how_to_choose(*with_frames.begin()));
   }
-  if (frames_.empty()) return fail("no channel matches \"" + pattern + "\"; there are " + comma_list(all), path_);
+  if (frames_.empty()) return fail("no channel matches " + in_quotes(pattern) + "; there are " + names(all), path_);
   return {};
 }
 

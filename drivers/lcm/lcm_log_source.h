@@ -13,18 +13,17 @@
 namespace barehand {
 
 struct LcmLogOptions {
-  std::string channel = {};  ///< glob like "CAM_*"; "": the one channel that carries frames
+  std::string channel = {};  ///< a name, or a glob (matches_glob) like "CAM_*"; "": the one channel that carries frames
   std::optional<std::int64_t> start =
       {};                 ///< position of the first frame, from 0; not given: the first, backwards the last
   std::int64_t step = 1;  ///< every step-th frame; negative plays backwards
   GivenIntrinsics foreign = {};
 };
 
-/// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of all .lcmlog files of a
-/// folder in the order of their names, as `barehand record` makes a set of them, never dropping one. A cut
-/// or damaged log replays every whole event; one of a folder may have none. Messages of another type, damaged messages
-/// and frames that are stale (is_stale) come as SkippedFrame. Own frames keep their numbers,
-/// foreign ones get their position.
+/// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of a folder or set of
+/// logs (find_logs) one after the other, never dropping one. A cut or damaged log replays every whole event; one of
+/// several without any is left out. Messages of another type, damaged messages and frames that are stale (is_stale)
+/// come as SkippedFrame. Own frames keep their numbers, foreign ones get their position.
 class LcmLogSource : public FrameSource {
  public:
   /// Errors: no LCM log, a folder without any, no matching channel (names those there are), several channels with
@@ -39,6 +38,8 @@ class LcmLogSource : public FrameSource {
   std::int64_t remaining() const;
   /// Bytes of the files that belong to no whole event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
+  /// What was wrong with each of several logs that cannot be read, or holds nothing.
+  const std::vector<Error>& left_out() const { return left_out_; }
 
  private:
   /// One event, and which of the files it is in.
@@ -55,6 +56,7 @@ class LcmLogSource : public FrameSource {
   std::string path_;
   LcmLogOptions options_;
   std::vector<LcmLogReader> files_;
+  std::vector<Error> left_out_;
   std::vector<Event> frames_;  ///< of the chosen channels, in file order
   std::vector<bool> stale_;    ///< is_stale, played forwards
   std::int64_t next_ = 0;

@@ -7,15 +7,22 @@
 
 #include "app/exit_code.h"
 #include "app/run_copy.h"
+#include "io/log_names.h"
 
 namespace barehand {
+namespace fs = std::filesystem;
 namespace {
 
-int convert(const std::string& in, CopyRequest request) {
-  const std::filesystem::path path(in);
-  const bool oni = path.extension() == ".oni";
+/// A folder is a recording, or holds logs. A recording may have other files ending in .log beside it.
+bool is_recording(const fs::path& path) {
   std::error_code ignored;  // what cannot be looked at shows when it is opened
-  request.source.spec = (std::filesystem::is_directory(path, ignored) ? "folder:" : oni ? "openni2:" : "log:") + in;
+  if (!fs::is_directory(path, ignored)) return false;
+  return fs::exists(path / "depth.txt", ignored) || fs::exists(path / "camera.json", ignored) || !find_logs(path);
+}
+
+int convert(const std::string& in, CopyRequest request) {
+  const bool oni = fs::path(in).extension() == ".oni";
+  request.source.spec = (is_recording(in) ? "folder:" : oni ? "openni2:" : "log:") + in;
   return run_copy(request, "barehand convert");
 }
 
@@ -26,8 +33,8 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   request->out_option = "out";
   auto in = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
-      "convert", "Turn a recording folder or an .oni file into an LCM log, or a log or .oni file into a folder");
-  command->add_option("in", *in, "folder, LCM log or .oni file")->required();
+      "convert", "Turn a recording folder or an .oni file into an LCM log, or logs or an .oni file into a folder");
+  command->add_option("in", *in, "recording folder, LCM log, folder or set of logs, or .oni file")->required();
   command->add_option("out", request->out, "FILE.lcmlog, or a folder that is made")->required();
   add_copy_options(*command, *request);
   command->footer(

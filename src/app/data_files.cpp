@@ -28,7 +28,7 @@ Result<std::string> find_data_file(const std::string& name) {
 
 Result<std::string> find_config(const std::string& name) {
   std::error_code error;
-  if (fs::is_regular_file(name, error)) return name;
+  if (fs::exists(name, error) && !fs::is_directory(name, error)) return name;
   if (name.find('/') == std::string::npos) {
     const std::string file = name.ends_with(".yaml") ? name : name + ".yaml";
     if (auto shipped = find_data_file("configs/" + file)) return shipped;

@@ -6,6 +6,7 @@
 
 #include "app/doctor_checks.h"
 #include "app/exit_code.h"
+#include "app/standard_streams.h"
 
 namespace barehand {
 namespace {
@@ -33,7 +34,7 @@ int run_doctor(const std::string& lcm_url) {
     problems += finding.level == Finding::Level::problem;
   });
   std::cout << (problems == 0 ? "Ready to track.\n" : "Not ready: see the lines marked PROBLEM.\n");
-  return problems == 0 ? kExitOk : kExitFailure;
+  return printed(problems == 0 ? kExitOk : kExitFailure);
 }
 
 }  // namespace

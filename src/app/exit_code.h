@@ -4,11 +4,12 @@ namespace barehand {
 
 /// What the `barehand` command returns to the shell.
 enum ExitCode : int {
-  kExitOk = 0,             ///< done; also a daemon that was told to stop (SIGTERM)
-  kExitFailure = 1,        ///< something went wrong while running, or too few frames could be read; what was written until
-                           ///< then is kept
-  kExitUsage = 2,          ///< wrong arguments, configuration, input or output file; nothing was started
+  kExitOk = 0,       ///< done; also a daemon that was told to stop (SIGTERM)
+  kExitFailure = 1,  ///< something went wrong while running, or too few frames could be read; what was written until
+                     ///< then is kept
+  kExitUsage = 2,    ///< wrong arguments, configuration, input or output file; nothing was started
   kExitInterrupted = 130,  ///< Ctrl-C, or SIGTERM before a recording's end; what was written is complete and flushed
+  kExitBrokenPipe = 141,   ///< nobody reads any more what a command prints, as of a filter that SIGPIPE ends
 };
 
 }  // namespace barehand

@@ -1,8 +1,10 @@
 #include "app/experiment_run.h"
 
+#include <atomic>
 #include <filesystem>
 #include <iostream>
 
+#include "app/interrupt.h"
 #include "app/render_progress.h"
 #include "app/sim_run.h"
 #include "io/hand_json.h"
@@ -77,8 +79,13 @@ tl::expected<std::int64_t, TrackFailure> ExperimentRun::render(const std::string
   if (options_.frames) spec += ",frames=" + std::to_string(*options_.frames);
   for (const std::string& key : options_.keys) spec += "," + key;
   std::cerr << "rendering " << spec << std::endl;
-  const auto frames = run_sim({spec, recording(sequence)}, render_progress);
+  std::atomic<bool> stopped = false;
+  const InterruptWatcher interrupt([&stopped] { stopped = true; });
+  const auto frames = run_sim({spec, recording(sequence)}, [&](std::int64_t done, std::int64_t all) {
+    return render_progress(done, all) && !stopped;
+  });
   if (!frames) return stop(frames.error(), kExitUsage);
+  if (stopped) return stop({"stopped", recording(sequence), ""}, kExitInterrupted);
   return *frames;
 }
 

@@ -4,6 +4,7 @@
 
 #include "drivers/lcm/wire.h"
 #include "io/lcm_log_writer.h"
+#include "io/log_names.h"
 #include "io/recording_writer.h"
 
 namespace barehand {
@@ -55,10 +56,7 @@ class FolderFrameWriter : public FrameWriter {
 
 }  // namespace
 
-bool is_log_path(const std::string& path) {
-  const std::filesystem::path ending = std::filesystem::path(path).extension();
-  return ending == ".lcmlog" || ending == ".lcm" || ending == ".log";
-}
+bool is_log_path(const std::string& path) { return is_log_name(path); }
 
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
   if (std::filesystem::path(path).extension() == ".oni")

@@ -33,7 +33,7 @@ struct FrameWriterOptions {
   const Clock* clock = nullptr;              ///< of the rotation; outlives the writer
 };
 
-/// Whether frames written to `path` make an LCM log: it ends in .lcmlog, .lcm or .log.
+/// Whether frames written to `path` make an LCM log (is_log_name).
 bool is_log_path(const std::string& path);
 
 /// A recording folder, or an LCM log if is_log_path. Errors: it exists, it cannot be made, or

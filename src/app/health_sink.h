@@ -25,6 +25,7 @@ class HealthSink : public Sink {
   Result<void> idle() override {
     if (clock_.steady_us() < due_us_) return {};
     due_us_ = clock_.steady_us() + period_us_;
+    out_.clear();  // whoever reads may have been gone for a while
     out_ << health_line(health_()) << std::endl;
     return {};
   }

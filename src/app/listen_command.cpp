@@ -11,6 +11,7 @@
 
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/standard_streams.h"
 #include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_listener.h"
 #include "hand/status_name.h"
@@ -72,11 +73,11 @@ int listen(const ListenOptions& options) {
                                std::fflush(stdout);
                                ++seen;
                              });
-  while (!stop && !listener.broken() && (options.count == 0 || seen < options.count)) {
+  while (!stop && !nobody_reads() && !listener.broken() && (options.count == 0 || seen < options.count)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (listener.broken()) std::cerr << "barehand listen: the LCM connection broke\n";
-  return listener.broken() ? kExitFailure : interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk;
+  return printed(listener.broken() ? kExitFailure : interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk);
 }
 
 }  // namespace

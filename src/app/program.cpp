@@ -15,17 +15,19 @@
 #include "app/listen_command.h"
 #include "app/record_command.h"
 #include "app/sim_command.h"
+#include "app/standard_streams.h"
 #include "app/track_command.h"
 
 namespace barehand {
 
 int run_program(int argc, char** argv) {
+  prepare_standard_streams();
   CLI::App app("Tracks a bare hand that holds things and publishes glove-like hand states over LCM.", "barehand");
   app.set_version_flag("--version", BAREHAND_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 failed while running or too few frames could be read, 2 wrong arguments, configuration or "
-      "files, 130 interrupted.\n"
+      "files, 130 interrupted, 141 nobody reads what is printed.\n"
       "barehand COMMAND --help says more.");
   cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
   int exit_code = kExitOk;
@@ -42,7 +44,7 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUsage;
+    return app.exit(error) == 0 ? printed(kExitOk) : kExitUsage;
   } catch (const std::exception& error) {  // out of memory, or an outside condition that nobody foresaw
     std::cerr << "barehand: failed: " << error.what() << std::endl;
     return kExitFailure;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <iostream>
@@ -129,6 +130,15 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},
                                    request.overwrite);
   if (!apart) return refuse(apart.error());
+  std::optional<FileLock> lock;
+  if (written_as.rotation && is_log_path(request.out)) {
+    auto taken = lock_set(request.out, std::chrono::seconds(3));  // a service before this one may be about to end
+    if (!taken) {
+      refuse(taken.error());
+      return kExitFailure;  // it may be free later
+    }
+    lock = std::move(*taken);
+  }
   auto writer = open_frame_writer(request.out, written_as);
   if (!writer) return refuse(writer.error());
 

@@ -4,11 +4,15 @@
 
 #include <cstdlib>
 
+#include "core/quote.h"
+
 namespace barehand {
 namespace {
 
 /// A message is a list of lines, so that a text may only have one.
-std::string status_line(const std::string& text) { return "STATUS=" + text.substr(0, text.find('\n')); }
+std::string status_line(const std::string& text) {
+  return "STATUS=" + as_utf8(text.substr(0, text.find('\n')));  // systemd takes nothing else
+}
 
 }  // namespace
 

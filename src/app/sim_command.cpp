@@ -1,13 +1,16 @@
 #include "app/sim_command.h"
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <memory>
 
 #include "app/exit_code.h"
+#include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/render_progress.h"
 #include "app/sim_run.h"
+#include "app/standard_streams.h"
 #include "drivers/synthetic/synthetic_spec.h"
 
 namespace barehand {
@@ -48,19 +51,21 @@ int fail_with(const Error& error, int code) {
 int run(const SimArguments& a) {
   if (a.list) {
     print_list();
-    return kExitOk;
+    return printed(kExitOk);
   }
   if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
     return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
   std::int64_t done = 0;
+  std::atomic<bool> stop = false;
+  const InterruptWatcher interrupt([&stop] { stop = true; });
   const auto frames = run_sim({spec_of(a), a.out, a.overwrite}, [&](std::int64_t now, std::int64_t all) {
     done = now;
-    return render_progress(now, all);
+    return render_progress(now, all) && !stop;
   });
   if (!frames) return fail_with(frames.error(), done > 0 ? kExitFailure : kExitUsage);
   std::printf("%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
-  return kExitOk;
+  return stop ? kExitInterrupted : kExitOk;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "io/file_bytes.h"
 #include "io/hand_json.h"
 #include "io/path_of_hand.h"
+#include "io/stamped_list.h"
 
 namespace barehand {
 namespace {
@@ -17,6 +18,18 @@ namespace {
 constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, openni2, openni2:SENSOR, openni2:FILE.oni, sim:NAME";
 
 bool is_oni_file(const std::string& name) { return name.ends_with(".oni"); }
+
+/// A list that somebody else made may name any file of this machine.
+std::optional<std::string> outside_warning(const Recording& recording) {
+  std::int64_t count = 0;
+  std::string first;
+  for (const RecordingEntry& entry : recording.entries)
+    for (const std::string& file : {entry.depth_file, entry.colour_file})
+      if (!file.empty() && is_outside(recording.directory, file) && count++ == 0) first = file;
+  if (count == 0) return std::nullopt;
+  return recording.directory + ": its lists name " + std::to_string(count) + " images outside of the folder, first " +
+         first;
+}
 
 Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
   auto source = FolderSource::open(directory, {request.start, request.step});
@@ -27,6 +40,7 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
+  open.warning = outside_warning((*source)->recording());
   open.fps = (*source)->recording().fps;
   open.source = std::move(*source);
   return open;
@@ -44,6 +58,9 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   open.frames = (*source)->remaining();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warning = path + ": " + std::to_string(bytes) + " bytes are damaged or cut off; every whole event is played";
+  if (const auto& left_out = (*source)->left_out(); !left_out.empty())
+    open.warning = (open.warning ? *open.warning + "\n" : "") + path + ": " + std::to_string(left_out.size()) +
+                   " of its logs cannot be played, first " + left_out.front().message();
   open.source = std::move(*source);
   return open;
 }

@@ -24,11 +24,13 @@
 #include "app/service_manager.h"
 #include "app/service_sink.h"
 #include "app/source_factory.h"
+#include "app/standard_streams.h"
 #include "app/summary.h"
 #include "app/track_outputs.h"
 #include "app/track_stages.h"
 #include "core/available_memory.h"
 #include "core/parallel.h"
+#include "io/file_bytes.h"
 #include "io/pose_json.h"
 #include "stages/publish/publisher.h"
 
@@ -124,7 +126,10 @@ Step TrackRun::open_input() {
   auto input = connect([&] { return open_source(request, clock_); }, from_network);
   if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
   input_ = std::move(*input);
-  if (input_.source->live()) workers_->go_live();
+  if (input_.source->live())
+    workers_->go_live();
+  else
+    interrupt_.stop_on_hangup();  // a recording is tracked with one configuration from end to end
   if (input_.warning) log_.logger().warn(*input_.warning);
   return {};
 }
@@ -286,7 +291,7 @@ int TrackRun::conclude(const RunResult& result) {
   int exit_code = kExitOk;
   if (result.stopped) {
     const bool by_user = interrupt_.signal() == SIGINT;
-    log_.logger().info("stopped by {}; everything tracked until then is written", by_user ? "Ctrl-C" : "SIGTERM");
+    log_.logger().info("stopped by {}; everything tracked until then is written", interrupt_.name());
     if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // a recording is not done before its end
   }
   for (const std::string& sink : result.incomplete) {
@@ -345,14 +350,18 @@ int run_track(const TrackOptions& options) {
   if (!config) return tell({config.error(), kExitUsage});
   if (options.print_config) {
     std::cout << print_config(*config);
-    return kExitOk;
+    return printed(kExitOk);
   }
   if (options.source.empty())
     return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
   // Where there is a terminal, SIGHUP means that it is gone.
   const bool daemon = isatty(STDIN_FILENO) == 0;
-  const auto outcome =
-      track(options, *config, daemon ? [&] { return configuration(options); } : std::function<Result<Config>()>());
+  const auto reread = [&]() -> Result<Config> {
+    if (is_pipe(options.config))
+      return fail("was a pipe, which cannot be read again", options.config, "start with a file to change it later");
+    return configuration(options);
+  };
+  const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
   if (!outcome) return tell(outcome.error());
   std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
   return outcome->exit_code;

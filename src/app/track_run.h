@@ -28,7 +28,8 @@ struct TrackOutcome {
 
 /// Tracks as `config` and the rest of `options` say; its config, seed and print_config are not looked at. Progress and
 /// log on standard error, nothing on standard output. All input is checked before the first output file is touched.
-/// `reread`: the configuration as it is now, asked for at SIGHUP; empty: SIGHUP has its usual effect.
+/// `reread`: the configuration as it is now, asked for at SIGHUP by a run over live frames. Without it, and over a
+/// recording, SIGHUP ends the run as SIGTERM does.
 /// `more`: sinks besides those of the options.
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread = {},

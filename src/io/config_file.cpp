@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/comma_list.h"
+#include "io/file_bytes.h"
 
 namespace barehand {
 namespace {
@@ -105,11 +106,11 @@ ConfigReader::~ConfigReader() = default;
 Result<ConfigReader> ConfigReader::open(const std::string& path) {
   auto state = std::make_unique<State>();
   state->file = path;
+  const auto text = read_text(path);
+  if (!text) return tl::unexpected(text.error());
   YAML::Node root;
   try {
-    root = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    return fail("cannot read the configuration", path, "give an existing file, or see --print-config");
+    root = YAML::Load(*text);
   } catch (const YAML::ParserException& e) {
     return fail("not YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "mend the line");
   }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <sstream>
+
+#include "io/file_bytes.h"
 
 namespace barehand {
 namespace {
@@ -16,7 +17,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
     if (!std::getline(line, f, ',')) return false;
   const auto number = [](const std::string& f, auto& value) {
     const auto [end, error] = std::from_chars(f.data(), f.data() + f.size(), value);
-    return error == std::errc{} && (end == f.data() + f.size() || *end == '\r');
+    return error == std::errc{} && end == f.data() + f.size();
   };
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
@@ -32,8 +33,9 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
 }  // namespace
 
 Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
+  auto content = read_text(path);
+  if (!content) return tl::unexpected(content.error());
+  std::istringstream file(std::move(*content));
   std::string text;
   std::getline(file, text);
   if (text.rfind("frame,finger,u,v,visible", 0) != 0)

@@ -30,7 +30,7 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
 }  // namespace
 
 Result<Json> read_json(const std::string& path) {
-  return read_file(path).and_then([&](const std::string& text) { return parse_json(text, path); });
+  return read_text(path).and_then([&](const std::string& text) { return parse_json(text, path); });
 }
 
 Result<Json> parse_json(const std::string& text, const std::string& where) {
@@ -42,7 +42,8 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 }
 
 Result<void> write_json(const std::string& path, const Json& json) {
-  return write_whole_file(path, json.dump(1) + "\n");
+  // Paths need not be UTF-8.
+  return write_whole_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Result<double> Object::number(const char* key, double lo, double hi) const {

@@ -111,6 +111,8 @@ class Scanner {
 Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return fail("is a folder, not an LCM log", path);
+  if (std::filesystem::is_other(path, error))
+    return fail("is a pipe or a device, not an LCM log", path, "write it into a file first");
   LcmLogReader reader(path);
   if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
   const auto size = std::filesystem::file_size(path, error);

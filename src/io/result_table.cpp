@@ -7,13 +7,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "core/format.h"
 #include "hand/joint_angles.h"
+#include "io/file_bytes.h"
 
 namespace barehand {
 namespace {
@@ -119,17 +120,16 @@ TableFrame table_frame(const HandEstimate& estimate) {
 }
 
 Result<ResultTable> read_table(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
+  auto content = read_text(path);
+  if (!content) return tl::unexpected(content.error());
+  std::istringstream file(std::move(*content));
   std::string text;
   std::getline(file, text);
-  if (!text.empty() && text.back() == '\r') text.pop_back();
   if (text != kHeader)
     return fail("line 1 is no truth or result table's", path, "it must be \"" + std::string(kHeader) + "\"");
   TableBuilder builder;
   for (int number = 2; std::getline(file, text); ++number) {
     const bool ended = !file.eof();  // false: the last line has no line feed
-    if (!text.empty() && text.back() == '\r') text.pop_back();
     if (text.empty()) continue;
     const auto line = parse_line(text);
     if (!line && !ended) return builder.finish(true);

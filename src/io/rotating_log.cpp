@@ -4,10 +4,10 @@
 #include <ctime>
 #include <numeric>
 #include <optional>
-#include <regex>
 #include <vector>
 
 #include "core/format.h"
+#include "io/log_names.h"
 #include "io/place.h"
 
 namespace barehand {
@@ -25,16 +25,6 @@ std::string stamp(std::int64_t utime) {
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-/// Of a file called as those of `set` are.
-std::optional<std::int64_t> number_in_set(const fs::path& file, const fs::path& set) {
-  static const std::regex name("(.*)-([0-9]{6,18})-[0-9]{8}T[0-9]{6}Z");
-  const std::string stem = file.stem().string();
-  std::smatch parts;
-  if (file.extension() != set.extension() || !std::regex_match(stem, parts, name)) return std::nullopt;
-  if (parts[1] != set.stem().string()) return std::nullopt;
-  return std::stoll(parts[2]);
-}
-
 bool no_room(const fs::path& folder) {
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
@@ -45,6 +35,17 @@ bool no_room(const fs::path& folder) {
 
 bool belongs_to_set(const fs::path& file, const fs::path& set) {
   return number_in_set(file, set) && Place(folder_of(file)) == Place(folder_of(set));
+}
+
+Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds patience) {
+  const fs::path folder = folder_of(path);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail("cannot be made: " + error.message(), folder.string(), "check the path and its permissions");
+  const std::string name = fs::path(path).filename().string();
+  auto lock = FileLock::take((folder / ("." + name + ".lock")).string(), patience);
+  if (!lock) lock.error().what = "this set of logs cannot be written, its lock " + lock.error().what;
+  return lock;
 }
 
 RotatingLog::RotatingLog(fs::path path, LogRotation rotation, const Clock& clock)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "core/clock.h"
+#include "io/file_lock.h"
 #include "io/lcm_log_writer.h"
 
 namespace barehand {
@@ -20,6 +22,10 @@ struct LogRotation {
 
 /// Whether `file` is, by its name and folder, one of the logs of the set "take.lcmlog".
 bool belongs_to_set(const std::filesystem::path& file, const std::filesystem::path& set);
+
+/// Whoever writes the set of logs `path` has its lock, .take.lcmlog.lock in the folder, which is made: two at once
+/// would remove each other's files. Waits for up to `patience` for one who is about to end. Readers need none.
+Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds patience);
 
 /// A recording that never ends: a set of LCM logs, each complete in itself. "take.lcmlog" becomes
 /// take-000001-20261122T090000Z.lcmlog and so on, counted on from the files that are there. A file has its name when it

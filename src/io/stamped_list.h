@@ -11,11 +11,17 @@ namespace barehand {
 /// One line "timestamp file" of depth.txt or rgb.txt.
 struct StampedFile {
   std::int64_t utime = 0;  ///< microseconds
-  std::string file;        ///< path to open: the list's folder and the name in the line
+  std::string file;        ///< path to open: the list's folder and the name in the line, which may be absolute
   int line = 0;            ///< counted from 1
 };
 
-/// Reads such a list in its own order; '#' starts a comment. An error names the line that makes no sense.
+/// Reads such a list in its own order. The name is the rest of the line, or stands in double quotes; '#' at the start
+/// of a line or after a space begins a comment. Where no such file is there, "\" in a name is "/", and then a name ends
+/// at its first space. A first line without any digit in its first word is a header. An error names the line that makes
+/// no sense.
 Result<std::vector<StampedFile>> read_stamped_list(const std::string& path);
+
+/// Whether `file` is named so that it lies elsewhere than in `folder` or below. Links are not followed.
+bool is_outside(const std::string& folder, const std::string& file);
 
 }  // namespace barehand

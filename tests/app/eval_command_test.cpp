@@ -202,5 +202,13 @@ TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
   EXPECT_THAT(err_, HasSubstr("--label"));
 }
 
+TEST_F(EvalCommand, PathsNeedNotBeUtf8) {
+  const std::string old = folder_ / "mess\xfcng.csv";
+  std::filesystem::copy(folder_ / "out.csv", old);
+  EXPECT_EQ(run("eval --truth %/truth.csv --result " + old + " --json %/e.json"), 0) << err_;
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  EXPECT_THAT(report["runs"][0]["result"].get<std::string>(), HasSubstr("mess\xef\xbf\xbdng.csv"));
+}
+
 }  // namespace
 }  // namespace barehand

@@ -1,15 +1,36 @@
 #include "app/interrupt.h"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <latch>
 #include <semaphore>
 
 namespace barehand {
 namespace {
 
-TEST(InterruptWatcher, CallsOnceAndRemembersTheSignal) {
+/// Whoever runs the tests may have been started to ignore some signals.
+class InterruptWatcherTest : public ::testing::Test {
+ protected:
+  InterruptWatcherTest() {
+    for (const int number : {SIGHUP, SIGINT}) std::signal(number, SIG_DFL);
+  }
+  ~InterruptWatcherTest() override {
+    for (const int number : {SIGHUP, SIGINT}) std::signal(number, SIG_DFL);
+  }
+};
+
+/// As the kernel sends it for a terminal.
+void send_from_terminal(int number) {
+  siginfo_t info{};
+  info.si_signo = number;
+  info.si_code = SI_KERNEL;
+  ASSERT_EQ(syscall(SYS_rt_sigqueueinfo, getpid(), number, &info), 0);
+}
+
+TEST_F(InterruptWatcherTest, CallsOnceAndRemembersTheSignal) {
   std::latch called(1);
   InterruptWatcher watcher([&] { called.count_down(); });
   EXPECT_EQ(watcher.signal(), 0);
@@ -18,7 +39,7 @@ TEST(InterruptWatcher, CallsOnceAndRemembersTheSignal) {
   EXPECT_EQ(watcher.signal(), SIGTERM);
 }
 
-TEST(InterruptWatcher, HangupIsACallOfItsOwnAndMayComeAgain) {
+TEST_F(InterruptWatcherTest, HangupIsACallOfItsOwnAndMayComeAgain) {
   std::binary_semaphore hung_up(0);
   int stopped = 0;
   InterruptWatcher watcher([&] { ++stopped; }, [&] { hung_up.release(); });
@@ -30,7 +51,7 @@ TEST(InterruptWatcher, HangupIsACallOfItsOwnAndMayComeAgain) {
   EXPECT_EQ(stopped, 0);
 }
 
-TEST(InterruptWatcher, HangupAfterTheStopIsHarmless) {
+TEST_F(InterruptWatcherTest, HangupAfterTheStopIsHarmless) {
   std::latch called(1);
   {
     InterruptWatcher watcher([&] { called.count_down(); }, [] { ADD_FAILURE() << "whoever stops does not reload"; });
@@ -41,7 +62,55 @@ TEST(InterruptWatcher, HangupAfterTheStopIsHarmless) {
   SUCCEED() << "the process is still there";
 }
 
-TEST(InterruptWatcher, RestoresTheSignalMask) {
+TEST_F(InterruptWatcherTest, WithoutACallOfItsOwnHangupStops) {
+  std::latch called(1);
+  InterruptWatcher watcher([&] { called.count_down(); });
+  kill(getpid(), SIGHUP);
+  called.wait();
+  EXPECT_EQ(watcher.signal(), SIGHUP);
+  kill(getpid(), SIGHUP);  // a terminal that goes away sends it twice
+}
+
+TEST_F(InterruptWatcherTest, HangupCanBeMadeToStop) {
+  std::latch called(1);
+  InterruptWatcher watcher([&] { called.count_down(); }, [] { ADD_FAILURE() << "it reloads no more"; });
+  watcher.stop_on_hangup();
+  kill(getpid(), SIGHUP);
+  called.wait();
+  EXPECT_EQ(watcher.signal(), SIGHUP);
+}
+
+TEST_F(InterruptWatcherTest, WhatWasIgnoredAtTheStartStaysIgnored) {
+  std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGINT, SIG_IGN);
+  std::latch called(1);
+  InterruptWatcher watcher([&] { called.count_down(); }, [] { ADD_FAILURE() << "nohup"; });
+  kill(getpid(), SIGHUP);
+  send_from_terminal(SIGINT);
+  kill(getpid(), SIGTERM);  // the others have smaller numbers and would be taken before it
+  called.wait();
+  EXPECT_EQ(watcher.signal(), SIGTERM);
+}
+
+TEST_F(InterruptWatcherTest, InTheBackgroundKillIsMeantForThisProcess) {
+  std::signal(SIGINT, SIG_IGN);
+  std::latch called(1);
+  InterruptWatcher watcher([&] { called.count_down(); });
+  kill(getpid(), SIGINT);
+  called.wait();
+  EXPECT_EQ(watcher.signal(), SIGINT);
+}
+
+TEST_F(InterruptWatcherTest, CtrlCOfATerminalStops) {
+  std::latch called(1);
+  InterruptWatcher watcher([&] { called.count_down(); });
+  send_from_terminal(SIGINT);
+  called.wait();
+  EXPECT_EQ(watcher.signal(), SIGINT);
+  EXPECT_EQ(watcher.name(), "Ctrl-C");
+}
+
+TEST_F(InterruptWatcherTest, RestoresTheSignalMask) {
   sigset_t before, after;
   pthread_sigmask(SIG_BLOCK, nullptr, &before);
   {
@@ -51,7 +120,9 @@ TEST(InterruptWatcher, RestoresTheSignalMask) {
   EXPECT_EQ(sigismember(&before, SIGINT), sigismember(&after, SIGINT));
 }
 
-TEST(InterruptWatcherDeathTest, SecondSignalEndsTheProcess) {
+using InterruptWatcherDeathTest = InterruptWatcherTest;
+
+TEST_F(InterruptWatcherDeathTest, SecondSignalEndsTheProcess) {
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {

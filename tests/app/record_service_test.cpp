@@ -108,6 +108,31 @@ TEST_F(Record, TellsSystemdHowItGoes) {
   EXPECT_EQ(child.finish(), 0) << child.output();
 }
 
+TEST_F(Record, ASecondRecorderOfTheSameSetIsRefused) {
+  const std::vector<std::string> of_a_set = {"--max-size", "60kB", "--quota", "200kB"};
+  ChildProcess first(command(folder_ / "set/take.lcmlog", of_a_set));
+  while (!fs::exists(folder_ / "set") || logs(folder_ / "set").size() < 2) sched_yield();  // its lock and a log
+  const Outcome second = barehand(command(folder_ / "set/take.lcmlog", of_a_set));
+  EXPECT_EQ(second.exit_code, 1) << "systemd starts it again";
+  EXPECT_THAT(second.output, HasSubstr("is held by process " + std::to_string(first.pid()) + " on "));
+  EXPECT_FALSE(replay(folder_ / "set").empty()) << "readers need no lock";
+  std::vector<std::string> other = of_a_set;
+  other.insert(other.end(), {"--frames", "2"});
+  EXPECT_EQ(barehand(command(folder_ / "set/other.lcmlog", other)).exit_code, 0) << "another set in the same folder";
+  first.signal(SIGTERM);
+  EXPECT_EQ(first.finish(), 0) << first.output();
+  EXPECT_FALSE(fs::exists(folder_ / "set/.take.lcmlog.lock"));
+}
+
+TEST_F(Record, ARestartedRecorderWaitsForTheOneBeforeIt) {
+  ChildProcess first(command(folder_ / "set/take.lcmlog", {"--max-size", "60kB"}));
+  while (!fs::exists(folder_ / "set/.take.lcmlog.lock")) sched_yield();
+  ChildProcess second(command(folder_ / "set/take.lcmlog", {"--max-size", "60kB", "--frames", "2"}));
+  first.signal(SIGTERM);
+  EXPECT_EQ(first.finish(), 0) << first.output();
+  EXPECT_EQ(second.finish(), 0) << second.output();
+}
+
 TEST_F(Record, RefusesASetThatCannotBe) {
   EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"})).exit_code, 2);
   EXPECT_EQ(barehand(command(folder_ / "folder", {"--max-age", "1h"})).exit_code, 2);

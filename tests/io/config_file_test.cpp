@@ -150,5 +150,27 @@ TEST_F(ConfigFile, UnreadableFilesAreErrors) {
   EXPECT_THAT(error_of("just text"), HasSubstr("no keys"));
 }
 
+/// What comes of a configuration file of these bytes: its levels, or what is wrong.
+std::string levels_of(const std::string& bytes) {
+  const test::TempFolder folder;
+  test::write_text(folder / "config.yaml", bytes);
+  const auto config = load_config<Outer>(folder / "config.yaml");
+  return config ? std::to_string(config->levels) : config.error().message();
+}
+
+TEST(ConfigReader, ReadsAFileHoweverItsEditorWritesText) {
+  Outer config;
+  config.levels = 7;
+  const std::string text = print_config(config);
+  std::string windows = "\xef\xbb\xbf", utf16 = "\xff\xfe";
+  for (const char c : text) {
+    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    utf16.append(1, c).append(1, '\0');
+  }
+  EXPECT_EQ(levels_of(text), "7");
+  EXPECT_EQ(levels_of(windows), "7");
+  EXPECT_THAT(levels_of(utf16), HasSubstr("is UTF-16"));
+}
+
 }  // namespace
 }  // namespace barehand

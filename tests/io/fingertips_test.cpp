@@ -65,5 +65,15 @@ TEST(Fingertips, LabelsAreReadAndHiddenOnesLeftOut) {
   EXPECT_THAT(read_fingertip_labels(path).error().message(), HasSubstr("line 1"));
 }
 
+TEST(FingertipLabels, AreReadAsSpreadsheetsWriteThem) {
+  const test::TempFolder folder;
+  test::write_text(folder / "tips.csv",
+                   "\xef\xbb\xbf"
+                   "frame,finger,u,v,visible\r\n3,thumb,10,20,1\r\n");
+  const auto labels = read_fingertip_labels(folder / "tips.csv");
+  ASSERT_TRUE(labels) << labels.error().message();
+  EXPECT_EQ(labels->size(), 1u);
+}
+
 }  // namespace
 }  // namespace barehand

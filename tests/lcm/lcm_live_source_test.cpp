@@ -5,6 +5,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "barehand/command_t.hpp"
+#include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_codec.h"
 #include "drivers/lcm/layouts.h"
 #include "test_frames.h"
@@ -155,6 +156,46 @@ TEST_F(LcmLive, AChosenPatternMayHaveSeveralChannels) {
     ASSERT_TRUE(bus->send(channel, frame_bytes(1), 0));
     EXPECT_TRUE(std::holds_alternative<FramePtr>(source.next(kLong)));
   }
+}
+
+TEST_F(LcmLive, AChannelsNameIsItselfWhateverIsInIt) {
+  for (const char* name : {"cam[0]_F", "left cam F", "/depth(1)+F",
+                           "gr\xc3\xb6\xc3\x9f"
+                           "eF",
+                           "a?b*F", "{$}^|.F", "a\\F"}) {
+    const std::shared_ptr<LcmBus> bus = LcmBus::open("memq://").value();
+    LcmLiveSource source(bus, {.channel = name});
+    ASSERT_TRUE(bus->send("other", frame_bytes(1), 0));
+    ASSERT_TRUE(bus->send(name, frame_bytes(2), 0));
+    const SourceEvent event = source.next(kLong);
+    const auto* frame = std::get_if<FramePtr>(&event);
+    ASSERT_TRUE(frame) << name;
+    EXPECT_EQ((*frame)->number, 2) << name;
+  }
+}
+
+TEST_F(LcmLive, AChannelThatLcmCannotListenToIsAnError) {
+  const auto source = LcmLiveSource::open("memq://", {.channel = "mess\xfcng"});
+  ASSERT_FALSE(source);
+  EXPECT_NE(source.error().message().find("no UTF-8"), std::string::npos);
+  const LcmListener listener(LcmBus::open("memq://").value(), "mess\xfcng", [](const std::string&, WireBytes) {});
+  EXPECT_TRUE(listener.broken());
+}
+
+TEST(Glob, MatchesNames) {
+  for (const auto& [glob, name] : {std::pair("*", ""),
+                                   std::pair("*", "A"),
+                                   {"A*C", "ABBC"},
+                                   {"A*C", "ACC"},
+                                   {"?B", "AB"},
+                                   {"**_F", "A_F"},
+                                   {"*A*B", "xAyAzB"},
+                                   {"[1]", "[1]"},
+                                   {"a\\*", "a\\b"}})
+    EXPECT_TRUE(matches_glob(glob, name)) << glob;
+  for (const auto& [glob, name] :
+       {std::pair("", "A"), std::pair("A", ""), {"A*C", "ABB"}, {"?", ""}, {"A", "AB"}, {"[12]", "1"}, {"*A", "AB"}})
+    EXPECT_FALSE(matches_glob(glob, name)) << glob;
 }
 
 TEST(Glob, BecomesARegularExpression) {

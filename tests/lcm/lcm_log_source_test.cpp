@@ -110,19 +110,19 @@ TEST_F(LcmLog, SeveralChannelsWithFramesNeedAChoice) {
   append_frames(1, "LEFT_RGBD_FRAME");
   append_frames(1, "RIGHT_RGBD_FRAME");
   const std::string message = play();
-  EXPECT_NE(message.find("LEFT_RGBD_FRAME, RIGHT_RGBD_FRAME"), std::string::npos) << message;
+  EXPECT_NE(message.find("\"LEFT_RGBD_FRAME\", \"RIGHT_RGBD_FRAME\""), std::string::npos) << message;
 }
 
 TEST_F(LcmLog, AChannelThatIsNotThereNamesThoseThatAre) {
   append_frames(1);
   append("COMMAND", encode_message(command_t{}));
   const std::string message = play({.channel = "KINECT*"});
-  EXPECT_NE(message.find("COMMAND, RGBD_FRAME"), std::string::npos) << message;
+  EXPECT_NE(message.find("\"COMMAND\", \"RGBD_FRAME\""), std::string::npos) << message;
 }
 
 TEST_F(LcmLog, ALogWithoutFramesNamesItsChannels) {
   append("COMMAND", encode_message(command_t{}));
-  EXPECT_NE(play().find("channels are COMMAND"), std::string::npos);
+  EXPECT_NE(play().find("channels are \"COMMAND\""), std::string::npos);
 }
 
 TEST_F(LcmLog, WrongTypesAndDamagedMessagesAreSkipped) {
@@ -205,7 +205,7 @@ TEST_F(LcmLog, FilesThatAreNoLogsAreRejected) {
   EXPECT_NE(play().find("is not an LCM log"), std::string::npos);
   path_ = folder_ / "empty";
   std::filesystem::create_directory(path_);
-  EXPECT_NE(play().find("holds no .lcmlog files"), std::string::npos);
+  EXPECT_NE(play().find("holds no LCM logs"), std::string::npos);
   path_ = folder_ / "missing.lcmlog";
   EXPECT_NE(play().find("No such file"), std::string::npos);
 }
@@ -227,7 +227,54 @@ TEST_F(LcmLog, AFolderPlaysOnWhereALogHoldsNoWholeEvent) {
   test::write_text(folder_ / "torn.lcmlog", "\xED\xA1\xDA\x01 power cut");
   path_ = folder_.path();
   EXPECT_EQ(play(), "100 101 end");
-  EXPECT_EQ(LcmLogSource::open(path_).value()->damaged_bytes(), 14);
+  const auto source = LcmLogSource::open(path_).value();
+  ASSERT_EQ(source->left_out().size(), 1u);
+  EXPECT_NE(source->left_out().front().message().find("torn.lcmlog: is not an LCM log"), std::string::npos);
+}
+
+TEST_F(LcmLog, AFolderPlaysOnWhereAFileIsNoLog) {
+  append_frames(2);
+  test::write_text(folder_ / "a.log", "Starting the build\n");
+  std::filesystem::create_symlink("/proc/self/mem", folder_ / "b.lcmlog");  // cannot be read
+  test::write_text(folder_ / "c.lcmlog", std::string(5000, '\0'));
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "100 101 end");
+  EXPECT_EQ(LcmLogSource::open(path_).value()->left_out().size(), 2u);
+  std::filesystem::remove(folder_ / "test.lcmlog");
+  EXPECT_NE(play().find("a.log: is not an LCM log"), std::string::npos);
+}
+
+TEST_F(LcmLog, ASetOfLcmLoggerPlaysInItsOrder) {
+  int number = 1;
+  for (const char* name : {"take.lcmlog.00", "take.lcmlog.01", "other.lcmlog", "old.2", "old.1", "old.0"}) {
+    const auto log = LcmLogWriter::create(folder_ / name, false).value();
+    ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number++), 42));
+  }
+  path_ = folder_ / "take.lcmlog";
+  EXPECT_EQ(play(), "1 2 end");
+  path_ = folder_ / "old";
+  EXPECT_EQ(play(), "4 5 6 end");
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "4 5 6 3 1 2 end");
+}
+
+TEST_F(LcmLog, AChannelsNameIsItselfWhateverIsInIt) {
+  const std::vector<std::string> names = {"cam[0]_F",
+                                          "left cam F",
+                                          "/depth(1)+F",
+                                          "gr\xc3\xb6\xc3\x9f"
+                                          "eF",
+                                          "a?b*F",
+                                          "axb_F",
+                                          "{$}^|.F",
+                                          "back\\slash"};
+  for (std::size_t i = 0; i < names.size(); ++i) append(names[i], frame_bytes(static_cast<std::int64_t>(i)));
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(play({.channel = names[i]}), std::to_string(i) + " end");
+  EXPECT_EQ(play({.channel = "cam[0]*"}), "0 end");
+  EXPECT_EQ(play({.channel = "a?b_F"}), "5 end");
+  const std::string message = play();
+  EXPECT_NE(message.find("run.frame_channel: \"/depth(1)+F\""), std::string::npos) << message;
+  EXPECT_NE(message.find("--channel '/depth(1)+F'"), std::string::npos) << message;
 }
 
 TEST_F(LcmLog, AFolderMayHoldMoreLogsThanMayBeOpen) {

@@ -1,0 +1,40 @@
+#include "drivers/lcm/channel_glob.h"
+
+namespace barehand {
+
+bool matches_glob(std::string_view glob, std::string_view name) {
+  std::size_t at = 0, in_name = 0;
+  auto star = std::string_view::npos;  // the last '*', and where what follows it is tried
+  std::size_t tried = 0;
+  while (in_name < name.size()) {
+    if (at < glob.size() && glob[at] == '*') {
+      star = at++;
+      tried = in_name;
+    } else if (at < glob.size() && (glob[at] == '?' || glob[at] == name[in_name])) {
+      ++at, ++in_name;
+    } else if (star != std::string_view::npos) {
+      at = star + 1;
+      in_name = ++tried;
+    } else {
+      return false;
+    }
+  }
+  return glob.find_first_not_of('*', at) == std::string_view::npos;
+}
+
+std::string glob_to_regex(const std::string& glob) {
+  std::string regex;
+  for (const char c : glob) {
+    if (c == '*') {
+      regex += ".*";
+    } else if (c == '?') {
+      regex += '.';
+    } else {
+      if (std::string_view(".^$|()[]{}+\\").find(c) != std::string_view::npos) regex += '\\';
+      regex += c;
+    }
+  }
+  return regex;
+}
+
+}  // namespace barehand

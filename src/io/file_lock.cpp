@@ -1,0 +1,90 @@
+#include "io/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+namespace barehand {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// One that a process of another user left can perhaps only be read, which is enough to lock it.
+int open_file(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  return descriptor >= 0 || errno != EACCES ? descriptor : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+/// The holder before may have removed the file between opening and locking it.
+bool is_still_there(const std::string& path, int descriptor) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+std::string this_process() {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  return "process " + std::to_string(getpid()) + " on " + host;
+}
+
+std::string holder(int descriptor) {
+  char text[512];
+  const ssize_t count = pread(descriptor, text, sizeof text, 0);
+  return count > 0 ? std::string(text, static_cast<std::size_t>(count)) : "another process";
+}
+
+bool knows_no_locks(int error) { return error == ENOLCK || error == EOPNOTSUPP || error == ENOSYS; }
+
+}  // namespace
+
+Result<FileLock> FileLock::take(const std::string& path, std::chrono::milliseconds patience) {
+  for (const auto end = Clock::now() + patience;;) {
+    const int descriptor = open_file(path);
+    if (descriptor < 0 && (errno == ENOSPC || errno == EDQUOT)) return FileLock(path, -1);
+    if (descriptor < 0)
+      return fail(std::string("cannot be made: ") + std::strerror(errno), path, "check the folder and its permissions");
+
+    FileLock lock(path, descriptor);
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+      if (!is_still_there(path, descriptor)) {
+        lock.path_.clear();  // what has this name now is somebody else's
+        continue;
+      }
+      const std::string text = this_process();
+      // Without room for the name the lock holds all the same.
+      if (ftruncate(descriptor, 0) == 0) std::ignore = pwrite(descriptor, text.data(), text.size(), 0);
+      return lock;
+    }
+    const int reason = errno;
+    lock.path_.clear();
+    if (knows_no_locks(reason)) return FileLock(path, -1);
+    if (reason != EWOULDBLOCK) return fail(std::string("cannot be locked: ") + std::strerror(reason), path);
+    if (Clock::now() >= end) return fail("is held by " + holder(descriptor), path, "stop that one first");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+FileLock::FileLock(FileLock&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ < 0) return;
+  if (!path_.empty()) unlink(path_.c_str());  // while it is held: nobody else's can have this name
+  close(descriptor_);
+}
+
+}  // namespace barehand

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "fuzz/memory_file.h"
+#include "io/stamped_list.h"
+
+namespace {
+
+std::optional<std::vector<barehand::StampedFile>> list_of(const std::string& text) {
+  const barehand::fuzz::MemoryFile file(text.data(), text.size());
+  const auto list = barehand::read_stamped_list(file.path());
+  return list ? std::optional(*list) : std::nullopt;
+}
+
+/// As an editor under Windows writes it.
+std::string with_mark_and_carriage_returns(const std::string& text) {
+  std::string windows = "\xef\xbb\xbf";
+  for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  return windows;
+}
+
+/// The same list with every name in quotes and nothing else.
+std::string plain(const std::vector<barehand::StampedFile>& list) {
+  std::string text;
+  for (const auto& [utime, file, line] : list)
+    text += std::to_string(static_cast<double>(utime) * 1e-6) + " \"" + file + "\"\n";
+  return text;
+}
+
+}  // namespace
+
+/// depth.txt or rgb.txt: says the same with the marks of another system, and when it is written out plainly.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const auto list = list_of(text);
+  const bool marks = text.starts_with("\xef\xbb\xbf") || text.find('\r') != std::string::npos;
+  const bool wide = text.size() > 1 && (text[0] == '\0' || text[1] == '\0' || text.starts_with("\xff\xfe") ||
+                                        text.starts_with("\xfe\xff"));
+  if (!marks && !wide) {
+    const auto same = list_of(with_mark_and_carriage_returns(text));
+    CHECK(same.has_value() == list.has_value());
+    CHECK(!list || std::equal(list->begin(), list->end(), same->begin(), same->end(), [](const auto& a, const auto& b) {
+      return a.utime == b.utime && a.file == b.file && a.line == b.line;
+    }));
+  }
+  if (!list) return 0;
+
+  bool quotable = true;
+  int line = 0;
+  for (const auto& entry : *list) {
+    CHECK(!entry.file.empty() && entry.line > line);
+    CHECK(entry.file.find_first_of("\n\r") == std::string::npos);
+    line = entry.line;
+    quotable &= entry.file.find('"') == std::string::npos;
+    barehand::is_outside("/proc/self/fd", entry.file);
+  }
+  if (!quotable) return 0;
+  const auto again = list_of(plain(*list));
+  CHECK(again && again->size() == list->size());
+  for (std::size_t i = 0; i < list->size(); ++i) CHECK((*again)[i].file == (*list)[i].file);
+  return 0;
+}
