@@ -1,4 +1,5 @@
-# What `cmake --install` puts where, and the Debian package made of it: cpack --preset package.
+# What `cmake --install` puts where, and the Debian packages made of it: cpack --preset package. The component `video` is a
+# package of its own, barehand-video, because libav's hundred packages are for those alone who want videos.
 include(GNUInstallDirs)
 set(data share/barehand)  # src/app/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
@@ -13,17 +14,19 @@ install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.svg"
                                                                           PATTERN "*.png")
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}-video COMPONENT video)
 
 # Debian wants these two compressed.
 find_program(GZIP gzip REQUIRED)
-function(install_compressed file name destination)
+function(install_compressed file name destination)  # further arguments are those of install
   set(compressed ${PROJECT_BINARY_DIR}/packaging/${name}.gz)
   execute_process(COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/${file} OUTPUT_FILE ${compressed} COMMAND_ERROR_IS_FATAL ANY)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
-  install(FILES ${compressed} DESTINATION ${destination})
+  install(FILES ${compressed} DESTINATION ${destination} ${ARGN})
 endfunction()
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/packaging)
 install_compressed(deploy/debian/changelog changelog ${CMAKE_INSTALL_DOCDIR})
+install_compressed(deploy/debian/changelog changelog ${CMAKE_INSTALL_DOCDIR}-video COMPONENT video)
 install_compressed(deploy/debian/barehand.1 barehand.1 ${CMAKE_INSTALL_MANDIR}/man1)
 
 set(CPACK_GENERATOR DEB)
@@ -35,14 +38,23 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the very versions that the program was linked with
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "liblcm-bin, libegl1, npm, parallel")  # the last two for its scripts
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tracks a bare hand and publishes glove-like states on LCM")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Barehand is a daemon beside a depth sensor. It watches a bare hand that holds
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # CPack leaves out this one alone
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME barehand)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "barehand-video, liblcm-bin, libegl1, npm, parallel")  # the last two for its scripts
+set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "tracks a bare hand and publishes glove-like states on LCM
+Barehand is a daemon beside a depth sensor. It watches a bare hand that holds
 and moves things and says on LCM, frame by frame, what an instrumented glove
 would say: where the palm and the phalanges are, how every joint is bent, what
 is seen and what is inferred, and how sure it is.")
+set(CPACK_DEBIAN_VIDEO_PACKAGE_NAME barehand-video)
+set(CPACK_DEBIAN_VIDEO_PACKAGE_DEPENDS "barehand (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_VIDEO_DESCRIPTION "lets barehand write videos of tracked hands
+This module writes what `barehand track --overlay` draws to videos, through
+FFmpeg's libraries. Without it barehand writes single pictures.")
 if(BAREHAND_ARCH MATCHES "^x86-64-v")
-  string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "\n.\nThis build needs an ${BAREHAND_ARCH} processor or better.")
+  string(APPEND CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "\n.\nThis build needs an ${BAREHAND_ARCH} processor or better.")
 endif()
 include(CPack)
 

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "io/image_codec.h"
+#include "io/jpeg_codec.h"
+#include "io/png_codec.h"
 #include "math/camera_limits.h"
 
 namespace barehand {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "io/jpeg_codec.h"
+#include "io/png_codec.h"
 #include "math/camera_limits.h"
 
 namespace barehand {
@@ -44,26 +44,13 @@ Result<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes) {
   return fail("JPEG without a frame header");
 }
 
-/// libjpeg fills what a cut image lacks with grey and only warns; the end marker tells. Cameras may pad after it.
+/// Compressed rows that are cut short look like any others to libjpeg, which fills what they lack with grey and only
+/// warns; the end marker tells. Cameras may pad after it.
 bool has_jpeg_end(std::span<const std::uint8_t> bytes) {
   for (std::size_t i = bytes.size() - 1; i > 0 && bytes.size() - i < 1024; --i) {
     if (bytes[i - 1] == 0xFF && bytes[i] == 0xD9) return true;
   }
   return false;
-}
-
-Result<std::vector<std::uint8_t>> encode(const Image<Rgb>& image, const char* ending, const std::vector<int>& options) {
-  if (image.empty()) return fail("an empty image cannot be encoded");
-  try {
-    const cv::Mat rgb(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
-    cv::Mat bgr;
-    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-    std::vector<std::uint8_t> bytes;
-    if (!cv::imencode(ending, bgr, bytes, options)) return fail(std::string("cannot encode a ") + ending + " image");
-    return bytes;
-  } catch (const cv::Exception& e) {
-    return fail(e.what());
-  }
 }
 
 }  // namespace
@@ -83,27 +70,16 @@ Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize e
     return fail("colour image is " + std::to_string(size->width) + "x" + std::to_string(size->height) + ", expected " +
                 std::to_string(expected.width) + "x" + std::to_string(expected.height));
   }
-  if (!is_png(bytes) && !has_jpeg_end(bytes)) return fail("JPEG ends too early");
-  try {
-    const cv::Mat bgr = cv::imdecode(cv::_InputArray(bytes.data(), static_cast<int>(bytes.size())),
-                                     cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-    if (bgr.empty()) return fail("damaged colour image");
-    if (bgr.cols != expected.width || bgr.rows != expected.height) return fail("damaged colour image");
-    Image<Rgb> image(bgr.cols, bgr.rows);
-    cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.data());
-    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-    return image;
-  } catch (const cv::Exception& e) {
-    return fail(std::string("damaged colour image: ") + e.what());
-  }
+  if (is_png(bytes)) return decode_png_colour(bytes, expected.width, expected.height);
+  if (!has_jpeg_end(bytes)) return fail("JPEG ends too early");
+  return decode_jpeg(bytes, expected.width, expected.height);
 }
 
-Result<std::vector<std::uint8_t>> encode_png(const Image<Rgb>& image) {
-  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 1});
-}
-
-Result<std::vector<std::uint8_t>> encode_jpeg(const Image<Rgb>& image, int quality) {
-  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
+Result<Image<std::uint16_t>> decode_depth_image(std::span<const std::uint8_t> bytes) {
+  const Result<ImageSize> size = compressed_image_size(bytes);
+  if (!size) return tl::unexpected(size.error());
+  if (!is_png(bytes)) return fail("is no 16-bit image of one channel", {}, "depth is stored that way");
+  return decode_png_depth(bytes, size->width, size->height);
 }
 
 }  // namespace barehand

@@ -21,8 +21,7 @@ Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes);
 /// is an error before memory is spent on it.
 Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected);
 
-Result<std::vector<std::uint8_t>> encode_png(const Image<Rgb>& image);
-/// `quality` 1..100. Lossy: pure black ("no colour here") may turn dark grey.
-Result<std::vector<std::uint8_t>> encode_jpeg(const Image<Rgb>& image, int quality);
+/// Decodes a 16-bit PNG of one channel in memory, counts as stored. A JPEG is an error, as is any other PNG.
+Result<Image<std::uint16_t>> decode_depth_image(std::span<const std::uint8_t> bytes);
 
 }  // namespace barehand

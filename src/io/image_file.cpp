@@ -2,13 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/file_bytes.h"
 #include "io/image_codec.h"
+#include "io/jpeg_codec.h"
+#include "io/png_codec.h"
 
 namespace barehand {
 namespace {
@@ -39,20 +40,7 @@ Result<T> located(Result<T> result, const std::string& path) {
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path) {
   const auto file = read_file(path);
   if (!file) return tl::unexpected(file.error());
-  const auto bytes = bytes_of(*file);
-  // Before OpenCV, which allocates whatever a header claims and knows a dozen other formats.
-  if (const auto size = located(compressed_image_size(bytes), path); !size) return tl::unexpected(size.error());
-  try {
-    const cv::Mat image =
-        cv::imdecode(cv::_InputArray(bytes.data(), static_cast<int>(bytes.size())), cv::IMREAD_UNCHANGED);
-    if (image.empty()) return fail("is damaged or no image", path);
-    if (image.type() != CV_16UC1) return fail("is no 16-bit image of one channel", path, "depth is stored that way");
-    Image<std::uint16_t> depth(image.cols, image.rows);
-    image.copyTo(cv::Mat(image.rows, image.cols, CV_16UC1, depth.data()));
-    return depth;
-  } catch (const cv::Exception& error) {
-    return fail("is damaged: " + error.err, path);
-  }
+  return located(decode_depth_image(bytes_of(*file)), path);
 }
 
 Result<Image<Rgb>> read_colour(const std::string& path) {
@@ -71,14 +59,9 @@ Result<void> check_size(int width, int height, const Intrinsics& camera, const s
 }
 
 Result<void> write_depth_png(const std::string& path, const Image<std::uint16_t>& depth) {
-  const cv::Mat image(depth.height(), depth.width(), CV_16UC1, const_cast<std::uint16_t*>(depth.data()));
-  Bytes bytes;
-  try {
-    if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3})) return fail("cannot be encoded", path);
-  } catch (const cv::Exception& error) {
-    return fail("cannot be encoded: " + error.err, path);
-  }
-  return write_bytes(path, bytes);
+  const auto bytes = located(encode_png(depth), path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return write_bytes(path, *bytes);
 }
 
 Result<void> write_colour(const std::string& path, const Image<Rgb>& colour) {

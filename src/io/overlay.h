@@ -11,11 +11,11 @@
 
 namespace barehand {
 
-/// Writes what draw_overlay draws: to a video (path ends in .mp4 or .avi) or as one JPEG per frame, named by its
-/// number, into a folder, which is made.
+/// Writes what draw_overlay draws: to a video (VideoFile; `path` ends in .mp4, .mkv, .webm or .avi) or as one JPEG per
+/// frame, named by its number, into a folder, which is made.
 class OverlayWriter {
  public:
-  /// `fps`: of the video. Errors: a folder that cannot be made, a video codec that is not installed.
+  /// `fps`: of the video. Errors: a folder that cannot be made; those of VideoFile.
   static Result<OverlayWriter> open(const std::string& path, double fps);
   OverlayWriter(OverlayWriter&&) noexcept;
   OverlayWriter& operator=(OverlayWriter&&) noexcept;
@@ -23,8 +23,7 @@ class OverlayWriter {
 
   /// Errors: a full disk; in a video, frames that change their size.
   Result<void> write(const RgbdFrame& frame, const HandEstimates& estimates);
-  /// Closes a video, which cannot be played before; the destructor does so too, but cannot report errors, such as frames
-  /// that a full disk did not take.
+  /// Ends a video and gives it its name; the destructor does so too, but cannot report errors.
   Result<void> finish();
 
  private:

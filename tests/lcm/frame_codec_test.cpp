@@ -7,6 +7,8 @@
 
 #include "drivers/lcm/layouts.h"
 #include "io/image_codec.h"
+#include "io/jpeg_codec.h"
+#include "io/png_codec.h"
 #include "test_frames.h"
 
 namespace barehand {

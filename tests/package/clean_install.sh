@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Installs a package into a fresh, minimal Debian 12 tree, runs it there as an ordinary user, and removes it again.
-#   tests/package/clean_install.sh PACKAGE.deb [MIRROR]    as root; needs mmdebstrap and a Debian mirror
+# Installs the packages into a fresh, minimal Debian 12 tree, runs them there as an ordinary user, and removes them again.
+#   tests/package/clean_install.sh barehand_VERSION.deb [MIRROR]    as root; needs mmdebstrap and a Debian mirror
+# barehand-video_VERSION.deb lies beside it.
 # The simulator's hands are those of deploy/fetch_hand_mesh.sh, or in the folder BAREHAND_HANDS.
 set -euo pipefail
 
 package=$(realpath "$1") mirror=${2:-http://deb.debian.org/debian}
+video=${package%/*}/barehand-video_${package##*/barehand_}
 hands=${BAREHAND_HANDS:-${XDG_CACHE_HOME:-$HOME/.cache}/barehand/hands}
 for hand in left right; do
   [ -f "$hands/$hand.glb" ] || { echo "$hands/$hand.glb is not there: run deploy/fetch_hand_mesh.sh" >&2; exit 2; }
@@ -27,11 +29,13 @@ inside() {
 
 say "a minimal Debian 12 with $(basename "$package")"
 mmdebstrap --quiet --variant=minbase --aptopt='APT::Install-Recommends "false"' \
-  --customize-hook="copy-in '$package' /opt" \
+  --customize-hook="copy-in '$package' '$video' /opt" \
   --customize-hook="chroot \"\$1\" dpkg-query -W -f='\${Package}\n' | sort >'$work/before'" \
   --customize-hook="chroot \"\$1\" apt-get install --yes /opt/$(basename "$package")" \
+  --customize-hook="chroot \"\$1\" dpkg-query -W -f='\${Package}\n' | sort >'$work/after'" \
+  --customize-hook="chroot \"\$1\" apt-get install --yes --download-only /opt/$(basename "$video")" \
+  --skip=cleanup/apt \
   bookworm "$root" "$mirror" >"$work/log" 2>&1 || { tail -30 "$work/log" >&2; die "it does not install"; }
-chroot "$root" dpkg-query -W -f='${Package}\n' | sort >"$work/after"
 say "$(comm -13 "$work/before" "$work/after" | wc -l) packages came with it"
 mkdir -p "$root/opt/hands"
 cp "$hands"/{left,right}.glb "$root/opt/hands"
@@ -63,6 +67,15 @@ if grep -q 'the program uses AVX2' "$work/doctor"; then
     die "its hand poses differ"
 fi
 
+say "videos"
+video_of_fist() { inside barehand track --source sim:fist,frames=10 --no-publish --overlay /tmp/fist.mp4; }
+video_of_fist >"$work/video" 2>&1 && die "it writes a video without its module"
+grep -q 'install the package barehand-video' "$work/video" || die "it does not say what a video needs"
+chroot "$root" apt-get install --yes --no-download "/opt/$(basename "$video")" >"$work/log" 2>&1 ||
+  { tail -30 "$work/log" >&2; die "barehand-video does not install"; }
+video_of_fist >"$work/video" 2>&1 || { cat "$work/video" >&2; die "it writes no video"; }
+[ -s "$root/tmp/fist.mp4" ] || die "there is no video"
+
 for file in share/barehand/lcmtypes/hand_state_t.lcm share/barehand/configs/hands/adult_right.json \
             share/doc/barehand/copyright share/doc/barehand/docs/lcm.md lib/udev/rules.d/60-barehand-sensors.rules \
             share/barehand/deploy/batch/one_log.sh; do
@@ -75,7 +88,7 @@ inside /usr/share/barehand/deploy/batch/one_log.sh /tmp/a.lcmlog /tmp/out || die
 [ -s "$root/tmp/out/a/result.csv" ] || die "one_log.sh makes nothing"
 
 say "removed again"
-chroot "$root" dpkg --purge barehand >/dev/null
+chroot "$root" dpkg --purge barehand-video barehand >/dev/null
 left=$(find "$root/usr" "$root/etc" "$root/lib" -iname '*barehand*')
 [ -z "$left" ] || die "left behind: $left"
 echo "passed"

@@ -1,10 +1,10 @@
 #include <zlib.h>
 
-#include <cstring>
+#include <algorithm>
 
-#include "fuzz/memory_file.h"
+#include "fuzz/check.h"
 #include "io/image_codec.h"
-#include "io/image_file.h"
+#include "io/png_codec.h"
 
 namespace {
 
@@ -33,14 +33,20 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return size;
 }
 
-/// A depth or a colour image in a file, PNG or JPEG.
+/// A depth or a colour image. What is decoded is encoded without loss.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
-  const fuzz::MemoryFile file(data, size);
-  if (const auto depth = read_depth_png(file.path())) CHECK(depth->size() > 0);
-  const auto colour = read_colour(file.path());
+  const std::span bytes(data, size);
+  if (const auto depth = decode_depth_image(bytes)) {
+    const auto again = decode_depth_image(encode_png(*depth).value()).value();
+    CHECK(std::equal(again.data(), again.data() + again.size(), depth->data(), depth->data() + depth->size()));
+  }
+  const auto stated = compressed_image_size(bytes);
+  if (!stated) return 0;
+  const auto colour = decode_image(bytes, *stated);
   if (!colour) return 0;
-  const auto stated = compressed_image_size({data, size});
-  CHECK(stated && colour->width() == stated->width && colour->height() == stated->height);
+  CHECK(colour->width() == stated->width && colour->height() == stated->height);
+  const auto again = decode_image(encode_png(*colour).value(), *stated).value();
+  CHECK(std::equal(again.data(), again.data() + again.size(), colour->data(), colour->data() + colour->size()));
   return 0;
 }

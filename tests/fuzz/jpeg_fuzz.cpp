@@ -1,0 +1,13 @@
+#include "fuzz/check.h"
+#include "io/image_codec.h"
+
+/// A colour image. The largest ones cost a second under the sanitizers and show nothing more, so a megapixel is enough.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace barehand;
+  const std::span bytes(data, size);
+  const auto stated = compressed_image_size(bytes);
+  if (!stated || stated->width * stated->height > 1 << 20) return 0;
+  const auto colour = decode_image(bytes, *stated);
+  if (colour) CHECK(colour->width() == stated->width && colour->height() == stated->height);
+  return 0;
+}
