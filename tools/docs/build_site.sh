@@ -15,5 +15,5 @@ grep -rhoE '\]\(\.\./[^)#]+' docs | sed 's|^](\.\./||' | sort -u | while read -r
   if [ -f "$linked" ]; then cp --parents "$linked" "$pages"; fi
 done
 
-mkdocs build --strict --quiet
+mkdocs build --strict --quiet || mkdocs build --strict  # the second one says what is wrong
 echo "build/site/index.html"
