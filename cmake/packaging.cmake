@@ -10,7 +10,7 @@ install(DIRECTORY deploy/batch DESTINATION ${data}/deploy USE_SOURCE_PERMISSIONS
 install(FILES deploy/udev/60-barehand-sensors.rules DESTINATION lib/udev/rules.d)
 install(DIRECTORY deploy/systemd/ DESTINATION lib/systemd/system)
 install(FILES deploy/OPERATIONS.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/deploy)
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.svg"
                                                                           PATTERN "*.png")
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})

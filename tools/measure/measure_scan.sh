@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# What a scan of a hand is worth (docs/results.md): three simulated hands are scanned, from the mean hand and from their
+# What a scan of a hand is worth (docs/accuracy.md): three simulated hands are scanned, from the mean hand and from their
 # measured profiles, and tracked in other sequences; four more are scanned from the mean hand.
-#   docs/measure_scan.sh BAREHAND OUT
+#   tools/measure/measure_scan.sh BAREHAND OUT
 set -eu
 barehand=$1 out=$2
-adult=$(dirname "$0")/../configs/hands/adult_right.json
+adult=$(dirname "$0")/../../configs/hands/adult_right.json
 mkdir -p "$out"
 "$barehand" track --print-config | sed 's/scans: 3/scans: 0/' >"$out/no_scan.yaml"
 "$barehand" track --print-config | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Injects the faults of docs/reliability.md that surround a service (network, disk, signals, configuration, commands)
 into the real program and prints the table.
-  docs/measure_service.py BUILD [CYCLES]    BUILD: a build folder, for example build/release; CYCLES: of starts and stops
+  tools/measure/measure_service.py BUILD [CYCLES]    BUILD: a build folder, for example build/release; CYCLES: of starts and stops
 Runs in a network and a mount namespace of its own (unshare): nothing outside is touched."""
 import csv
 import os
@@ -87,7 +87,7 @@ def start_and_stop(build, folder, cycles):
 
 def configuration(build, folder):
     config, table = folder + "/config.yaml", folder + "/config.csv"
-    with open(os.path.join(HERE, "../configs/default.yaml")) as file:
+    with open(os.path.join(HERE, "../../configs/default.yaml")) as file:
         text = file.read()
     with open(config, "w") as file:
         file.write(text)
@@ -146,7 +146,7 @@ def no_network_at_start(build):
 
 
 def reset_command():
-    with open(os.path.join(HERE, "../tests/golden/lcm/command_t.bin"), "rb") as file:
+    with open(os.path.join(HERE, "../../tests/golden/lcm/command_t.bin"), "rb") as file:
         fingerprint = file.read(8)
     return (fingerprint + struct.pack(">q", 0) + struct.pack(">I", 1) + b"\0" + struct.pack(">ib", -1, 1) +
             bytes(16 * 7 * 8) + struct.pack(">I", 1) + b"\0")
@@ -154,7 +154,7 @@ def reset_command():
 
 def flood(build, folder):
     config, table = folder + "/commands.yaml", folder + "/commands.csv"
-    with open(os.path.join(HERE, "../configs/default.yaml")) as file:
+    with open(os.path.join(HERE, "../../configs/default.yaml")) as file:
         text = file.read().replace("commands: false", "commands: true")
     with open(config, "w") as file:
         file.write(text)

@@ -2,7 +2,7 @@
 """Tracks a simulated hand at 30 Hz for a long time within 512 MB of memory, publishes on LCM, and prints what
 docs/reliability.md says of memory, files and frames over time. The frames come from the virtual OpenNI2 sensor, which has
 rendered them before, so that each one comes in time.
-  docs/measure_soak.py BUILD [MINUTES]    BUILD: a build folder with tests, for example build/release; MINUTES: 60 if not given
+  tools/measure/measure_soak.py BUILD [MINUTES]    BUILD: a build folder with tests, for example build/release; MINUTES: 60 if not given
 The network is one of its own (unshare), the limit a control group of its own (root). Exit code 1 if memory or files grow
 or a frame is unaccounted for."""
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How soon a hand is tracked as well as ever once what hid it is gone: from frame 20 on, the frames of occlusion level 0
 # follow those of the other levels, which show the same motion. Prints the error from that frame on.
-#   docs/measure_reappearing.sh BAREHAND RECORDINGS OUT
+#   tools/measure/measure_reappearing.sh BAREHAND RECORDINGS OUT
 set -eu
 barehand=$1 data=$2 out=$3
 first=20

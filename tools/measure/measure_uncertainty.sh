@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Is the stated uncertainty right? Prints the tables of docs/results.md: the sequences that its constants were chosen
+# Is the stated uncertainty right? Prints the tables of docs/accuracy.md: the sequences that its constants were chosen
 # on, and others.
-#   docs/measure_uncertainty.sh BAREHAND RECORDINGS OUT
+#   tools/measure/measure_uncertainty.sh BAREHAND RECORDINGS OUT
 set -eu
 barehand=$1 data=$2 out=$3
-adult=$(dirname "$0")/../configs/hands/adult_right.json
+adult=$(dirname "$0")/../../configs/hands/adult_right.json
 mkdir -p "$out"
 simulated() {  # NAME SEQUENCE OPTIONS...
   local name=$1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Searches what the paper leaves open (S, sigma_obs, ranges and their shrinking, skin, read-out, widening of limits) for
 the setting of configs/paper.yaml whose double fist comes nearest to the paper's 1.04 mm.
-  docs/search_paper.py BAREHAND OUT      prints every trial; the best configuration becomes OUT/best.yaml
+  tools/measure/search_paper.py BAREHAND OUT      prints every trial; the best configuration becomes OUT/best.yaml
 Key by key, the value that is best is kept, in two rounds over all keys (three quarters of an hour on two cores). Judged
 by the mean of two seeds on the simulator's `fist`, started at the true pose; a frame without a hand counts 20 mm. Nothing
 else is looked at."""

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tracks the recordings of a folder and prints the figures of docs/results.md.
-#   docs/measure.sh BAREHAND RECORDINGS OUT
+# Tracks the recordings of a folder and prints the figures of docs/accuracy.md.
+#   tools/measure/measure.sh BAREHAND RECORDINGS OUT
 set -u
 barehand=$1 data=$2 out=$3
 mkdir -p "$out"
@@ -25,7 +25,7 @@ for recording in fist_twice occlusion_0 occlusion_3 occlusion_6 grasp_ball tz19_
   done
 done
 
-adult=$(dirname "$0")/../configs/hands/adult_right.json
+adult=$(dirname "$0")/../../configs/hands/adult_right.json
 "$barehand" track --print-config | sed 's/scans: 3/scans: 0/' >"$out/no_scan.yaml"
 "$barehand" track --print-config | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
 for recording in fist_twice grasp_ball tz19_kinect; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Injects the faults of docs/reliability.md into the virtual OpenNI2 sensor while `barehand track` runs, and prints the
 table: what was published meanwhile and how long it took until the hand was tracked again.
-  docs/measure_faults.py BUILD      BUILD: a build folder with tests, for example build/release"""
+  tools/measure/measure_faults.py BUILD      BUILD: a build folder with tests, for example build/release"""
 import csv
 import os
 import subprocess
