@@ -4,6 +4,7 @@
 #include "app/tracker_params.h"
 #include "drivers/openni2/openni_params.h"
 #include "io/config_file.h"
+#include "io/config_writer.h"
 #include "math/given_intrinsics.h"
 #include "stages/preprocess/params.h"
 #include "stages/publish/publish_params.h"
@@ -28,6 +29,9 @@ void visit(V& v, Config& c) {
   v("foreign_camera", c.foreign_camera, "for kinect.frame_msg_t and bot_core.images_t, which carry no intrinsics");
   v("openni2", c.openni2,
     "what is wanted of an OpenNI2 sensor, and when it is opened again; fx, fy, cx and cy replace its own");
+
+  // One key serves the tracker and what is published.
+  c.publish.hold_time = c.tracker.loss.hold_time;
 }
 
 }  // namespace barehand

@@ -44,7 +44,11 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
-  track->add_flag("--print-config", o.print_config, "print the configuration in force, complete, and stop");
+  track
+      ->add_flag("--print-config{user}", o.print_config,
+                 "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "
+                 "differs from the defaults")
+      ->check(CLI::IsMember({"user", "all", "changed"}));
   track->footer(
       "Ctrl-C ends the run; what was tracked until then is written completely. Files have their names when they are "
       "whole; until then, and after a crash, they are NAME.unfinished. A live run does not stop at files that exist: "

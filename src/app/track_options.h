@@ -24,7 +24,7 @@ struct TrackOptions {
   int threads = 1;
   bool single_threaded = false;  ///< --inline
   bool no_publish = false;
-  bool print_config = false;
+  std::string print_config;  ///< which keys: user, all or changed; "": none
   bool health = false;
 };
 

@@ -330,6 +330,11 @@ Result<Config> configuration(const TrackOptions& options) {
   return config;
 }
 
+ConfigKeys keys_named(const std::string& name) {
+  if (name == "all") return ConfigKeys::all;
+  return name == "changed" ? ConfigKeys::changed : ConfigKeys::user;
+}
+
 int tell(const TrackFailure& failure) {
   std::cerr << "barehand track: " << failure.error.message() << std::endl;
   return failure.exit_code;
@@ -348,8 +353,8 @@ tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, cons
 int run_track(const TrackOptions& options) {
   const auto config = configuration(options);
   if (!config) return tell({config.error(), kExitUsage});
-  if (options.print_config) {
-    std::cout << print_config(*config);
+  if (!options.print_config.empty()) {
+    std::cout << print_config(*config, keys_named(options.print_config));
     return printed(kExitOk);
   }
   if (options.source.empty())

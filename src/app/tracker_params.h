@@ -45,6 +45,7 @@ struct TrackerParams {
   LossParams loss;
   InitialiserParams initialiser;
   ShapeFitParams shape_fit;
+  bool operator==(const TrackerParams&) const = default;
 };
 
 template <class V>
@@ -88,6 +89,10 @@ void visit(V& v, TrackerParams& p) {
   v("loss", p.loss, "when a hand counts as tracked");
   v("initialiser", p.initialiser, "start and restart from one observation");
   v("shape_fit", p.shape_fit, "learning the hand of the person in view");
+
+  // One key serves every unit that needs the value.
+  p.initialiser.min_hand_pixels = p.loss.min_hand_pixels;
+  p.refinement.energy.limit_widening_deg = p.fusion.limit_widening_deg;
 }
 
 }  // namespace barehand

@@ -48,25 +48,28 @@ bool within(T value, T lo, T hi) {
 
 struct ConfigReader::State {
   struct Group {
-    YAML::Node node;   ///< a map; not one: the group is missing, which is reported once
+    YAML::Node node;   ///< a map, unless the file does not name the group
     std::string path;  ///< "tracker."
     std::vector<std::string> known;
   };
 
   std::string file;
   std::vector<Group> groups;
+  std::map<std::string, YAML::Node> values;          ///< those found, by "group.key"
   std::map<int, std::vector<std::string>> problems;  ///< by line
 
   void problem(const YAML::Mark& mark, const std::string& text) { problems[mark.line + 1].push_back(text); }
 
-  /// The value of a key of the current group; reports it if missing.
+  /// The value of a key of the current group; undefined if the file does not name it.
   YAML::Node find(const std::string& key) {
     Group& group = groups.back();
     group.known.push_back(key);
     if (!group.node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-    for (const auto& entry : group.node)
-      if (entry.first.Scalar() == key) return entry.second;
-    problem(group.node.Mark(), "key '" + group.path + key + "' is missing");
+    for (const auto& entry : group.node) {
+      if (entry.first.Scalar() != key) continue;
+      if (entry.second.IsScalar()) values[group.path + key] = entry.second;
+      return entry.second;
+    }
     return YAML::Node(YAML::NodeType::Undefined);
   }
 
@@ -114,7 +117,7 @@ Result<ConfigReader> ConfigReader::open(const std::string& path) {
   } catch (const YAML::ParserException& e) {
     return fail("not YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "mend the line");
   }
-  if (!root.IsMap()) return fail("no keys in the configuration", path, "--print-config writes a complete one");
+  if (!root.IsMap()) return fail("no keys in the configuration", path, "--print-config writes one");
   state->groups.push_back({root, "", {}});
   return ConfigReader(std::move(state));
 }
@@ -176,6 +179,17 @@ void ConfigReader::operator()(const char* key, std::vector<double>& values, doub
     read.push_back(number);
   }
   values = std::move(read);
+}
+
+void ConfigReader::retired(const char* key, const char* now) {
+  const YAML::Node old = state_->find(key);
+  if (!old.IsDefined()) return;
+  const auto current = state_->values.find(now);
+  double before = 0, after = 0;
+  const bool same =
+      current != state_->values.end() && convert(old, before) && convert(current->second, after) && before == after;
+  if (!same)
+    state_->problem(old.Mark(), "'" + state_->groups.back().path + key + "' is now '" + now + "', give that alone");
 }
 
 void ConfigReader::begin_group(const char* key, const char*) {

@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// Fills a parameter struct from a YAML file. Strict: an unknown, missing, doubled, mistyped or out-of-range key is an
-/// error; all of them are collected, with file, line and key.
+/// Fills a parameter struct from a YAML file. A key that the file does not name keeps its value. Strict otherwise: an
+/// unknown, doubled, mistyped or out-of-range key is an error; all of them are collected, with file, line and key.
 class ConfigReader final : public ConfigVisitor {
  public:
   static Result<ConfigReader> open(const std::string& path);
@@ -24,6 +24,8 @@ class ConfigReader final : public ConfigVisitor {
   void operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
                   const char* doc) override;
   void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) override;
+  /// Accepted where the file gives `now` the same value, as older files do.
+  void retired(const char* key, const char* now) override;
 
   /// After the last key: everything that was wrong, or nothing.
   Result<void> finish();
@@ -38,30 +40,7 @@ class ConfigReader final : public ConfigVisitor {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a parameter struct as YAML that ConfigReader accepts; meaning and range stand above each key.
-class ConfigWriter final : public ConfigVisitor {
- public:
-  using ConfigVisitor::operator();
-  void operator()(const char* key, double& value, double lo, double hi, const char* doc) override;
-  void operator()(const char* key, std::int64_t& value, std::int64_t lo, std::int64_t hi, const char* doc) override;
-  void operator()(const char* key, bool& value, const char* doc) override;
-  void operator()(const char* key, std::string& value, const char* doc) override;
-  void operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
-                  const char* doc) override;
-  void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) override;
-  const std::string& text() const { return text_; }
-
- protected:
-  void begin_group(const char* key, const char* doc) override;
-  void end_group() override { --depth_; }
-
- private:
-  void comment(const std::string& text);
-  void entry(const std::string& key, const std::string& value);
-  std::string text_;
-  int depth_ = 0;
-};
-
+/// The configuration that a file makes of the defaults.
 template <class Config>
 Result<Config> load_config(const std::string& path) {
   auto reader = ConfigReader::open(path);
@@ -71,14 +50,6 @@ Result<Config> load_config(const std::string& path) {
   visit(visitor, config);
   if (auto read = reader->finish(); !read) return tl::unexpected(read.error());
   return config;
-}
-
-template <class Config>
-std::string print_config(Config config) {
-  ConfigWriter writer;
-  ConfigVisitor& visitor = writer;
-  visit(visitor, config);
-  return writer.text();
 }
 
 }  // namespace barehand

@@ -8,9 +8,13 @@
 
 namespace barehand {
 
+/// For whom a key is meant: users set theirs to fit a sensor, a network or a machine; the rest belongs to the method
+/// and is for experts. Only what is shown depends on it: files may name every key.
+enum class ConfigLevel { user, expert };
+
 /// What a parameter struct names its keys to: `template <class V> void visit(V& v, FooParams& p)` calls v once per key
-/// with the field, its range and its meaning. Files are read, written and checked by visitors alone, so a key exists
-/// in one place. Ranges are inclusive.
+/// with the field, its range and its meaning. Files are read, written and checked by visitors alone, so a key is
+/// declared in one place; its default is the field's initial value. Ranges are inclusive.
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
@@ -23,6 +27,19 @@ class ConfigVisitor {
                           const char* doc) = 0;
   /// Any number of values, each within the range.
   virtual void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) = 0;
+
+  /// The same for a key that is meant for users.
+  template <class... Arguments>
+  void user(const char* key, Arguments&&... arguments) {
+    level_ = ConfigLevel::user;
+    (*this)(key, std::forward<Arguments>(arguments)...);
+    level_ = ConfigLevel::expert;
+  }
+  void user(const char* key, std::string& value, std::initializer_list<std::string_view> choices, const char* doc) {
+    user<>(key, value, choices, doc);
+  }
+  /// A key of older files that `now` ("group.key") has replaced.
+  virtual void retired(const char* key, const char* now) = 0;
 
   void operator()(const char* key, int& value, int lo, int hi, const char* doc) {
     std::int64_t wide = value;
@@ -40,6 +57,11 @@ class ConfigVisitor {
  protected:
   virtual void begin_group(const char* key, const char* doc) = 0;
   virtual void end_group() = 0;
+  /// Of the key that is being visited.
+  ConfigLevel level() const { return level_; }
+
+ private:
+  ConfigLevel level_ = ConfigLevel::expert;
 };
 
 }  // namespace barehand

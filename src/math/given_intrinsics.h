@@ -17,10 +17,10 @@ struct GivenIntrinsics {
 
 template <class V>
 void visit(V& v, GivenIntrinsics& p) {
-  v("fx", p.fx, 0.0, kLargestFocal, "px, focal length of the depth camera; all four are given, or all 0 = none");
-  v("fy", p.fy, 0.0, kLargestFocal, "px, vertical focal length");
-  v("cx", p.cx, -kLargestFocal, kLargestFocal, "px, principal point");
-  v("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");
+  v.user("fx", p.fx, 0.0, kLargestFocal, "px, focal length of the depth camera; all four are given, or all 0 = none");
+  v.user("fy", p.fy, 0.0, kLargestFocal, "px, vertical focal length");
+  v.user("cx", p.cx, -kLargestFocal, kLargestFocal, "px, principal point");
+  v.user("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");
 }
 
 /// Error, which names `where`: one of the four is given without the others, or such as no camera has.

@@ -18,11 +18,12 @@ struct ComparisonParams {
   double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
   double occlusion_tolerance = 0.004;  ///< m, an object this far behind the model may still hide it
   double self_occlusion = 0.010;  ///< m, hand data this far in front of the model belongs to another part (Sec. 4.2)
+  bool operator==(const ComparisonParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, ComparisonParams& p) {
-  v("stride", p.stride, 1, 16, "compare every n-th pixel of the region of interest");
+  v.user("stride", p.stride, 1, 16, "compare every n-th pixel of the region of interest");
   v("distance_cap", p.distance_cap, 1e-3, 0.2, "m, no pixel costs more than this in the global score");
   v("occlusion_tolerance", p.occlusion_tolerance, 0.0, 0.05,
     "m, an object this far behind the model may still hide it");

@@ -26,11 +26,12 @@ struct FusionParams {
   std::string read_out = "mean";
   double mode_radius = 0.005;
   double mode_angle_deg = 15;
+  bool operator==(const FusionParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, FusionParams& p) {
-  v("levels", p.levels, 1, 100, "hierarchy levels per frame (Sec. 4.4; the paper uses 10)");
+  v.user("levels", p.levels, 1, 100, "hierarchy levels per frame (Sec. 4.4; the paper uses 10)");
   v("kernels", p.kernels, 1, 100, "S': best samples that seed the next level (Sec. 4.4)");
   v("kernel_separation", p.kernel_separation, 0.0, 10.0,
     "least distance between two kernels, in half widths of the next level; 0 takes the best samples as they are "

@@ -19,6 +19,7 @@ struct CoarseScoreParams {
   double unexplained = 1.0;    ///< hand cells without model
   double no_forearm = 0.6;     ///< forearm where the background is seen
   double sleeve_depth = 0.03;  ///< [m] a surface this close to the forearm counts as its sleeve
+  bool operator==(const CoarseScoreParams&) const = default;
 };
 
 template <class V>

@@ -21,6 +21,7 @@ struct SearchEffort {
   int second_survivors = 24;     ///< of these, improved by ICP and on the fine grid
   int second_evaluations = 400;  ///< trials for each
   double elsewhere = 0.34;       ///< part of what is kept each time that lies elsewhere than the rest
+  bool operator==(const SearchEffort&) const = default;
 };
 
 template <class V>
@@ -51,6 +52,7 @@ struct InitialiserParams {
   CoarseScoreParams score;
   PoseSearchParams search;
   RegistrationParams icp;
+  bool operator==(const InitialiserParams&) const = default;
 };
 
 template <class V>
@@ -58,7 +60,7 @@ void visit(V& v, InitialiserParams& p) {
   v("coarse_cell", p.coarse_cell, 1e-3, 0.1, "m, cells while templates are scored");
   v("fine_cell", p.fine_cell, 1e-3, 0.1, "m, cells of the second round");
   v("widening", p.widening, 0.0, 1.0, "rad, added to the profile's joint limits");
-  v("min_hand_pixels", p.min_hand_pixels, 1, 1000000, "fewer hand pixels: no start is proposed");
+  v.retired("min_hand_pixels", "tracker.loss.min_hand_pixels");
   v("results", p.results, 1, 1000, "start poses returned at most");
   v("distinct", p.distinct, 0.0, 1.0, "m, results differ by more than this (mean over the segment ends)");
   v("apart", p.apart, 0.0, 1.0, "m, what lies elsewhere differs from the rest by more than this");

@@ -16,18 +16,21 @@ struct LossParams {
   int min_hand_pixels = 200;       ///< fewer are no data: the pose is held
   double hold_time = 0.5;          ///< [s] without data until the held hand is lost
   double forget_time = 3.0;        ///< [s] after the loss until the last pose is no longer a start
+  bool operator==(const LossParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, LossParams& p) {
-  v("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame whose global score is above is bad (hand of 190 mm)");
+  v.user("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame whose global score is above is bad (hand of 190 mm)");
   v("recovered_score", p.recovered_score, 1e-4, 0.1, "m, a frame whose global score is below is good");
   v("noise_factor", p.noise_factor, 0.0, 10.0, "standard deviations of sensor noise added in quadrature");
   v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames until the hand is lost");
   v("good_frames", p.good_frames, 1, 1000, "consecutive good frames until a hand that was searched for is tracked");
-  v("min_hand_pixels", p.min_hand_pixels, 1, 1000000, "with fewer hand pixels the pose is held");
-  v("hold_time", p.hold_time, 0.0, 60.0, "s without data until the held hand is lost");
-  v("forget_time", p.forget_time, 0.0, 3600.0, "s after the loss until the last pose is forgotten");
+  v("min_hand_pixels", p.min_hand_pixels, 1, 1000000,
+    "with fewer hand pixels the pose is held, and no start is proposed");
+  v.user("hold_time", p.hold_time, 0.0, 60.0,
+         "s, how long the last pose of a hand without data is held until the hand is lost");
+  v.user("forget_time", p.forget_time, 0.0, 3600.0, "s after the loss until the last pose is forgotten");
 }
 
 /// What one frame says about the tracked hand.

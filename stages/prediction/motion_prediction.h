@@ -24,6 +24,7 @@ struct PredictionParams {
   double max_speed = 2.0;            ///< [m/s] bound of the relative velocity
   double max_angular_speed = 20;     ///< [rad/s]
   double max_interval = 0.5;         ///< [s] after a longer gap velocities are forgotten
+  bool operator==(const PredictionParams&) const = default;
 };
 
 template <class V>

@@ -15,6 +15,7 @@ struct PoseSearchParams {
   double abduction = 0.12;     ///< [rad]
   double final_step = 0.2;     ///< the last steps are this fraction of the first
   double shape_prior = 0.02;   ///< cost of neighbouring fingers that differ by a radian in flexion (mean square)
+  bool operator==(const PoseSearchParams&) const = default;
 };
 
 template <class V>

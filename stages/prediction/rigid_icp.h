@@ -18,6 +18,7 @@ struct RegistrationParams {
   int min_points = 100;        ///< fewer observed points: hold
   double min_inliers = 0.5;    ///< fraction of unhidden model points that must match to be reliable
   double slack = 0.03;         ///< [m] motion that is always believed; rotations: slack / 0.1 m
+  bool operator==(const RegistrationParams&) const = default;
 };
 
 template <class V>
@@ -39,6 +40,7 @@ void visit(V& v, RegistrationParams& p) {
 struct IcpParams : RegistrationParams {
   double max_speed = 4.0;         ///< [m/s]
   double max_angular_speed = 20;  ///< [rad/s]
+  bool operator==(const IcpParams&) const = default;
 };
 
 template <class V>

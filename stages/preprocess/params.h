@@ -22,13 +22,14 @@ struct PreprocessParams {
   double normal_radius = 0.004;
   double noise_floor = 0.0003;
   int cloud_points = 800;
+  bool operator==(const PreprocessParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, PreprocessParams& p) {
-  v("min_depth", p.min_depth, 0.01, 10.0, "m, nearer measurements are ignored");
-  v("max_depth", p.max_depth, 0.05, 20.0, "m, farther measurements are background");
-  v("use_colour", p.use_colour, "tell skin from objects and sleeve by colour where there is colour");
+  v.user("min_depth", p.min_depth, 0.01, 10.0, "m, nearer measurements are ignored");
+  v.user("max_depth", p.max_depth, 0.05, 20.0, "m, farther measurements are background");
+  v.user("use_colour", p.use_colour, "tell skin from objects and sleeve by colour where there is colour");
   v("min_hand_area", p.min_hand_area, 1e-5, 0.1, "m^2 facing the camera, less visible skin is no hand");
   v("max_hand_area", p.max_hand_area, 1e-3, 1.0, "m^2 facing the camera, a larger surface is no hand with its forearm");
   v("max_speed", p.max_speed, 0.1, 20.0, "m/s, how fast the whole hand may move between the hint and this frame");

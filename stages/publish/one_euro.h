@@ -12,12 +12,13 @@ struct OneEuroParams {
   double beta = 30.0;          ///< Hz per m/s
   double beta_rotation = 3.0;  ///< Hz per rad/s
   double speed_cutoff = 2.0;   ///< Hz, of the low pass on the speed
+  bool operator==(const OneEuroParams&) const = default;
 };
 template <class V>
 void visit(V& v, OneEuroParams& p) {
-  v("enabled", p.enabled, "off: the smoothed pose is the raw one");
-  v("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off at rest (lower: calmer, more lag)");
-  v("beta", p.beta, 0.0, 10000.0, "Hz per m/s, how fast the cut-off rises with speed (higher: less lag)");
+  v.user("enabled", p.enabled, "off: the smoothed pose is the raw one");
+  v.user("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off at rest (lower: calmer, more lag)");
+  v.user("beta", p.beta, 0.0, 10000.0, "Hz per m/s, how fast the cut-off rises with speed (higher: less lag)");
   v("beta_rotation", p.beta_rotation, 0.0, 10000.0, "Hz per rad/s, the same for rotation");
   v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off of the speed itself");
 }

@@ -28,6 +28,7 @@ struct EnergyParams {
   double prior_translation = 0.05;   ///< m, pull of the palm to its prediction
   double prior_rotation_deg = 30.0;  ///< pull of the palm and of seen joints to their prediction
   double prior_unseen_deg = 4.0;     ///< pull of unseen joints to their prediction
+  bool operator==(const EnergyParams&) const = default;
 };
 
 template <class V>
@@ -43,7 +44,7 @@ void visit(V& v, EnergyParams& p) {
     "information of skin on palm and thumb root relative to a phalanx's: its shape differs most between people");
   v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, joint gap (Eq. 5)");
   v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0, "degrees, angles beyond the limits and twist (Eq. 6)");
-  v("limit_widening_deg", p.limit_widening_deg, 0.0, 60.0, "degrees, joint limits widened for contact (Sec. 4.3)");
+  v.retired("limit_widening_deg", "tracker.fusion.limit_widening_deg");
   v("sigma_overlap", p.sigma_overlap, 1e-5, 10.0, "m, of segments that pass through one another");
   v("prior_translation", p.prior_translation, 1e-4, 10.0, "m, pull of the palm to its prediction");
   v("prior_rotation_deg", p.prior_rotation_deg, 0.1, 3600.0,

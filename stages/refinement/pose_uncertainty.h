@@ -14,6 +14,7 @@ struct UncertaintyParams {
   double range_share = 0.4;         ///< deviation of a joint that was not seen for long, of that of its whole range
   double just_hidden_deg = 4;       ///< deviation of a joint when it vanishes
   double growth_deg = 30;           ///< growth of it in a second; with the square root of the time
+  bool operator==(const UncertaintyParams&) const = default;
 };
 
 template <class V>

@@ -19,12 +19,13 @@ struct RefinementParams {
   double max_rotation_deg = 25;   ///< largest turn of a segment in one step
   ComparisonParams comparison;
   EnergyParams energy;
+  bool operator==(const RefinementParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, RefinementParams& p) {
-  v("enabled", p.enabled, "continuous refinement after the last level; false is the paper's method");
-  v("iterations", p.iterations, 0, 100, "Gauss-Newton steps from the best hypothesis");
+  v.user("enabled", p.enabled, "continuous refinement after the last level; false is the paper's method");
+  v.user("iterations", p.iterations, 0, 100, "Gauss-Newton steps from the best hypothesis");
   v("damping", p.damping, 0.0, 1.0, "relative Levenberg damping");
   v("first_widening", p.first_widening, 1.0, 10.0, "gates and robust scales start this much wider and shrink to 1");
   v("max_translation", p.max_translation, 1e-3, 1.0, "m, longest step of a segment");

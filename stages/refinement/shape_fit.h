@@ -17,12 +17,13 @@ struct ShapeFitParams {
   int first_rebuild = 8;      ///< looks before a skin is made anew; then after twice, four times ... as many
   int scan_after = 60;  ///< frames before the skin is scanned (scan_hand); then after twice, four times ... as many
   int scans = 3;        ///< so often; 0: never
+  bool operator==(const ShapeFitParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, ShapeFitParams& p) {
-  v("enabled", p.enabled,
-    "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
+  v.user("enabled", p.enabled,
+         "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
   v("every", p.every, 1, 1000, "frames between two looks at the shape, at first");
   v("every_later", p.every_later, 1, 100000, "frames between two looks after `eager_looks`");
   v("eager_looks", p.eager_looks, 0, 100000, "looks in quick succession at the start");
@@ -30,8 +31,9 @@ void visit(V& v, ShapeFitParams& p) {
   v("memory", p.memory, 0.01, 10.0, "part of all looks so far that counts: old ones were taken with a worse hand");
   v("memory_looks", p.memory_looks, 1.0, 1e6, "looks, never more count");
   v("first_rebuild", p.first_rebuild, 1, 100000, "looks before a new skin is made, then twice as many each time");
-  v("scan_after", p.scan_after, 32, 100000, "tracked frames before the skin is scanned, then twice as many each time");
-  v("scans", p.scans, 0, 10, "how often the skin is scanned, if the profile has none of its own; 0: never");
+  v.user("scan_after", p.scan_after, 32, 100000,
+         "tracked frames before the skin is scanned, then twice as many each time");
+  v.user("scans", p.scans, 0, 10, "how often the skin is scanned, if the profile has none of its own; 0: never");
 }
 
 /// Collects what frames say about a person's hand, each at its own best pose and with that pose's uncertainty

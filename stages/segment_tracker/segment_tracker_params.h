@@ -17,11 +17,12 @@ struct SegmentTrackerParams {
   double min_counted = 0.05;
   bool observe_palm = true;
   std::string observer = "auto";
+  bool operator==(const SegmentTrackerParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, SegmentTrackerParams& p) {
-  v("samples", p.samples, 1, 10000, "S: samples per segment and level (Sec. 4)");
+  v.user("samples", p.samples, 1, 10000, "S: samples per segment and level (Sec. 4)");
   v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, accuracy of the depth at the first level (Eq. 2)");
   v("sigma_obs_end", p.sigma_obs_end, 1e-5, 0.1,
     "m, the same at the last level, geometric in between; paper: constant");
@@ -38,9 +39,10 @@ void visit(V& v, SegmentTrackerParams& p) {
   v("min_counted", p.min_counted, 0.0, 1.0,
     "a sample with a smaller visible part than this has no evidence: it gets its siblings' mean distance");
   v("observe_palm", p.observe_palm, "compare the palm with the data, too; the paper does not (Sec. 4.1)");
-  v("observer", p.observer, {"auto", "cpu", "egl"},
-    "what compares samples with the data: a GPU if there is one (auto), the CPU (cpu), or whatever runs OpenGL ES, "
-    "software included (egl)");
+  v.user(
+      "observer", p.observer, {"auto", "cpu", "egl"},
+      "what compares samples with the data: a GPU if there is one (auto), the CPU (cpu), or whatever runs OpenGL ES, "
+      "software included (egl)");
 }
 
 }  // namespace barehand

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -16,19 +17,35 @@ class ShippedConfig : public ::testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Configs, ShippedConfig, ::testing::Values("paper.yaml", "default.yaml", "accurate.yaml"),
                          [](const auto& info) { return std::string(info.param, strchr(info.param, '.')); });
 
-TEST_P(ShippedConfig, IsCompleteAndInRange) {
+TEST_P(ShippedConfig, IsInRange) {
   const auto config = load_config<Config>(path_);
   EXPECT_TRUE(config) << config.error().message();
 }
 
-/// What print_config says about a key is what the file says: no stale comment, no changed order.
-TEST_P(ShippedConfig, CarriesTheCommentsOfTheCode) {
+/// A file holds what print_config says with its comments, in its order, and nothing else: the default configuration the
+/// keys for users, the other ones what differs from it.
+TEST_P(ShippedConfig, HoldsWhatItMustAndNoMore) {
   const auto config = load_config<Config>(path_);
   ASSERT_TRUE(config);
   std::ifstream file(path_);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  EXPECT_NE(text.find(print_config(*config)), std::string::npos)
-      << "write it anew: barehand track --print-config --config " << path_;
+  const bool is_default = std::string(GetParam()) == "default.yaml";
+  const auto keys = is_default ? ConfigKeys::user : ConfigKeys::changed;
+  EXPECT_TRUE(text.ends_with("\n\n" + print_config(*config, keys)))
+      << "write it anew: barehand track --print-config=" << (is_default ? "user" : "changed") << " --config " << path_;
+}
+
+TEST(DefaultConfig, IsWhatTheCodeSays) {
+  const auto config = load_config<Config>(std::string(BAREHAND_CONFIGS) + "/default.yaml");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config_values(*config), config_values(Config{}));
+}
+
+/// Whoever opens the default configuration reads all of its keys: they must stay few.
+TEST(DefaultConfig, ShowsFewKeys) {
+  const std::string text = print_config(Config{}, ConfigKeys::user);
+  const auto lines = std::count(text.begin(), text.end(), '\n'), comments = std::count(text.begin(), text.end(), '#');
+  EXPECT_LE(lines - comments, 75) << "groups and empty lines included";
 }
 
 }  // namespace

@@ -36,13 +36,13 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   Config wanted;
   wanted.run.channel_prefix = "LEFT_";
   wanted.tracker.shape_fit.enabled = !wanted.tracker.shape_fit.enabled;
-  wanted.publish.hold_time = 2;
+  wanted.tracker.loss.hold_time = 2;
   const Reload::Changes changes = reload.apply(wanted);
-  EXPECT_THAT(changes.made, ElementsAre("publish.hold_time: 0.5 -> 2"));
+  EXPECT_THAT(changes.made, ElementsAre("tracker.loss.hold_time: 0.5 -> 2"));
   EXPECT_THAT(changes.for_restart,
               ElementsAre("run.channel_prefix: \"\" -> \"LEFT_\"", "tracker.shape_fit.enabled: true -> false"));
-  EXPECT_FALSE(news.tracker.take());
-  EXPECT_EQ(news.bus.take()->hold_time, 2);
+  EXPECT_EQ(news.tracker.take()->shape_fit.enabled, Config{}.tracker.shape_fit.enabled);
+  EXPECT_EQ(news.bus.take()->hold_time, 2) << "one key serves the tracker and what is published";
   EXPECT_EQ(news.states_log.take()->hold_time, 2);
   EXPECT_EQ(reload.apply(wanted).for_restart.size(), 2u) << "still not in force";
   EXPECT_THAT(reload.apply(wanted).made, IsEmpty());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/config_writer.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -32,7 +33,8 @@ struct Outer {
 };
 template <class V>
 void visit(V& v, Outer& p) {
-  v("levels", p.levels, 1, 100, "hierarchy levels");
+  v.user("levels", p.levels, 1, 100, "hierarchy levels");
+  v.retired("depth", "levels");
   v("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers");
   v("enabled", p.enabled, "what it does");
   v("mode", p.mode, {"auto", "cpu"}, "which way");
@@ -102,15 +104,34 @@ TEST_F(ConfigFile, UnknownKeyWithoutAnythingNearGetsNoSuggestion) {
   EXPECT_THAT(error_of(good_ + "zzzzzzzz: 1\n"), Not(HasSubstr("did you mean")));
 }
 
-TEST_F(ConfigFile, MissingKeyIsAnError) {
-  EXPECT_THAT(error_of(with("levels: 10\n", "")), HasSubstr("key 'levels' is missing"));
-  EXPECT_THAT(error_of(with("  sigma_obs: 0.004\n", "")), HasSubstr("key 'inner.sigma_obs' is missing"));
+TEST_F(ConfigFile, KeysThatAreNotGivenKeepTheirDefaults) {
+  const auto read = load("inner:\n  sigma_obs: 0.05\n");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->inner.sigma_obs, 0.05);
+  EXPECT_EQ(read->inner.widths, Inner{}.widths);
+  EXPECT_EQ(read->levels, 10);
+  EXPECT_EQ(load("levels: 3\n")->inner.sigma_obs, 0.004) << "a whole group may be left out";
 }
 
-TEST_F(ConfigFile, MissingGroupIsReportedOnce) {
-  const std::string error = error_of(good_.substr(0, good_.find("\n# the inner group")) + "\n");
-  EXPECT_THAT(error, HasSubstr("key 'inner' is missing"));
-  EXPECT_THAT(error, Not(HasSubstr("sigma_obs")));
+TEST_F(ConfigFile, UserKeysArePrintedAndWhatElseWasChanged) {
+  Outer config;
+  EXPECT_EQ(print_config(config, ConfigKeys::user), "# hierarchy levels [1 .. 100]\nlevels: 10\n");
+  config.inner.sigma_obs = 0.01;
+  EXPECT_EQ(print_config(config, ConfigKeys::user),
+            "# hierarchy levels [1 .. 100]\nlevels: 10\n\n# the inner group\ninner:\n"
+            "  # m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.01\n");
+  EXPECT_EQ(print_config(config, ConfigKeys::changed),
+            "# the inner group\ninner:\n  # m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.01\n");
+  EXPECT_EQ(load(print_config(config, ConfigKeys::user))->inner.sigma_obs, 0.01);
+}
+
+/// Files from before a key was replaced name both.
+TEST_F(ConfigFile, ARetiredKeyIsReadWhereItAgreesWithItsSuccessor) {
+  EXPECT_TRUE(load(good_ + "depth: 10\n")) << "levels is 10, too";
+  EXPECT_EQ(error_of(good_ + "depth: 9\n"),
+            place(good_ + "depth: 9\n", "depth: 9") + "'depth' is now 'levels', give that alone");
+  EXPECT_THAT(error_of("depth: 10\n"), HasSubstr("'depth' is now 'levels'"));
+  EXPECT_THAT(good_, Not(HasSubstr("depth: ")));
 }
 
 TEST_F(ConfigFile, MistypedValuesAreErrors) {

@@ -27,7 +27,7 @@ done
 
 adult=$(dirname "$0")/../../configs/hands/adult_right.json
 "$barehand" track --print-config | sed 's/scans: 3/scans: 0/' >"$out/no_scan.yaml"
-"$barehand" track --print-config | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
+"$barehand" track --print-config=all | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
 for recording in fist_twice grasp_ball tz19_kinect; do
   own=$data/$recording/hand.json
   row $recording.no_scan $recording "$out/no_scan.yaml" --hand "$own"

@@ -7,7 +7,7 @@ barehand=$1 out=$2
 adult=$(dirname "$0")/../../configs/hands/adult_right.json
 mkdir -p "$out"
 "$barehand" track --print-config | sed 's/scans: 3/scans: 0/' >"$out/no_scan.yaml"
-"$barehand" track --print-config | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
+"$barehand" track --print-config=all | sed '/shape_fit:/,/every:/s/enabled: true/enabled: false/' >"$out/not_fitted.yaml"
 figures() {  # TITLE FOLDER EXTRA...: of the last run
   printf '%-54s' "$1"
   "$barehand" eval --truth "$2/truth.csv" --result "$out/result.csv" "${@:3}" | awk '

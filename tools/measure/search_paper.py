@@ -38,7 +38,7 @@ class Search:
         self.fist = os.path.join(out, "fist")
         if not os.path.isdir(self.fist):
             self.run("sim", "fist", "--out", self.fist)
-        self.paper = self.run("track", "--config", "paper", "--print-config")
+        self.paper = self.run("track", "--config", "paper", "--print-config=all")
 
     def run(self, *arguments):
         return subprocess.run([self.barehand, *arguments], check=True, text=True, stdout=subprocess.PIPE,
