@@ -14,6 +14,7 @@
 namespace barehand {
 namespace {
 
+/// A case and the name of its configuration.
 struct NamedCase {
   std::string config;
   BenchCase bench;
@@ -26,27 +27,34 @@ std::string processor_name() {
   return "unknown";
 }
 
-/// Every configuration as it is, then every sweep of the first one.
+/// All cases to measure: every configuration as it is, then every sweep of the first one.
 Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
   if (const auto workers = make_workers(options.threads); !workers) return tl::unexpected(workers.error());
+
+  // The configurations as they are.
   std::vector<NamedCase> cases;
   for (const std::string& name : options.configs) {
     auto config = read_configuration(name);
     if (!config) return tl::unexpected(config.error());
     cases.push_back({name, {"", 0, std::move(*config), options.threads, 1}});
   }
+
+  // The sweeps.
   const NamedCase base = cases.front();
   for (const std::string& sweep : options.sweeps) {
     auto swept = parse_sweep(sweep, base.bench);
     if (!swept) return tl::unexpected(swept.error());
     for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
   }
+
+  // None of the cases may need more memory than there is.
   for (const NamedCase& named : cases)
     if (const auto fits = check_memory(named.bench.config.tracker, available_memory()); !fits)
       return tl::unexpected(fits.error());
   return cases;
 }
 
+/// The frames and hands that all cases use.
 struct Input {
   FrameStore store;
   HandsTracker::Profiles hands;
@@ -76,7 +84,8 @@ Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditio
 }
 
 Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, int repeat, BenchReport& report) {
-  for (int round = 0; round < repeat; ++round)  // interleaved: other load on the machine meets all cases alike
+  // interleaved, so that other load on the machine affects all cases alike
+  for (int round = 0; round < repeat; ++round)
     for (const NamedCase& named : cases) {
       auto row = measure(named, report.conditions, input);
       if (!row) return tl::unexpected(row.error());
@@ -94,20 +103,27 @@ int tell(const Error& error, int exit_code) {
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
+  // Drawing an earlier report needs no measurement.
   if (!options.draw.empty()) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
     return drawn ? kExitOk : tell(drawn.error(), kExitUsage);
   }
+
+  // Check everything before the measurement starts.
   const auto cases = cases_of(options);
   if (!cases) return tell(cases.error(), kExitUsage);
   const auto input = read_input(options);
   if (!input) return tell(input.error(), kExitUsage);
+
+  // The conditions belong to the report.
   BenchReport report;
   report.source = options.source;
   report.processor = processor_name();
   report.cores = available_cores();
   report.hands = static_cast<int>(input->hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
+
+  // Measure, write and draw.
   auto done = measure_all(*cases, *input, options.repeat, report);
   if (done && !options.json.empty()) done = write_bench_json(report, options.json);
   if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);

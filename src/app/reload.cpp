@@ -7,13 +7,14 @@
 namespace barehand {
 namespace {
 
+/// "group.subgroup.key".
 std::string joined(const std::vector<std::string>& groups, const std::string& key) {
   std::string path;
   for (const std::string& group : groups) path += group + ".";
   return path + key;
 }
 
-/// Every "group.key" and its value as written in the file, where two spaces of indentation are a level.
+/// Reads every "group.key" and its value from the printed configuration, where a level is indented by two spaces.
 std::map<std::string, std::string> values(const Config& config) {
   std::map<std::string, std::string> values;
   std::vector<std::string> groups;
@@ -22,6 +23,7 @@ std::map<std::string, std::string> values(const Config& config) {
     const auto indentation = line.find_first_not_of(' ');
     const auto colon = line.find(':');
     if (indentation == std::string::npos || line[indentation] == '#' || colon == std::string::npos) continue;
+    // A line without a value opens a group.
     groups.resize(indentation / 2);
     const std::string key = line.substr(indentation, colon - indentation);
     if (colon + 1 == line.size())
@@ -32,7 +34,8 @@ std::map<std::string, std::string> values(const Config& config) {
   return values;
 }
 
-/// Sources, channels and the counting of failures are set up once; the fit to the person is not begun anew.
+/// Groups that cannot change while running: sources, channels and failure limits are set up once, and the fit to the
+/// person is not restarted.
 bool fixed(const std::string& key) {
   constexpr const char* kFixed[] = {"run.", "foreign_camera.", "openni2.", "tracker.shape_fit."};
   return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
@@ -46,6 +49,7 @@ void put_if_changed(Slot<Group>& slot, const Group& before, const Group& after) 
 }  // namespace
 
 Reload::Changes Reload::apply(const Config& wanted) {
+  // List the changes.
   Changes changes;
   const auto before = values(in_force_);
   for (const auto& [key, value] : values(wanted)) {
@@ -53,11 +57,14 @@ Reload::Changes Reload::apply(const Config& wanted) {
     if (old == before.end() || old->second == value) continue;
     (fixed(key) ? changes.for_restart : changes.made).push_back(key + ": " + old->second + " -> " + value);
   }
+
+  // Hand the changed groups over.
   Config next = in_force_;
   next.preprocess = wanted.preprocess;
   next.tracker = wanted.tracker;
   next.tracker.shape_fit = in_force_.tracker.shape_fit;
   next.publish = wanted.publish;
+
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
   put_if_changed(out_.bus, in_force_.publish, next.publish);
