@@ -1,11 +1,11 @@
-// Built into every program of a thread-sanitizer build. Memory that libtbb itself allocates and frees is handed between
-// its threads by means the sanitizer cannot see; what our code does inside TBB tasks is not covered by this. libgdal,
-// which OpenCV's image codecs load, takes two locks of its own in both orders while it starts. liblcm's memq:// hands a
-// message from publisher to receiver under locks of GLib, bare futexes that the sanitizer does not know: LcmBus says so
-// for our handlers, but before they are called liblcm compares the message's channel. libOpenNI2 and its file driver
-// libOniFile call drivers, and are called by them, under locks of their own in both orders, hand memory between their
-// threads, and at the end of the program unlock mutexes that they have not locked; what stands below one of their calls
-// is not covered by this. FFmpeg's encoders and umockdev with libudev and GLib hand memory between threads of theirs.
+// Suppressions for every program of a thread-sanitizer build. libtbb hands its own memory between threads in ways that
+// the sanitizer does not see; what our code does in TBB tasks is still checked. libgdal, which OpenCV's image codecs
+// load, takes two of its locks in both orders at start-up. liblcm's memq:// hands messages over under GLib's locks,
+// bare futexes that the sanitizer does not know; LcmBus states that order for our handlers, but liblcm compares the
+// channel before calling them. libOpenNI2 and its file driver libOniFile call drivers and are called by them under
+// their own locks in both orders, hand memory between threads, and unlock mutexes that they have not locked at the end
+// of the program; code below their calls is not checked. FFmpeg's encoders, and umockdev with libudev and GLib, hand
+// memory between their own threads.
 extern "C" const char* __tsan_default_suppressions() {
   return "called_from_lib:libtbb.so\n"
          "deadlock:libgdal.so\n"
