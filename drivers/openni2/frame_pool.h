@@ -8,11 +8,11 @@
 
 namespace barehand {
 
-/// Hands out frames and takes them back when their last owner, on whatever thread, lets go: their images keep their
-/// memory, so that a running stream allocates no pixels. May be destroyed before what it handed out.
+/// Lends frames and takes them back when their last owner, on whatever thread, releases them. Their images keep their
+/// memory, so that a running stream allocates no pixels. The pool may be destroyed before the frames it has lent.
 class FramePool {
  public:
-  /// A frame with arbitrary content; not shared with anyone.
+  /// A frame with arbitrary content and no other owner.
   std::shared_ptr<RgbdFrame> take() {
     std::unique_ptr<RgbdFrame> own;
     {

@@ -12,6 +12,8 @@ Result<UsbListing> UsbListing::take() {
   int status = libusb_init(&context);
   listing.context_.reset(context);
   libusb_device** devices = nullptr;
+
+  // List the devices; the list must be freed on every path.
   if (status == LIBUSB_SUCCESS) {
     const auto count = libusb_get_device_list(context, &devices);
     listing.devices_.reset(devices);
