@@ -17,6 +17,8 @@ Result<void> OpenNiFinder::load() {
   library_.reset();
   bus_when_loaded_ = bus_state();
   loaded_us_ = looked_us_;
+
+  // OpenNI2 reports changes of the bus on its own threads.
   auto library = OpenNiLibrary::load([this](bool came, const std::string& uri) {
     if (came) return came_();
     {

@@ -14,6 +14,7 @@ class FramePool {
  public:
   /// A frame with arbitrary content and no other owner.
   std::shared_ptr<RgbdFrame> take() {
+    // Reuse an idle frame if there is one.
     std::unique_ptr<RgbdFrame> own;
     {
       const std::lock_guard lock(store_->mutex);
@@ -22,6 +23,8 @@ class FramePool {
         store_->idle.pop_back();
       }
     }
+
+    // The store is shared with the frame, so the pool may be destroyed first.
     if (!own) own = std::make_unique<RgbdFrame>();
     return {own.release(), [store = store_](RgbdFrame* used) {
               std::unique_ptr<RgbdFrame> back(used);

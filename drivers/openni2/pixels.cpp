@@ -42,6 +42,7 @@ void convert_colour_row(const std::uint8_t* in, int width, openni::PixelFormat f
     case openni::PIXEL_FORMAT_RGB888:
       std::memcpy(out, in, 3 * static_cast<std::size_t>(width));
       break;
+    // The formats with one u and v for two pixels differ in the order of their bytes.
     case openni::PIXEL_FORMAT_YUYV:
       convert_yuv(in, width, 0, 1, 2, 3, out);
       break;

@@ -62,11 +62,13 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
     result[0] = thumb;
     return result;
   };
+
   const auto with_fingers = [](double mcp, double pip, double dip) {
     HandAngles result = open_relaxed();
     for (int f = 1; f < kFingerCount; ++f) result[f].flexion = {mcp, pip, dip};
     return result;
   };
+
   const HandAngles hook = with_fingers(0.05, 1.5, 0.95), table_top = with_fingers(1.25, 0.1, 0.05),
                    straight_fist = with_fingers(1.25, 1.5, 0.05);
 
@@ -142,6 +144,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
   };
   // Where the hand goes, and what it looks like there.
   const Vector3d left(-0.75, 0.1, 0.6), right(0.75, 0.1, 0.6), below(0.05, 0.65, 0.6);
+
   const Visit visits[] = {{right, {0.0, 0.08, 0.6}, {0, 0, 0}, open_spread()},
                           {right, {0.05, 0.08, 0.5}, {0.1, 0, 0.4}, open_relaxed()},
                           {below, {0.0, 0.1, 0.7}, {0, 0.2, -0.3}, open_joined()},
@@ -155,6 +158,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
                           {left, {0.0, 0.08, 0.55}, {0, 0, 0.2}, open_relaxed()}};
 
   // Each visit: enter, turn a little, leave.
+
   constexpr double kVisit = 3.5;  // s, of which 1.4 out of view
   std::vector<HandKey> keys;
   for (const Visit& visit : visits) {

@@ -16,7 +16,7 @@ struct SkinSample {
   double area;
 };
 
-/// Samples the triangles that belong to a segment evenly, at the centres of 4 x 4 parts of each triangle.
+/// Samples the skin of a segment evenly: ten points on each of the triangles that belong to it.
 std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
   std::vector<SkinSample> samples;
   const SE3 T_segment_hand = mesh.T_hand_joint[joint_of_segment(segment)].inverse();
@@ -25,7 +25,7 @@ std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
     const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>(), b = mesh.vertices[t[1]].cast<double>(),
                           c = mesh.vertices[t[2]].cast<double>();
     const double area = 0.5 * (b - a).cross(c - a).norm();
-    // Its parts share the area equally; only relative weights matter.
+    // Only relative weights matter, so every sample carries the area of its whole triangle.
     constexpr int n = 4;
     for (int i = 0; i < n; ++i)
       for (int j = 0; i + j < n; ++j) {

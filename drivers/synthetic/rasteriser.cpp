@@ -59,8 +59,11 @@ std::vector<int> covered_pixels(const Intrinsics& camera, int margin, std::span<
   Image<std::uint16_t> covered(wide.width, wide.height, 0);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     assert(classes[i] < 16);
+    // Only triangles that face the camera count.
     const auto corners = corners_of(vertices, triangles[i]);
     if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[0]) >= 0) continue;
+
+    // Mark the pixels of the triangle.
     const auto bit = static_cast<std::uint16_t>(1u << classes[i]);
     const auto mark = [&](int v, int begin, int end, double, double) {
       std::uint16_t* row = covered.row(v);

@@ -130,6 +130,7 @@ int run(const CalibrateOptions& o) {
   ScanSink::Scan scan{.report = {}, .frames = {kSettling, joints_stay ? kMostOfSkin : kMost}, .profile = nullptr};
   std::vector<std::unique_ptr<Sink>> sinks;
   sinks.push_back(std::make_unique<ScanSink>(scan));
+
   TrackOptions track_options = o.track;
   track_options.hands = {o.hand};
   std::cerr << kHowTo << std::endl;

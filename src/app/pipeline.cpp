@@ -58,11 +58,13 @@ void Pipeline::run_threaded() {
         idle();
     }
   });
+
   std::jthread tracker([&] {
     while (auto item = pop(kToTrack))
       if (track(*item)) push(kToSinks, std::move(*item));
     queues_[kToSinks].close();
   });
+
   std::jthread preprocessor([&] {
     while (true) {
       // taken first: meanwhile a frame at the door can still be replaced by a newer one
@@ -146,10 +148,12 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
     log_.warn("skipped", "skipped a frame: " + skipped->error.message());
     return Capture::frame;
   }
+
   if (const auto* notice = std::get_if<SourceNotice>(&event)) {
     log_.logger().log(notice->trouble ? spdlog::level::warn : spdlog::level::info, notice->error.message());
     return Capture::nothing;
   }
+
   if (std::holds_alternative<Timeout>(event)) return waited(patience);
   if (auto* failed = std::get_if<SourceFailed>(&event)) end_with(failed->error);
   return Capture::end;

@@ -74,6 +74,7 @@ Result<std::int64_t> run_sim(const SimOptions& options,
   const SystemClock clock;
   auto source = SyntheticSource::open(options.spec, clock);
   if (!source) return tl::unexpected(source.error());
+
   if ((*source)->live() || (*source)->remaining() < 0)
     return fail("a recording is neither live nor endless", "sim:" + options.spec, "leave out live and loop");
 
@@ -90,6 +91,8 @@ Result<std::int64_t> run_sim(const SimOptions& options,
     const SourceEvent event = (*source)->next(std::chrono::milliseconds(0));
     const auto* frame = std::get_if<FramePtr>(&event);
     if (!frame) break;
+
+    // The frame, and the truth about each hand.
     if (auto ok = (*writer)->write(**frame); !ok) return tl::unexpected(ok.error());
     for (std::size_t i = 0; i < hand_files->size(); ++i)
       if (auto ok = (*hand_files)[i].write((*source)->hands()[i], (*frame)->number); !ok)

@@ -154,12 +154,15 @@ ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Sk
   // Finite differences, one shape component after the other.
   basis.joint[kPalm].setZero();
   for (int k = 0; k < kShapeCount; ++k) {
+    // A slightly changed hand, and how its joints moved.
     const double step = kStep * shape_parameters()[k].deviation;
     HandShape changed = shape;
     changed[k] += step;
     const HandProfile other = reshaped(mean, changed);
     for (int s = 1; s < kSegmentCount; ++s)
       basis.joint[s].col(k) = (other.rest_relative(s).t - hand.rest_relative(s).t) / step;
+
+    // How far the surface moved outward from each vertex.
     const ImplicitHand grown(other);
     for (std::size_t i = 0; i < before.size(); ++i)
       basis.outward(static_cast<Eigen::Index>(i), k) =

@@ -133,13 +133,16 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
     v.a = static_cast<std::int16_t>(binding.a);
     v.b = static_cast<std::int16_t>(binding.b);
     v.weight_b = static_cast<float>(binding.weight_b);
+    // The vertex in the frames of its segments.
     v.in_a = (hand.pose()[binding.a].inverse() * p).cast<float>();
     v.in_b = (hand.pose()[binding.b].inverse() * p).cast<float>();
     v.normal_in_a = (hand.pose()[binding.a].R.transpose() * surface_normal(distance, p)).cast<float>();
     skin.vertices.push_back(v);
+
     beyond_wrist.push_back((T_palm_hand * p).z() > kWristCut);
   }
 
+  // Leave out the triangles on the forearm's side.
   for (const auto& t : mesh.triangles)
     if (!(beyond_wrist[t[0]] && beyond_wrist[t[1]] && beyond_wrist[t[2]])) skin.triangles.push_back({t[0], t[1], t[2]});
   return skin;

@@ -36,11 +36,14 @@ class Grid {
     Vector3d sum = Vector3d::Zero();
     int crossings = 0;
     for (int corner = 0; corner < 8; ++corner) {
+      // Visit every edge of the cell once, from its lower corner.
       const Vector3i a = n + Vector3i(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
       for (int axis = 0; axis < 3; ++axis) {
         if (corner & (1 << axis)) continue;
         const Vector3i b = a + Vector3i::Unit(axis);
         const double va = value(a), vb = value(b);
+
+        // A change of sign is a crossing, placed by linear interpolation.
         if ((va < 0) == (vb < 0)) continue;
         sum += position(a) + va / (va - vb) * (position(b) - position(a));
         ++crossings;
@@ -99,10 +102,12 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
   });
   // Every grid edge that crosses the surface joins the vertices of the four cells around it.
   for_each_cell([&](const Vector3i& n) {
-    // Cells at the lower border have no four neighbours.
     for (int axis = 0; axis < 3; ++axis) {
+      // An edge at the lower border has no four cells around it.
       const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
       if (n[(axis + 1) % 3] == 0 || n[(axis + 2) % 3] == 0) continue;
+
+      // The orientation follows from the side that is inside.
       const bool inside = grid.value(n) < 0;
       if (inside == (grid.value(n + Vector3i::Unit(axis)) < 0)) continue;
       const std::array<int, 4> quad = {vertex_of[grid.index(n - u - v)], vertex_of[grid.index(n - v)],

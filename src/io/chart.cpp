@@ -59,6 +59,7 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
       x_hi = std::max(x_hi, series.x[i]);
       if (std::isfinite(series.y[i])) top = std::max(top, series.y[i]);
     }
+
   if (x_lo > x_hi) x_lo = 0, x_hi = 1;
 
   // Draw line by line; a point without neighbours becomes a dot.

@@ -132,6 +132,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
   const std::vector<const TableFrame*> truths = expected_frames(truth, expected);
   for (const TableFrame* frame_of_truth : truths) {
     const TableFrame& frame = *frame_of_truth;
+    // A frame without rows in the result stays untracked.
     FrameErrors errors{frame.number, frame.timestamp, false, {}, 0, 0};
     if (const auto found = results.find(frame.number); found != results.end()) {
       if (std::abs(found->second->timestamp - frame.timestamp) > 0.001)
@@ -142,6 +143,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     } else {
       ++evaluation.untracked;
     }
+
     if (errors.lost()) evaluation.lost.push_back(frame.number);
     evaluation.frames.push_back(errors);
   }

@@ -49,6 +49,7 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
   std::vector<FingertipLabel> labels;
   for (int number = 2; std::getline(file, text); ++number) {
     if (text.empty()) continue;
+    // A malformed line is an error.
     FingertipLabel label;
     bool visible = false;
     if (!parse_label(text, label, visible))
@@ -79,9 +80,11 @@ FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& label
   std::vector<double> all;
   std::array<std::vector<double>, kFingerCount> fingers;
   for (const FingertipLabel& label : labels) {
+    // The fingertip in the frame of the label.
     const auto found = tracked.find(label.frame);
     const Eigen::Vector3d tip =
         found == tracked.end() ? Eigen::Vector3d::Zero() : fingertip(*found->second, profile, label.finger);
+
     if (tip.z() <= 0) {  // no hand was tracked, or the fingertip is behind the camera and has no image
       ++evaluation.missing;
       continue;

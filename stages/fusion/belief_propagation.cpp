@@ -110,6 +110,7 @@ void BeliefPropagation::send_down(const Input& input, int node) {
       best = best > x ? best : x;
     }
     m.log[c] = best;
+
     if (input.marginals == Marginals::max) continue;
 
     float sum = 0;

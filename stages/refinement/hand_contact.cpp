@@ -87,6 +87,7 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
   double total = 0;
   for_each_overlap(pose, [&](const Rod& a, const Rod& b, const Vector3d& p_a, const Vector3d& p_b, double overlap) {
     total += information * overlap * overlap;
+
     const Vector3d between = p_a - p_b;
     if (between.squaredNorm() < kTiny) return;  // the axes intersect, so the direction of the push is undefined
 

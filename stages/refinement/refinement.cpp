@@ -121,6 +121,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   result.pose = starts[0];
   result.evidence.set_zero();
   compare_at(observation, starts[0], detail(0), Normals::computed, *work);
+
   for (const HandPose& start : starts.subspan(1)) {
     auto other = workspaces_.take();
     compare_at(observation, start, detail(0), Normals::computed, *other);
@@ -147,6 +148,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     // A mean hand's silhouette errs by more than its surface turns away there, so it keeps its full pull.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // only a fine step suffers from wrong folds
+
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);

@@ -103,6 +103,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     const double folds = joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds;
     const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, folds);
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
+
     squares_ += sq(r);
     ++residuals_;
 
@@ -149,6 +150,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     const Vector3d lever_child = R_child * model.in_segment[s], gap = joint.gap - lever_child;
     const Eigen::Matrix<double, 3, 6> J_parent = point_jacobian(joint.lever), J_child = -point_jacobian(lever_child);
     const Eigen::Matrix<double, 3, 6> J = (Eigen::Matrix<double, 3, 6>() << R_parent, -R_child).finished();
+
     tree.add<3>(s, J_child, J_parent, gap, w_gap * Matrix3d::Identity());
 
     // The same residuals as a function of the joint's unknowns, and their products with the pose.
@@ -166,6 +168,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);
     const Matrix3d J_rest = -joint.d_angles;  // as much as the rest rotation grows, the joint's rotation shrinks
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W);
+
     sums.H.bottomRightCorner<3, 3>() = J_rest.transpose() * W * J_rest;
     sums.g.tail<3>() = -J_rest.transpose() * (W * excess.angles);
     sums.parent.rightCols<3>() = J_angles.parent.transpose() * W * J_rest;

@@ -85,6 +85,7 @@ std::optional<Eigen::VectorXd> ScanSystem::solve() const {
     const Eigen::VectorXd product = times(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0)) return std::nullopt;
+
     const double step = size / curvature;
     x += step * direction;
     r -= step * product;

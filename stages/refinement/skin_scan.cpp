@@ -47,6 +47,7 @@ class Scan {
     ScanEquations shared;
     shared.set_zero(variables_.count());
     add_scan_prior(model_, start_, variables_, skin_only || start_.joints_are_known(), shared);
+
     double squares = 0;
     int residuals = 0;
     for (const ScanFrameEquations& equations : equations_) {

@@ -17,6 +17,7 @@ std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, dou
     if (v.a != segment || (alone && v.weight_b > 0) || std::abs(v.normal_in_a.z()) >= kAlong) continue;
     sections.vertices_.push_back(i);
   }
+
   if (sections.vertices_.size() < kFewest) return std::nullopt;
 
   // The support function of an ellipse, linearised: n . p = n . middle(u) + radius(u) + e (n_x^2 - n_y^2).

@@ -59,12 +59,14 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   const float skin_area = std::accumulate(skin.area.begin(), skin.area.end(), 0.0f);
   const float spacing = std::sqrt(skin_area / static_cast<float>(skin.size())) * scale;
   const auto inside = [](float x, int size) { return static_cast<int>(std::clamp(x, 1.0f, size - 1.0f)); };
+
   u0 = inside(u_lo - border, map.width);
   v0 = inside(v_lo - border, map.height);
   cell = std::max(1, static_cast<int>(spacing / 2));
   columns = (inside(u_hi + border + 1, map.width) - u0 + cell - 1) / cell;
   rows = (inside(v_hi + border + 1, map.height) - v0 + cell - 1) / cell;
   outline_sq = spacing * spacing;
+
   z.assign(static_cast<std::size_t>(columns) * rows, kFar);
   gap_sq.assign(z.size(), kFar);
 
@@ -77,6 +79,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     for (const ImagePoint& p : points) {
       const float dv_sq = (v - p.v) * (v - p.v);
       for (int column = 0; column < columns; ++column) {
+        // Keep the nearest skin point of the cell.
         const float du = u0 + centre + static_cast<float>(column) * side - p.u;
         const float d = du * du + dv_sq;
         const bool nearer = d < row_gap[column];
