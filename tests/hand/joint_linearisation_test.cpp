@@ -17,7 +17,7 @@ HandPose bent_pose(const HandProfile& profile) {
   return pose;
 }
 
-// What a joint says, as a vector, in a pose near the one it was linearised in.
+// A quantity of a joint as a vector, evaluated in a pose near the one at which the joint was linearised.
 using Quantity = std::function<Vector3d(const JointLinearisation&)>;
 
 Vector3d gap(const JointLinearisation& joint) { return joint.gap; }

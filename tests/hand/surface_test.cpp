@@ -74,7 +74,8 @@ TEST(CylinderSurface, PointsLieOnTheSkinWithOutwardUnitNormals) {
 }
 
 TEST(CylinderSurface, PointsAreEvenlySpread) {
-  // On an even cover the nearest neighbour of every point is about sqrt(area per point) away; clumps and gaps differ.
+  // With an even distribution, the nearest neighbour of every point is about sqrt(area per point) away, unlike in
+  // clumps and gaps.
   const SegmentSurface skin = make_cylinder_surface(simple_profile(), 150)[kMiddle];
   const double spacing = std::sqrt(skin.area[0]);
   for (std::size_t i = 0; i < skin.size(); ++i) {
