@@ -6,7 +6,7 @@
 
 namespace barehand {
 
-/// A plausible right hand for tests: straight fingers side by side, saddle joints at the palm, hinges beyond.
+/// A plausible right hand for tests: straight fingers side by side, saddle joints at the palm and hinges beyond.
 inline HandProfile small_hand() {
   HandProfile profile;
   const auto shape = [](SegmentProfile& s, double length, double radius) {
@@ -28,7 +28,8 @@ inline HandProfile small_hand() {
   return profile;
 }
 
-/// Within +- `spread` [m] of half a metre in front of the camera, turned by up to `angle` [rad] about every axis.
+/// A random pose within +- `spread` [m] of a point half a metre in front of the camera, rotated by up to `angle` [rad]
+/// about every axis.
 inline SE3 random_pose(KeyedRandom& random, double spread, double angle) {
   const auto vector = [&](double r) {
     const double x = random.uniform(-r, r), y = random.uniform(-r, r), z = random.uniform(-r, r);
