@@ -7,9 +7,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kDeviation = 0.003;  // of every axis [m]
+constexpr double kDeviation = 0.003;  // m, of every axis
 
-/// A truth, and statements off by kDeviation that say `stated`.
+/// A truth, and statements that are off by kDeviation and state the deviation `stated`.
 std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, double confidence = 0.5) {
   KeyedRandom random(7, key);
   const auto off = [&]() -> Eigen::Vector3d {
@@ -55,7 +55,8 @@ TEST(Reliability, BinsHoldWhatWasSaidAgainstWhatWas) {
   ASSERT_EQ(r->confidences.size(), 2u);
   EXPECT_NEAR(r->confidences[0].stated, 0.31, 1e-9);
   EXPECT_NEAR(r->confidences[1].stated, 0.95, 1e-9);
-  // Both ends of three axes each are within 10 mm: (chi-square of 3, up to (10 / 3)^2) squared.
+  // The error of each of the two ends has three independent axes and must be within 10 mm: (chi-square of 3 degrees of
+  // freedom up to (10 / 3)^2) squared.
   EXPECT_NEAR(r->confidences[1].actual, 0.9887 * 0.9887, 0.01);
 }
 
