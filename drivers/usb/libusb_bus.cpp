@@ -64,6 +64,7 @@ Result<std::vector<UsbSensor>> LibUsbBus::sensors() {
     const UsbAddress address = address_of(device);
     const std::string name = known_sensor(address.vendor, address.product);
     if (name.empty()) continue;
+
     UsbSensor sensor{address, name, port_of(device), megabits(device), held_back(device), {}};
     if (const auto handle = open_usb(device); !handle) sensor.obstacle = handle.error();
     found.push_back(std::move(sensor));

@@ -20,6 +20,7 @@ Result<UsbListing> UsbListing::take() {
     listing.count_ = count > 0 ? static_cast<std::size_t>(count) : 0;
     status = count < 0 ? static_cast<int>(count) : LIBUSB_SUCCESS;
   }
+
   if (status != LIBUSB_SUCCESS)
     return fail(std::string("the bus cannot be looked at: ") + libusb_strerror(status), "USB",
                 "in a container, hand in /dev/bus/usb and /sys");

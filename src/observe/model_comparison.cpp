@@ -45,6 +45,8 @@ class Comparer {
         else if (obs_.label.at(u, v) == PixelLabel::hand)
           judge_unexplained(i, j, u, v);
       }
+
+    // The score is the weighted mean.
     out_.score = total_weight_ > 0 ? total_ / total_weight_ : params_.distance_cap;
   }
 

@@ -40,6 +40,7 @@ std::int32_t NearestCell::find(int u, int v) const {
   const auto try_column = [&](int x) {
     if (row[x] == kNone) return;
     const int dv = row[x] - v, distance_sq = (x - u) * (x - u) + dv * dv;
+
     if (distance_sq >= best_sq) return;
     best_sq = distance_sq;
     nearest = row[x] * width + x;

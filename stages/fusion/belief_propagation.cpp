@@ -109,6 +109,8 @@ void BeliefPropagation::send_down(const Input& input, int node) {
       const float x = from[p] - row[p];
       best = best > x ? best : x;
     }
+
+    // The sum is scaled by its largest term.
     m.log[c] = best;
 
     if (input.marginals == Marginals::max) continue;

@@ -123,6 +123,8 @@ BAREHAND_SIMD PatchDistance patch_distance(const SegmentSurface& skin, const SE3
   const int size = static_cast<int>(skin.size());
   PatchDistance sum;
   Block block;
+
+  // Block by block: project, look up, add.
   for (int begin = 0; begin < size; begin += kBlock) {
     const int n = std::min(kBlock, size - begin);
     project(skin, begin, n, view, block);
