@@ -158,7 +158,6 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
                           {left, {0.0, 0.08, 0.55}, {0, 0, 0.2}, open_relaxed()}};
 
   // Each visit: enter, turn a little, leave.
-
   constexpr double kVisit = 3.5;  // s, of which 1.4 out of view
   std::vector<HandKey> keys;
   for (const Visit& visit : visits) {

@@ -29,7 +29,7 @@ Json to_json(const BenchRow& row) {
                {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
                {"tracked_share", rounded(r.tracked_share)},
 
-               // Frames that were lost, and memory.
+               // Dropped frames, and memory.
                {"dropped", r.health.dropped},
                {"peak_mb", rounded(static_cast<double>(r.peak_bytes) / kMegabyte)},
                {"stored_frames_mb", rounded(static_cast<double>(r.frame_bytes) / kMegabyte)},

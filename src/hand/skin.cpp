@@ -237,7 +237,7 @@ Skin coarsened(const Skin& skin, double cell) {
     cluster.distance = distance;
   }
 
-  // Keep the triangles whose corners are in three different clusters.
+  // Build the coarse skin; only triangles with their corners in three different clusters remain.
   Skin coarse;
   coarse.vertices.reserve(clusters.size());
   for (const Cluster& cluster : clusters) coarse.vertices.push_back(skin.vertices[cluster.vertex]);

@@ -94,7 +94,6 @@ std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, c
     if (frame.number - frames[played(i - 1)].number != step) away = true, waiting = false;
 
     // The return begins when half of the hand is visible, and ends when it is tracked.
-
     if (away && half_in_view(*truths[played(i)])) {
       returns.push_back({frame.number, std::nullopt});
       away = false;

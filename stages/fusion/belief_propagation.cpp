@@ -112,7 +112,6 @@ void BeliefPropagation::send_down(const Input& input, int node) {
 
     // The sum is scaled by its largest term.
     m.log[c] = best;
-
     if (input.marginals == Marginals::max) continue;
 
     float sum = 0;

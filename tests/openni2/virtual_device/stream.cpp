@@ -144,9 +144,8 @@ void Stream::paint_depth(const Exposure& exposure, std::uint16_t* out) const {
   } else if (exposure.fault == "garbage") {
     std::minstd_rand noise(static_cast<unsigned>(exposure.index) + 1);
     for (std::size_t i = 0; i < depth.size(); ++i) out[i] = static_cast<std::uint16_t>(noise() >> 8);
-
-    // Depth in the unit of the mode.
   } else {
+    // Depth in the unit of the mode.
     const int per_count = mode_.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 1 : 10;
     for (std::size_t i = 0; i < depth.size(); ++i)
       out[i] = static_cast<std::uint16_t>((std::min<int>(depth[i], 65534) + per_count / 2) / per_count);
