@@ -18,7 +18,7 @@ constexpr double kLate = 50e3, kLatePatience = 3e6;
 }  // namespace
 
 DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arrival_us) {
-  // The first frame defines the clock; a jump of the sensor's clock starts anew.
+  // The first frame starts the mapping; a jump of the sensor's clock starts it anew.
   Mapped mapped{arrival_us};
   if (!begun_) {
     begin(device_us, arrival_us);

@@ -13,6 +13,7 @@ namespace barehand {
 /// without repetitions.
 class LiveOutput {
  public:
+  /// `source`: name of the source, for messages; `capacity`: frames that may wait.
   LiveOutput(std::string source, std::size_t capacity, const Clock& clock);
 
   /// A frame with arbitrary content, to be filled.

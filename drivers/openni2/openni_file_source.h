@@ -29,6 +29,7 @@ class OpenNiFileSource : public FrameSource {
   std::string name() const override { return "openni2:" + path_; }
   /// Number of frames that are still to be delivered.
   std::int64_t remaining() const;
+  /// Frame rate of the depth stream [Hz].
   double fps() const;
   /// What the recording lacks; none if it is complete.
   std::optional<std::string> warning() const;

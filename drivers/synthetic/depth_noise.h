@@ -27,8 +27,10 @@ struct TofNoise {
 class DepthNoise {
  public:
   DepthNoise();
+  /// With the noise of a structured-light camera; `materials`: by RenderedView::surface.
   Image<float> kinect(const Intrinsics& camera, const RenderedView& view, std::span<const Material> materials,
                       const KinectNoise& noise, std::uint64_t seed, std::uint32_t frame) const;
+  /// With the noise of a time-of-flight camera.
   Image<float> tof(const RenderedView& view, const TofNoise& noise, std::uint64_t seed, std::uint32_t frame) const;
 
  private:

@@ -1,3 +1,4 @@
+// Sequences of one hand that moves in the air: fist, open, scan, wave and returns.
 #include <iterator>
 
 #include "drivers/synthetic/stage_set.h"

@@ -1,3 +1,4 @@
+// Sequences in which a hand grasps a thing: a mug, a ball or pliers.
 #include <cmath>
 
 #include "drivers/synthetic/grasp_planner.h"

@@ -13,6 +13,7 @@ class SmoothTrack {
  public:
   /// `times` must rise strictly, and all keys must have the same number of values.
   SmoothTrack(std::vector<double> times, std::vector<std::vector<double>> values);
+  /// The values at this time.
   std::vector<double> at(double time) const;
 
  private:
@@ -33,6 +34,7 @@ class HandTrack {
  public:
   /// The pose of the wrist is {exp(turn) base, position}, in the frame of the keys.
   HandTrack(const Eigen::Matrix3d& base, const std::vector<HandKey>& keys);
+  /// The pose at this time [s].
   SkeletonPose at(double time) const;
 
  private:

@@ -1,3 +1,4 @@
+// Sequences in which a plate hides a part of the fingers.
 #include <algorithm>
 
 #include "drivers/synthetic/shapes.h"

@@ -28,6 +28,7 @@ class Rasteriser {
   static constexpr double kNearPlane = 0.02;  ///< [m]
 
   explicit Rasteriser(const Intrinsics& camera);
+  /// Empties the buffer.
   void clear();
   /// Draws triangles, whose indices in the buffer are first, first + 1, ...
   void draw(std::span<const Eigen::Vector3f> vertices, std::span<const Triangle> triangles, std::uint32_t first);

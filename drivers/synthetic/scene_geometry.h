@@ -19,7 +19,9 @@ struct SceneGeometry {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> surface;  ///< of every triangle: index of its material
 
+  /// Appends a mesh, all of whose triangles get the surface `surface_index`.
   void add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index);
+  /// Appends another scene with its surfaces.
   void add(const SceneGeometry& other);
   /// Mirrors everything in the plane x = 0, which turns the scene into one of the other hand.
   void mirror();

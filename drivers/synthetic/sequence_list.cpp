@@ -1,3 +1,4 @@
+// The list of all sequences, and their creation by name.
 #include "drivers/synthetic/stage_set.h"
 
 namespace barehand::synthetic {

@@ -29,6 +29,7 @@ TriangleMesh make_tube(std::span<const Eigen::Vector3d> path, std::span<const do
 struct MugSize {
   double radius = 0.040, height = 0.110, wall = 0.004;
 };
+/// A mug of this size.
 TriangleMesh make_mug(const MugSize& size);
 
 /// Combination pliers in the x-y plane about the middle of the handles: handles along +-x, jaws at -x. Sizes in
@@ -36,6 +37,7 @@ TriangleMesh make_mug(const MugSize& size);
 struct PliersSize {
   double length = 0.19, handle_radius = 0.0065, spread = 0.019;
 };
+/// Pliers of this size.
 TriangleMesh make_pliers(const PliersSize& size);
 
 }  // namespace barehand::synthetic

@@ -38,6 +38,7 @@ class FreeSequence : public Sequence {
   HandTrack track_;
 };
 
+/// One hand in the air; see sequence_list() for what each of these sequences shows.
 std::unique_ptr<Sequence> make_fist(std::uint64_t seed);
 std::unique_ptr<Sequence> make_open(std::uint64_t seed);
 std::unique_ptr<Sequence> make_scan(std::uint64_t seed);
@@ -47,7 +48,9 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed);
 std::unique_ptr<Sequence> make_two_hands(std::uint64_t seed);
 /// `degree` 0 to 6: the occluder hides degree / 6 of the fingers.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed);
+/// What a grasp sequence grasps.
 enum class GraspedThing { mug, ball, pliers };
+/// A hand that grasps, lifts, turns and releases a thing on a table.
 std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedThing thing, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

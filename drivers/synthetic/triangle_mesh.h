@@ -13,6 +13,7 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3f> normals;
   std::vector<Triangle> triangles;
 
+  /// Adds the triangles of another mesh in the same frame.
   void append(const TriangleMesh& other);
 };
 

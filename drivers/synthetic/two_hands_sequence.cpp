@@ -1,3 +1,4 @@
+// The sequence of a right and a left hand.
 #include "drivers/synthetic/stage_set.h"
 
 namespace barehand::synthetic {

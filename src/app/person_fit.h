@@ -13,6 +13,7 @@ namespace barehand {
 /// how the tracked hand should change.
 class PersonFit {
  public:
+  /// `mean`: the mean hand that is to be adapted.
   PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandProfile> mean);
 
   /// none: nothing changes; small: use `profile` and `skin` from now on; large: build a new skin for `profile`, too.

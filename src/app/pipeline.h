@@ -35,6 +35,7 @@ struct PipelineStages {
   std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
 };
 
+/// How the pipeline runs.
 struct PipelineOptions {
   bool threaded = true;                    ///< false: everything on the calling thread
   int max_failures_in_a_row = 30;          ///< of one stage or sink; more of them end the run
@@ -66,6 +67,7 @@ struct PipelinePulse {
 /// does not, since the network or disk that it writes to may come back.
 class Pipeline {
  public:
+  /// `clock` and `log` must outlive the pipeline, and so must the source and the sinks.
   Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log);
 
   /// Call once. Returns when all frames are processed.

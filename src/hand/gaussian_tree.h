@@ -16,6 +16,7 @@ struct GaussianTree {
   std::array<Matrix6d, kSegmentCount> H_parent;  ///< rows: segment, columns: its parent; unused for the palm
   std::array<Vector6d, kSegmentCount> g;
 
+  /// Removes all residuals.
   void set_zero();
   /// Adds residuals r with the information matrix W that depend on the segment `child`, which is not the palm, and on
   /// its parent.

@@ -42,7 +42,7 @@ constexpr double kWebThickness = 0.94;
 constexpr double kWebOffset = 1.54;  // towards the palm, relative to the knuckles' flesh offset
 
 constexpr double kThumbWebAlongThumb = 0.799;  // where the thumb's web begins, as a fraction of the metacarpal
-// where it ends, as a fraction of the way from the wrist to the index knuckle
+// Where it ends, as a fraction of the way from the wrist to the index knuckle.
 constexpr double kThumbWebAlongPalm = 0.661;
 constexpr double kThumbWebThickness = 0.484;  // relative to the thumb's next joint
 constexpr double kThumbWebHalfLength = 1.18;

@@ -8,6 +8,7 @@
 
 namespace barehand {
 
+/// A triangle mesh in the frame of the signed distance [m].
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside

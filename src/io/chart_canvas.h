@@ -26,6 +26,7 @@ class ChartCanvas {
   void dot(cv::Point centre, const cv::Scalar& colour);
   /// Writes the legend in one row above the frame.
   void legend(const std::vector<std::string>& names);
+  /// Writes the image as PNG. Error: the file cannot be written.
   Result<void> write(const std::string& path) const;
 
   /// The colour of a series; colours repeat after eight.

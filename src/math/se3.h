@@ -17,6 +17,7 @@ struct SE3 {
   Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return R * p + t; }
   SE3 operator*(const SE3& b) const { return {R * b.R, R * b.t + t}; }
   SE3 inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
+  /// The homogeneous 4x4 matrix.
   Eigen::Matrix4d matrix() const;
   bool all_finite() const { return R.allFinite() && t.allFinite(); }
 };

@@ -23,6 +23,7 @@ struct FusedPose {
 /// called again, because its memory is reused. Every segment of `samples` needs at least one sample.
 class Fusion {
  public:
+  /// `workers` must outlive this object.
   Fusion(const FusionParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers);
 
   const FusionParams& params() const { return params_; }

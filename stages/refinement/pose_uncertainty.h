@@ -36,6 +36,7 @@ void visit(V& v, UncertaintyParams& p) {
 /// together, and the time that a hidden joint has had to move. One object follows one hand from frame to frame.
 class PoseUncertainty {
  public:
+  /// `energy`: the parameters with which the poses are refined.
   PoseUncertainty(const UncertaintyParams& params, const EnergyParams& energy);
 
   /// Call when another hand is tracked or the track starts anew: the joints that are not seen may then be anywhere.

@@ -31,6 +31,7 @@ struct ScanEquations {
   int mean_rows = 0;  ///< of J
   Eigen::VectorXd g;
 
+  /// Removes all terms; `count`: number of unknowns.
   void set_zero(int count);
   void add(int i, int j, double value) { H.emplace_back(std::max(i, j), std::min(i, j), value); }
   /// Adds a symmetric block on the diagonal, beginning at the unknown `first`.

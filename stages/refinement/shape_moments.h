@@ -17,6 +17,7 @@ struct ShapeEquations {
   Eigen::Matrix<double, kShapeCount, kShapeCount> H_shape;
   HandShape g_shape;
 
+  /// Removes all residuals.
   void set_zero();
   /// Eliminates the pose by a Schur complement: what the frame says about the shape alone. Returns false if the
   /// equations of the pose are not positive definite or the result is not finite.
