@@ -21,7 +21,7 @@ PersonFit::Change PersonFit::look(const HandObservation& observation, const Hand
     basis_ = shape_basis(*mean_, made_shape_, *made_skin_);
   }
 
-  // Update the shape by what this frame says.
+  // Update the shape by the equations of this frame.
   refinement.shape_equations(observation, pose, *basis_, equations_);
   if (!fit_.add(equations_, shape_)) return Change::none;
   shape_ = fit_.estimate();

@@ -45,7 +45,7 @@ std::vector<std::string> ScanReport::missing() const {
       stiff.push_back(name);
   }
 
-  // Say it, one sentence per kind.
+  // Ask for it, one sentence per kind.
   if (!palm_sides.empty()) sentences.push_back("show the palm side of: " + comma_list(palm_sides));
   if (!back_sides.empty()) sentences.push_back("show the back of: " + comma_list(back_sides));
   if (!stiff.empty()) sentences.push_back("bend and stretch: " + comma_list(stiff));

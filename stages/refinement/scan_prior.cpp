@@ -8,7 +8,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// All values are standard deviations; they are about as large as the errors of a fit of the bones alone.
+// Standard deviations. Those of the joints are about as large as the error of a fit to elliptic sections.
 constexpr double kAcrossBone = 0.002;    // m, of a joint across the bone
 constexpr double kAlongBone = 0.003;     // m, along the bone; in all directions for the thumb's root, deep in flesh
 constexpr double kBetweenBones = 0.001;  // m, between the two points of a joint
