@@ -106,6 +106,8 @@ TEST(BoundedQueue, CountsHoldWithManyThreads) {
         producers.emplace_back([&] {
           for (int i = 0; i < 500; ++i) queue.push(i);
         });
+
+      // The consumers end when the queue is closed and empty.
       producers.clear();
       queue.close();
     }

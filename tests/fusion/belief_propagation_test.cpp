@@ -28,6 +28,8 @@ SmallTree random_tree(std::uint64_t seed, double phi_range, double energy_range)
     tree.parent.push_back(i == 0 ? -1 : static_cast<int>(random.uniform(0, i)));
     tree.log_phi.emplace_back(1 + static_cast<int>(random.uniform(0, 4)));
     for (double& p : tree.log_phi.back()) p = random.uniform(-phi_range, 0);
+
+    // The edge to the parent.
     EdgeEnergy e;
     if (i > 0) {
       e = {tree.log_phi[tree.parent[i]].size(), tree.log_phi[i].size(), {}};

@@ -32,6 +32,7 @@ SegmentSamples flat_samples(const HandPose& pose, int count) {
       twist.tail<3>() *= 0.3;
       samples.poses[s].push_back(boxplus(pose[s], twist));
     }
+
     samples.log_likelihood[s].assign(count, 0.0);
   }
   return samples;

@@ -16,12 +16,16 @@ inline HandProfile small_hand() {
   };
   shape(profile.segments[kPalm], 0.09, 0.02);
   profile.segments[kPalm].half_width = {0.04, 0.04};
+
+  // The fingers, slightly fanned out.
   for (int finger = 0; finger < kFingerCount; ++finger)
     for (int k = 0; k < 3; ++k) {
       SegmentProfile& s = profile.segments[segment_of(finger, k)];
       shape(s, 0.03, 0.008);
       s.T_hand_segment.t = {-0.04 + 0.02 * finger, 0, -0.09 - 0.03 * k};
       s.T_hand_segment.R = exp_so3({0, 0.05 * (2 - finger), 0});
+
+      // The joints.
       if (k == 0) s.dofs.push_back({"abduction", Eigen::Vector3d::UnitY(), -20 * kDegree, 20 * kDegree});
       s.dofs.push_back({"flexion", -Eigen::Vector3d::UnitX(), -10 * kDegree, 90 * kDegree});
     }

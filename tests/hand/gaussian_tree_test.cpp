@@ -22,6 +22,7 @@ GaussianTree random_tree(std::uint32_t key) {
     tree.H_self[s] += Matrix6d::Identity() * 0.1;
     tree.g[s] = Vector6d::NullaryExpr([&] { return random.uniform(-1, 1); });
     if (s == kPalm) continue;
+
     const Matrix6d a = block(), b = block();  // a random residual between segment and parent
     tree.H_self[s] += a.transpose() * a;
     tree.H_self[parent_of(s)] += b.transpose() * b;

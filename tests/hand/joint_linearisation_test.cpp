@@ -40,6 +40,8 @@ class JointJacobiansTest : public ::testing::Test {
       pose[body] = boxplus(pose[body], Vector6d::Unit(axis) * step);
       return quantity(linearise_joint(*profile_, pose, segment));
     };
+
+    // Compare every column, for the segment and for its parent.
     double worst = 0;
     for (int axis = 0; axis < 6; ++axis) {
       const auto numeric = [&](int body) { return ((moved(body, axis, h) - moved(body, axis, -h)) / (2 * h)).eval(); };

@@ -20,6 +20,8 @@ std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, d
     TableFrame frame{i, 0.1 * i, {}};
     for (int s = 0; s < kSegmentCount; ++s) {
       frame.rows[s] = {{0.01 * s, 0, 0.5}, {0.01 * s, 0.03, 0.5}, 1};
+
+      // Both ends are off by random errors.
       const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() * stated * stated;
       out.second[i][s] = {
           frame.rows[s].proximal + off(), frame.rows[s].distal + off(), covariance, covariance, confidence, s < 8};

@@ -16,6 +16,7 @@ double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, con
     const Eigen::Vector3d p = ray.cross(ac);
     const double det = ab.dot(p);
     if (det < 1e-14) continue;  // seen from behind
+
     const double u = -a.dot(p) / det;
     const Eigen::Vector3d q = (-a).cross(ab);
     const double v = ray.dot(q) / det, depth = ac.dot(q) / det;

@@ -22,6 +22,7 @@ double gradient_error(const Energy& energy, const HandPose& pose, const Gaussian
         moved[s] = boxplus(moved[s], h * Vector6d::Unit(i));
         return energy(moved);
       };
+
       const double unit = i < 3 ? 1 : arm;
       const double numeric = 0.5 * (at(step) - at(-step)) / (2 * step);
       worst = std::max(worst, std::abs(numeric + tree.g[s][i]) / unit);

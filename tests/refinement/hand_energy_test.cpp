@@ -32,6 +32,7 @@ class EnergyTest : public ::testing::Test {
       Correspondence c;
       c.kind = static_cast<Kind>(i % 4);
       c.vertex = static_cast<int>(random.bits() % posed.size());
+
       c.model = posed[c.vertex];
       c.normal = Eigen::Vector3f(random.normal(), random.normal(), random.normal()).normalized();
       c.data = c.model + 0.003f * Eigen::Vector3f(random.normal(), random.normal(), random.normal());

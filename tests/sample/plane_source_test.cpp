@@ -21,6 +21,7 @@ TEST(PlaneSource, DeliversEveryFrameInOrderAndThenEnds) {
     const SourceEvent event = (*source)->next(milliseconds(0));
     const auto* frame = std::get_if<FramePtr>(&event);
     ASSERT_TRUE(frame);
+
     EXPECT_EQ((*frame)->number, i);
     EXPECT_GT((*frame)->utime, last_utime);
     EXPECT_TRUE((*frame)->camera.valid());

@@ -49,6 +49,7 @@ TEST_F(MeasuredProfile, EllipsesLieOnTheSkin) {
       const Eigen::Vector3d q = p.T_hand_segment.inverse() * right_.vertices[v].cast<double>();
       const double t = -q.z() / p.length;
       if (t < 0 || t > 1) continue;
+
       const auto at = [&](const std::array<double, 2>& ends) { return (1 - t) * ends[0] + t * ends[1]; };
       const Eigen::Vector2d d(q.x() - at(p.flesh_offset_x), q.y() - at(p.flesh_offset_y));
       const double rho = std::hypot(d.x() / at(p.half_width), d.y() / at(p.half_thickness));

@@ -139,6 +139,7 @@ TEST(TwoHands, TheNearerOneIsInThePicture) {
     const double in_front =
         middle.z() - f.frame->depth_unit * f.frame->depth.at(static_cast<int>(std::lround(pixel.x())),
                                                              static_cast<int>(std::lround(pixel.y())));
+
     if (row.visible < 0.05) {
       ++hidden;
       EXPECT_THAT(in_front, AllOf(Gt(0.06), Lt(0.16)));

@@ -88,6 +88,7 @@ void Device::expose_pictures(std::stop_token stop) {
     const auto now = settings_();
     const auto period = std::chrono::nanoseconds(std::llround(1e9 / now->fps));
     due += period;
+
     const auto late = SteadyClock::now() - due;
     if (late > period) {  // images that there was no time to expose are left out, but numbered
       const auto missed = late / period;
