@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-// difference of fx and fy; a larger one means that the field of view belongs to another mode
+// Difference of fx and fy; a larger one means that the field of view belongs to another mode.
 constexpr double kMostPixelStretch = 0.05;
 constexpr const char* kGiveIntrinsics =
     "give fx, fy, cx and cy in the configuration's openni2 group; record and convert take --fx --fy --cx --cy";

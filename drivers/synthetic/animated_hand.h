@@ -12,7 +12,7 @@ namespace barehand::synthetic {
 /// the mirror image in the plane x = 0.
 class AnimatedHand {
  public:
-  /// index of the sleeve's surface, after those of the segments
+  /// Index of the sleeve's surface, after those of the segments.
   static constexpr std::uint8_t kSleeve = kSegmentCount;
   static constexpr std::uint8_t kSurfaceCount = kSegmentCount + 1;  ///< number of surfaces of one hand
 

@@ -84,7 +84,7 @@ Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditio
 }
 
 Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, int repeat, BenchReport& report) {
-  // interleaved, so that other load on the machine affects all cases alike
+  // Interleaved, so that other load on the machine affects all cases alike.
   for (int round = 0; round < repeat; ++round)
     for (const NamedCase& named : cases) {
       auto row = measure(named, report.conditions, input);

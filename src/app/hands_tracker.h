@@ -41,7 +41,7 @@ class HandsTracker {
   HandEstimatePtr track(int k, const HandObservation& observation);
   // Gives up a hand that its trial shows to be of the other side.
   void judge_trial(int k, const HandEstimate& estimate);
-  // The whole frame if there is only one hand.
+  // Processes a whole frame if there is only one hand.
   HandEstimatePtr process_only(const HandObservation& observation);
   // The observations in the order of the hands.
   HandObservations by_hand(const HandObservations& observations) const;

@@ -95,7 +95,7 @@ void PersonScan::start() {
   of_hand_before_ = false;
   scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
                              Workers& workers) { return scanned(params, given, frames, workers, stop); });
-  // the frames need much memory and are no longer needed
+  // The frames need much memory and are no longer needed.
   if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};
 }
 

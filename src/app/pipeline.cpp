@@ -67,7 +67,7 @@ void Pipeline::run_threaded() {
 
   std::jthread preprocessor([&] {
     while (true) {
-      // taken first: meanwhile a frame at the door can still be replaced by a newer one
+      // Taken first: meanwhile a frame at the door can still be replaced by a newer one.
       const HandEstimates hints = take_hints();
       auto item = pop(kDoor);
       if (!item) break;
@@ -263,7 +263,7 @@ std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
 }
 
 PipelinePulse Pipeline::pulse() const {
-  // read before the queue, so that the number of frames inside is never too small
+  // Read before the queue, so that the number of frames inside is never too small.
   const std::int64_t finished = published_ + failed_;
   const QueueHealth door = queues_[kDoor].health();
   return {answers_, finished, door.pushed - door.dropped - finished};

@@ -12,7 +12,7 @@ namespace barehand {
 struct ScannedSegment {
   int seen = 0;                      ///< tracked frames in which the segment was seen
   int palm_side = 0, back_side = 0;  ///< those of them in which that side faced the camera
-  /// smallest and largest flexion of its joint in them [rad]; zeros for the palm
+  /// Smallest and largest flexion of its joint in them [rad]; zeros for the palm.
   double least_bent = 0, most_bent = 0;
 };
 

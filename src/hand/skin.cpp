@@ -38,7 +38,7 @@ struct Binding {
 // its back.
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
   constexpr double kReach = 0.82, kKnuckleReach = 1.79;  // relative to the joint's size, to either side
-  // relative to the joint's size: mean shift towards the tip, and its change from the palm side to the back
+  // Relative to the joint's size: mean shift towards the tip, and its change from the palm side to the back.
   constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;
   const Vector3d q = pose[distal].inverse() * p;
   const SegmentProfile& s = profile.segments[distal];
@@ -159,7 +159,7 @@ void compute_normals(const HandProfile& profile, Skin& skin) {
   // Average the normals of the triangles around each vertex.
   std::vector<Vector3f> normals(posed.size(), Vector3f::Zero());
   for (const auto& t : skin.triangles) {
-    // its length is twice the area, the weight
+    // Its length is twice the area, the weight.
     const Vector3f normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]);
     for (int corner : t) normals[corner] += normal;
   }

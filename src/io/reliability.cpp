@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 constexpr double kNinetyPercent = 1.6449;  // standard deviations to either side of a 90 % interval
 constexpr int kConfidenceBins = 10;
-// first bin's lower bound [m]; each bin is half an octave wide
+// First bin's lower bound [m]; each bin is half an octave wide.
 constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;
 constexpr int kErrorBins = 14;
 

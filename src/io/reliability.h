@@ -37,7 +37,7 @@ struct Reliability {
   std::size_t frames = 0;
   Coverage all, seen, inferred;
   std::vector<ReliabilityBin> errors;  ///< root mean square errors of an end [m], binned by the stated error
-  /// mean confidence, and fraction of segments with both ends within kConfidenceRadius
+  /// Mean confidence, and fraction of segments with both ends within kConfidenceRadius.
   std::vector<ReliabilityBin> confidences;
 };
 

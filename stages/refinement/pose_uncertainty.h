@@ -12,7 +12,7 @@ struct UncertaintyParams {
   double joint_deviation = 0.0005;  ///< m, per axis, deviation of a joint's place within the skin, which no image shows
   double mean_hand_factor = 3;      ///< factor on both deviations if the profile is a mean hand, fitted or not
   double scanned_factor = 0.85;     ///< factor on both deviations if the skin was scanned
-  /// deviation of a joint unseen for long, relative to that of a uniform distribution over its range
+  /// Deviation of a joint unseen for long, relative to that of a uniform distribution over its range.
   double range_share = 0.4;
   double just_hidden_deg = 4;  ///< deviation of a joint in the moment when it becomes hidden
   double growth_deg = 30;      ///< its growth after a second; it grows with the square root of the time

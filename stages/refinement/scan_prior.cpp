@@ -196,7 +196,7 @@ void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVa
   prior.add_smoothness();
   for (int s = 0; s < kSegmentCount; ++s) prior.add_mean(s);
   if (hold_joints) return;
-  // the thumb's root lies too deep in flesh
+  // The thumb's root lies too deep in flesh.
   for (int finger = 1; finger < kFingerCount; ++finger) prior.add_middle(finger);
 }
 

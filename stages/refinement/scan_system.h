@@ -35,7 +35,7 @@ class ScanSystem {
   Eigen::VectorXd g_;
   Eigen::SparseMatrix<double> H_, means_;  // H_: lower triangle
   Eigen::LLT<Eigen::MatrixXd> joints_;     // preconditioner of the joints
-  // preconditioner of the skin's unknowns, augmented by the means
+  // Preconditioner of the skin's unknowns, augmented by the means.
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> skin_;
 };
 

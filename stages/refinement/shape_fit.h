@@ -16,7 +16,7 @@ struct ShapeFitParams {
   double memory = 1.5;        ///< looks to remember, relative to all so far: old ones were taken with a worse hand
   double memory_looks = 200;  ///< but never more looks than this
   int first_rebuild = 8;      ///< looks before the skin is first remade; then after twice, four times ... as many
-  /// frames before the skin is first scanned (scan_hand); then after twice, four times ... as many
+  /// Frames before the skin is first scanned (scan_hand); then after twice, four times ... as many.
   int scan_after = 60;
   int scans = 3;  ///< number of scans; 0: never
 };

@@ -25,7 +25,7 @@ class SkinSections {
 
  private:
   SkinSections() = default;
-  // x, y and radius, each at u = 0 and its slope; then (half width - half thickness) / 2
+  // x, y and radius, each at u = 0 and its slope; then (half width - half thickness) / 2.
   Eigen::Matrix<double, 7, 1> fit_;
   std::vector<int> vertices_;
   Eigen::VectorXd per_offset_;

@@ -29,7 +29,7 @@ TEST(AvailableMemory, IsTheKernelsFigureWithinTheGroupsLimit) {
   test::write_text(folder / "memory.max", "524288\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
 
-  // The group is the root in a namespace of its own.
+  // In a namespace of its own, the process's group is the root.
   test::write_text(own, "0::/\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
 }

@@ -24,7 +24,7 @@ TEST(ExtractSurface, SphereHasItsVolumeAndOutwardTriangles) {
   const TriangleMesh mesh = extract_surface(distance, Vector3d::Constant(-0.06), Vector3d::Constant(0.06), 0.004);
   for (const Vector3d& v : mesh.vertices) EXPECT_NEAR(distance(v), 0, 1e-5);
   const double volume = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-  // chords lie inside; a surface turned inside out would have a negative volume
+  // Chords lie inside; a surface turned inside out would have a negative volume.
   EXPECT_NEAR(signed_volume(mesh), volume, 0.02 * volume);
 }
 

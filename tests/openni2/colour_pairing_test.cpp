@@ -31,7 +31,7 @@ TEST(ColourPairing, ColourOfAnotherExposureIsNotTaken) {
   pairing.add_colour(at(1000, 5000, "c1"));
   EXPECT_EQ(text(pairing.add_depth(at(34'000, 38'000, "d2"))), "none");
   EXPECT_EQ(text(pairing.due(39'000)), "none");
-  // the next exposure: the old one has waited long enough
+  // The next exposure: the old one has waited long enough.
   EXPECT_EQ(text(pairing.add_depth(at(67'000, 71'000, "d3"))), "d2+-");
   EXPECT_EQ(text(pairing.add_colour(at(67'000, 72'000, "c3"))), "d3+c3");
 }

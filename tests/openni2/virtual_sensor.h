@@ -24,7 +24,7 @@ class VirtualSensor {
     write();
     setenv("BAREHAND_VIRTUAL_OPENNI2", path_.c_str(), 1);
     setenv("LD_LIBRARY_PATH", BAREHAND_OPENNI2_SDK, 1);
-    // until a driver that another test left loaded has noticed
+    // Until a driver that another test left loaded has noticed.
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   ~VirtualSensor() { unsetenv("BAREHAND_VIRTUAL_OPENNI2"); }

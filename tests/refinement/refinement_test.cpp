@@ -91,7 +91,7 @@ TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
   // All fingers are hidden.
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
   auto observation = test::observe_skin(other_knuckles, truth);
-  // up to the knuckles
+  // Up to the knuckles.
   hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);
 
   // How far the refinement rotates the hidden finger in a second.

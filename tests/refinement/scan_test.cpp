@@ -65,7 +65,7 @@ class ScanTest : public ::testing::Test {
 };
 
 TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
-  // with other origins, the tips move to where the skin says
+  // With other origins, the tips move to where the skin says.
   const HandProfile start = started_as(ProfileOrigin::measured);
   const HandProfile hand = scanned_profile(make_scan_model(start, kCell), make_scan_model(start, kCell));
 

@@ -42,8 +42,8 @@ class Device : public oni::driver::DeviceBase {
   std::mutex streams_mutex_;
   std::vector<std::unique_ptr<Stream>> streams_;
   std::atomic<bool> registered_ = false;
-  // permanent, as a sensor that is plugged in again is another device; like the next members, used by the exposing
-  // thread only
+  // Permanent, as a sensor that is plugged in again is another device; like the next members, used by the exposing
+  // thread only.
   bool unplugged_ = false;
   int index_ = 0;
   std::int64_t frozen_at_ = -1;

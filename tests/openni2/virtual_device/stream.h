@@ -42,7 +42,7 @@ class Stream : public oni::driver::StreamBase {
   const Intrinsics camera_;
   const double fps_;
   const bool field_of_view_, mirror_fixed_;
-  // protects the members below; also held while a frame is delivered, so that stop() waits for it
+  // Protects the members below; also held while a frame is delivered, so that stop() waits for it.
   mutable std::mutex mutex_;
   OniVideoMode mode_;
   bool mirrored_ = true;  // like a PrimeSense after its start
