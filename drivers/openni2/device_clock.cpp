@@ -33,6 +33,7 @@ DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arriva
       mapped.host_us = first_arrival_ + std::llround(mark.x + line(mark.x));
     }
   }
+
   // A frame is exposed neither after its arrival nor before its predecessor.
   mapped.host_us = std::max(std::min(mapped.host_us, arrival_us), last_host_ + 1);
   last_device_ = device_us;

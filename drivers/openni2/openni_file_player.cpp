@@ -37,6 +37,7 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     return fail("no such file", path, "give the path of an .oni file");
+
   // OpenNI2's player cannot handle files that are not recordings, so they are refused here.
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());

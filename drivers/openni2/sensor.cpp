@@ -145,6 +145,7 @@ Result<void> OpenNiSensor::choose_intrinsics() {
     if (plausible(camera_)) return {};
     return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
   }
+
   // Otherwise they follow from the field of view. Registered depth is what the colour camera would measure.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);

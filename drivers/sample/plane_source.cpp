@@ -24,6 +24,7 @@ Result<std::unique_ptr<PlaneSource>> PlaneSource::open(const Options& options) {
 
 SourceEvent PlaneSource::next(std::chrono::milliseconds) {
   if (next_ >= options_.frames) return EndOfStream{};
+
   // The distance of the wall at this time.
   const double time = static_cast<double>(next_) / options_.fps;
   const double swing = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPeriod);

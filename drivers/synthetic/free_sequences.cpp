@@ -143,6 +143,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
     Vector3d from, here, turn;
     HandAngles angles;
   };
+
   // Where the hand goes, and what it looks like there.
   const Vector3d left(-0.75, 0.1, 0.6), right(0.75, 0.1, 0.6), below(0.05, 0.65, 0.6);
 

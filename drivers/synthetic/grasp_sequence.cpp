@@ -57,6 +57,7 @@ GraspPlan plan_mug() {
   const Vector3d up = Vector3d::UnitZ(), fingers(std::cos(heading), std::sin(heading), 0);
   const Vector3d x_palm = -up, y_palm = (-fingers).cross(x_palm);
   const Eigen::Matrix3d R_world_palm = axes(x_palm, y_palm);
+
   // The handle is on the side away from the palm, a little towards the wrist.
   const Vector3d handle = (0.86 * -y_palm - 0.5 * fingers).normalized();
   const Eigen::Matrix3d R_world_thing = axes(handle, up.cross(handle));

@@ -16,6 +16,7 @@ Eigen::Vector3d stretch(int joint, const HandShape& shape) {
 HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
   HandMesh result = mesh;
   std::array<Eigen::Affine3d, kJointCount> deform;  // old to new hand frame
+
   // Stretch joint after joint.
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SE3& T = mesh.T_hand_joint[joint];

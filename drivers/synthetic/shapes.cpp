@@ -30,6 +30,7 @@ std::vector<Eigen::Matrix<double, 3, 2>> carried_frames(std::span<const Vector3d
 TriangleMesh make_patch(int columns, int rows, const std::function<Vector3d(double, double)>& point, bool closed_u,
                         bool closed_v) {
   TriangleMesh mesh;
+
   // Vertices; a closed direction has one row less.
   const int nu = closed_u ? columns : columns + 1, nv = closed_v ? rows : rows + 1;
   for (int j = 0; j < nv; ++j)

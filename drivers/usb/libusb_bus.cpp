@@ -59,6 +59,7 @@ Result<std::vector<UsbSensor>> LibUsbBus::sensors() {
   const auto listing = UsbListing::take();
   if (!listing) return tl::unexpected(listing.error());
   std::vector<UsbSensor> found;
+
   // Look for known sensors, and check whether this user may open them.
   for (libusb_device* device : listing->devices()) {
     const UsbAddress address = address_of(device);

@@ -28,6 +28,7 @@ class MeasuringSink : public Sink {
     if (++seen_ == conditions_.warm_up) start();
 
     if (seen_ <= conditions_.warm_up) return {};
+
     // Count the frames in which all hands are tracked.
     tracked_ += std::ranges::all_of(tracked.estimates,
                                     [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
@@ -105,6 +106,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   auto workers = make_workers(bench.threads);
   if (!workers) return tl::unexpected(workers.error());
   (*workers)->go_live();  // as beside a sensor, the scan of a mean hand only uses time that tracking leaves
+
   // The states go through LCM and come back.
   auto opened = LcmBus::open(conditions.lcm_url);
   if (!opened) return tl::unexpected(opened.error());

@@ -139,6 +139,7 @@ int run(const CalibrateOptions& o) {
   if (!scan.profile)
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
+
   // Save the fitted hand before the scan, which takes a while.
   if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
 

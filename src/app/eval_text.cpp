@@ -25,6 +25,7 @@ void print_row(std::string& out, const std::string& name, const Distribution& d,
 /// Frame numbers with ranges, for example "3, 7-12, 20".
 std::string frame_list(const std::vector<std::int64_t>& numbers) {
   std::string text;
+
   // Find the end of a run of consecutive numbers.
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t end = i;

@@ -38,6 +38,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   ExperimentOptions& o = a->options;
   o.threads = available_cores();
   CLI::App* command = app.add_subcommand("experiment", "Repeat the paper's experiments on the simulator");
+
   // Which experiment.
   command
       ->add_option("name", a->name,
@@ -67,6 +68,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   command->add_option("--frames", o.frames, "end every sequence after so many frames")->check(CLI::PositiveNumber);
   command->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   command->footer("Ctrl-C ends the run; what was finished until then stays.");
+
   // The default configurations depend on the experiment.
   command->callback([a, &exit_code] {
     if (a->configs.empty())

@@ -105,6 +105,7 @@ void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileCheck& check = *checks_[0];
+
   // A track goes on; its trial may end it.
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
     HandEstimatePtr estimate = track(0, observation);
@@ -154,9 +155,11 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
+
   // If one side finds no hand at all, that must not count more than a bad explanation.
   const double none = params_.loss.lost_score;
   const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->refined.score, none) : none; };
+
   // Whether some side already explains the observation well enough.
   const auto convincing = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;

@@ -124,6 +124,7 @@ HandEstimates Pipeline::take_hints() {
 
 Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   if (stopped() || ending_) return Capture::end;
+
   // A source that throws has failed.
   SourceEvent event;
   try {

@@ -74,6 +74,7 @@ int run(const SimArguments& a) {
 void add_sim_command(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<SimArguments>();
   CLI::App* sim = app.add_subcommand("sim", "Render a synthetic sequence of a hand with ground truth");
+
   // What is rendered, and where to.
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
   sim->add_option("--out", a->out, "folder to make, or FILE.lcmlog");

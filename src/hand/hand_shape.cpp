@@ -26,6 +26,7 @@ std::array<ShapeParameter, kShapeCount> make_parameters() {
   p[kPalmWidth] = {"palm_width", 0.06};
   p[kPalmLength] = {"palm_length", 0.06};
   p[kPalmThickness] = {"palm_thickness", 0.15};
+
   // One component per finger.
   for (int f = 0; f < kFingerCount; ++f) {
     const std::string finger = kFingerNames[f];
@@ -137,6 +138,7 @@ ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Sk
 
   const HandProfile hand = reshaped(mean, shape);
   const ImplicitHand surface(hand);
+
   // Distance of a vertex from the surface of another shape.
   const auto distance_at = [&](const ImplicitHand& other, const SkinVertex& v) {
     // A vertex follows its segments like any posed skin.

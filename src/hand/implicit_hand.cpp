@@ -157,6 +157,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   const EllipticSection wrist = section_at(palm, 0);
 
   const double side = side_sign(profile.handedness);  // sign of x at the little finger
+
   // Towards a neighbour the tube reaches the neighbour's bone, which avoids grooves between the metacarpals.
   const double reach_little =
       finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorderLittle;
@@ -178,6 +179,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
                       wrist.centre_y * (kWristOffset + kWristOffsetSlope * across)};
   tube.sections[2] = {0.5 * (reach_little + reach_thumb), root.half_y * kKnuckleThickness,
                       side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5, root.centre_y * kKnuckleOffset};
+
   // The heel of the hand is thicker than the wrist and than a straight line to the knuckles.
   tube.sections[1] = mix(tube.sections[0], tube.sections[2], tube.middle);
   tube.sections[1].half_x *= kHeelWidth;

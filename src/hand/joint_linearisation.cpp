@@ -13,6 +13,7 @@ JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& p
 
 JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment) {
   const SE3& parent = pose[parent_of(segment)];
+
   // The joint as seen from the parent.
   JointLinearisation joint;
   joint.lever = parent.R * rest.t;

@@ -38,6 +38,7 @@ struct Binding {
 // its back.
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
   constexpr double kReach = 0.82, kKnuckleReach = 1.79;  // relative to the joint's size, to either side
+
   // Relative to the joint's size: mean shift towards the tip, and its change from the palm side to the back.
   constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;
   const Vector3d q = pose[distal].inverse() * p;
@@ -111,6 +112,7 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 Skin make_blended_skin(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
+
   // A box around all bones with a margin for the flesh.
   Vector3d lower = hand.pose()[kPalm].t, upper = lower;
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -100,6 +100,7 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
     for (int i = 0; i < 3; ++i) vertex -= distance(vertex) * surface_normal(distance, vertex);
     mesh.vertices.push_back(vertex);
   });
+
   // Every grid edge that crosses the surface joins the vertices of the four cells around it.
   for_each_cell([&](const Vector3i& n) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -32,6 +32,7 @@ FrameErrors frame_errors(const TableFrame& truth, const TableFrame& result) {
 std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const ExpectedFrames& expected) {
   std::vector<const TableFrame*> frames;
   if (truth.frames.empty()) return frames;
+
   // Without a start the run begins at the first or the last frame.
   const auto [first, last] =
       std::minmax_element(truth.frames.begin(), truth.frames.end(),

@@ -38,6 +38,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
 
 Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& path) {
   std::ifstream file(path);
+
   // The heading shows that the file is such a table.
   if (!file) return fail("cannot be read", path, "check that the file exists and is readable");
   std::string text;

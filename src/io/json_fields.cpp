@@ -83,6 +83,7 @@ Result<std::string> Object::text(const char* key) const {
 
 Result<SE3> Object::transform(const char* key) const {
   const char* wanted = "a 4x4 rigid transform, row by row, in metres";
+
   // The shape of the matrix.
   if (!has(key)) return bad(*this, key, "is missing", wanted);
   const Json& rows = json.at(key);

@@ -42,6 +42,7 @@ Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) 
   if (const auto names = check_names(segments, path); !names) return tl::unexpected(names.error());
 
   HandPose pose;
+
   // The parent comes before its child.
   const Json none = Json::object();
   for (int s = 0; s < kSegmentCount; ++s) {

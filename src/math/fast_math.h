@@ -14,6 +14,7 @@ inline float fast_exp(float x) {
   // Split x into n ln 2 + r.
   const float n = std::floor(x * std::numbers::log2e_v<float> + 0.5f);
   const float clamped = n < -126.0f ? -126.0f : n;
+
   // Subtracting n ln 2 in two steps (Cody and Waite) keeps the remainder exact.
   const float r = (x - clamped * 0.693359375f) + clamped * 2.12194440e-4f;
 

@@ -80,6 +80,7 @@ class Rasteriser {
   // few cells, so most of such branches would be mispredicted.
   void shade(const Triangle& t, float inverse_area, const Box& box, int i) {
     const Vertex &a = out_.in_grid[t[0]], &b = out_.in_grid[t[1]], &c = out_.in_grid[t[2]];
+
     // Barycentric weights and 1/z are linear in the image, so going down a row adds a constant.
     const Lanes x = static_cast<float>(i) + kSteps;
     const float y = static_cast<float>(box.j0);
@@ -128,6 +129,7 @@ class Rasteriser {
   void put(int i, int j, const IntLanes& inside, const Lanes& inverse_z, const IntLanes& carrier) {
     float* depth = &out_.depth.at(i, j);
     std::int32_t* vertex = &out_.vertex.at(i, j);
+
     // Lanes beyond the end of the row belong to the next row, and `inside` leaves them as they are. The last row has
     // no next one, so only the bytes that are left may be touched.
     const std::size_t left = out_.depth.size() - out_.depth.index(i, j);

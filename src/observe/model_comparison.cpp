@@ -86,12 +86,14 @@ class Comparer {
       add(Kind::surface, i, j, data_point(u, v), std::abs(z_data - z_model));
       return;
     }
+
     // Anything else in front of the model hides it; behind the model it contradicts the model.
     const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
     if (z_data < z_model + tolerance) return;
     ++out_.visible[segment];
     const std::int32_t hand = obs_.nearest_hand.at(u, v);
     if (hand < 0) return;
+
     // The model should not be visible here. It moves to whichever explanation is nearer: aside, onto the hand's data
     // (Eq. 1), or back behind the measured surface if it stands out of it by little.
     const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);

@@ -12,6 +12,7 @@ constexpr std::int16_t kNone = -1;
 void NearestCell::index(const Image<std::int32_t>& occupied) {
   const int width = occupied.width(), height = occupied.height();
   row_.reset(width, height, kNone);
+
   // Sweep down: the nearest occupied row at or above each cell. Working on whole rows lets the compiler vectorise.
   for (int v = 0; v < height; ++v) {
     const std::int32_t* set = occupied.row(v);

@@ -66,6 +66,7 @@ const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const Han
 
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {
   FusedPose fused;
+
   // The pose.
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& poses = samples.poses[s];

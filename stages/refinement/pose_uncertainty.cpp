@@ -55,6 +55,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
   // The skin's deviation depends on how well the profile knows the person.
   const double factor = (profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor) *
                         (profile.scanned_skin ? params_.scanned_factor : 1.0);
+
   // Within a patch of skin the model's error is common to all pixels, so a patch counts as one measurement with the
   // deviation of the skin instead of that of a pixel.
   const double scale =

@@ -65,6 +65,7 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen,
                       const DataWeighting& weighting, const Skin& skin, Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
+
   // The evidence of the data is kept apart, since the covariance is computed from it.
   refined.evidence.set_zero();
   add_data_terms(skin, pose, work.comparison, params_.energy, weighting, refined.evidence);
@@ -112,6 +113,7 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
 RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                                     const HandPose& predicted, int iterations) const {
   const auto is_fine = [&](int i) { return i + kFineSteps >= iterations; };
+
   // Only the first steps compare coarsely; the last ones and the score after them compare finely.
   const auto detail = [&](int i) { return is_fine(i) ? fine() : coarse(observation); };
 
@@ -135,6 +137,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
 
   const bool measured = profile_->origin == ProfileOrigin::measured;
+
   // How skin folds at joints is only guessed until it is scanned, and would slowly rotate a hidden finger.
   const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;

@@ -74,6 +74,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
                                   GaussianTree& tree) {
   const ComparisonParams params;
   const HandObservation& observation = *frame.observation;
+
   // Find the correspondences of data and skin.
   RenderedHand rendered;
   ModelComparison comparison;
@@ -143,6 +144,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
 void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model,
                                     const std::array<JointLimits, kSegmentCount>& limits, GaussianTree& tree) {
   const double w_gap = 1 / sq(kSigmaGap);
+
   // The two points of the joint must meet (Eq. 5).
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);

@@ -88,6 +88,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const HandPose& bind = hand.pose();  // in this pose both segments carry a vertex to the same place
   ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}, {}};
+
   // Every vertex gets a second segment.
   for (SkinVertex& v : model.skin.vertices) {
     if (v.a == v.b) {
@@ -131,6 +132,7 @@ void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
 HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model) {
   HandProfile hand = model.profile;
   hand.origin = ProfileOrigin::measured;
+
   // Rest poses: the frames move to the joints.
   for (int s = 1; s < kSegmentCount; ++s) {
     const int parent = parent_of(s);

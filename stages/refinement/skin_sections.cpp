@@ -7,6 +7,7 @@ namespace barehand {
 
 std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, double length, bool alone) {
   constexpr float kAlong = 0.5f;  // cosine: skin that faces along the bone says little about its section
+
   // Fewer vertices than this do not determine a section.
   constexpr std::size_t kFewest = 12;
 

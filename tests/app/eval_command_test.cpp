@@ -79,6 +79,7 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
   frame.camera = {320, 240, 250, 250, 160, 120};
   frame.depth.reset(320, 240);
   ASSERT_TRUE(writer->write(frame));
+
   // The fingertip of the truth projects to u = 160 - 250 * 0.038 / 0.5 = 141.
   test::write_text(folder_ / "tips.csv", "frame,finger,u,v,visible\n1,index,141,123,1\n");
 

@@ -115,6 +115,7 @@ TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   HandEstimates last;
   for (int i = 0; i < 4; ++i) last = next(only_right, right_hand_);
   ASSERT_EQ(last[0]->status, TrackStatus::tracking);
+
   // A left hand takes its place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
   // a while.
   const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);

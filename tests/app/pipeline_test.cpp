@@ -276,6 +276,7 @@ TEST_P(PipelineLifecycle, FailingSinkCountsTheFrameAndEndsARunThatCannotWrite) {
 TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
   std::atomic<int> consumed = 0;
   int delivered = 0;
+
   // The next frame comes when the last one was consumed, so that none is dropped at the input queue.
   ScriptedSource source(true, [&](int) -> SourceEvent {
     if (delivered > consumed) return Timeout{};
@@ -429,6 +430,7 @@ TEST(PipelineRunners, ThreadedAndInlineGiveIdenticalResults) {
 TEST(PipelineRunners, SlowConsumerHoldsUpAReplayAndLosesNothing) {
   World world(true);
   world.options.replay_capacity = 1;
+
   // Frames in flight: one in every stage and queue, and one that the source cannot push.
   constexpr int kInFlight = 7;
   std::latch full(kInFlight);
@@ -457,6 +459,7 @@ TEST(PipelineRunners, SlowConsumerHoldsUpAReplayAndLosesNothing) {
 
 TEST(PipelineRunners, LiveFramesAreDroppedAtTheDoorAndTheNewestWinsThreaded) {
   World world(true);
+
   // All frames arrive while the first one is tracked.
   std::latch all_sent(1);
   ScriptedSource source(true, [&](int n) -> SourceEvent {

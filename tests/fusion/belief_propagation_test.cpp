@@ -51,6 +51,7 @@ Beliefs brute_force(const SmallTree& tree, Marginals marginals) {
   Beliefs result;
   for (const auto& phi : tree.log_phi) result.emplace_back(phi.size(), -INFINITY);
   std::vector<std::size_t> state(tree.parent.size(), 0);
+
   // The log probability of one joint state.
   for (bool more = true; more;) {
     double total = 0;

@@ -136,6 +136,7 @@ TEST_F(SkinTest, AScannedSkinIsMirroredAndScaledWithItsHand) {
   pose_skin(*other.scanned_skin, rest_other, posed_other);
   for (std::size_t i = 0; i < posed.size(); ++i)
     ASSERT_LT((posed_other[i] - 1.2f * posed[i].cwiseProduct(Vector3f(-1, 1, 1))).norm(), 1e-5f) << i;
+
   // Triangles still face outward: normals computed from them agree with those that were mirrored.
   Skin anew = *other.scanned_skin;
   compute_normals(other, anew);

@@ -75,6 +75,7 @@ TEST(Evaluation, ReturnsIntoViewAndHandsWhereThereIsNone) {
   ResultTable truth, result;
   for (int i : {0, 1, 2, 6, 7, 8, 9, 14, 15}) truth.frames.push_back(truth_frame(i));
   for (TableRow& row : truth.frames[3].rows) row.visible = 0.4;  // frame 6: hardly in view yet
+
   // 20: beyond the last frame of the truth
   for (int i : {0, 1, 2, 3, 9, 12, 20}) result.frames.push_back(truth_frame(i));
   const auto e = evaluate(truth, result);

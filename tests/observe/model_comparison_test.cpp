@@ -91,6 +91,7 @@ class HidingPlaceTest : public CompareTest {
     constexpr int kEdge = 200;
     const int width = observation_->label.width(), height = observation_->label.height();
     observation_->nearest_object.reset(width, height, -1);
+
     // In each row, find the nearest object to the right.
     for (int v = 0; v < height; ++v)
       for (int u = width - 1, object = -1; u >= 0; --u) {

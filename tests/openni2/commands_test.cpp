@@ -139,6 +139,7 @@ TEST(OpenNiCommands, TrackingOutlivesTheCable) {
   // Unplug it; after a while another sensor is plugged in.
   sensor.unplug();
   ASSERT_TRUE(track.wait_for("was unplugged")) << track.output();
+
   // Long enough for a second message about the same thing.
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   sensor.set({{"plugged", "1"}, {"uri", "virtual/3"}, {"sim", "fist,noise=kinect,width=160,height=120"}});

@@ -14,6 +14,7 @@ template <class Energy>
 double gradient_error(const Energy& energy, const HandPose& pose, const GaussianTree& tree, double step,
                       double arm = 1) {
   double worst = 0, scale = 0;
+
   // Move every segment along every axis.
   for (int s = 0; s < kSegmentCount; ++s)
     for (int i = 0; i < 6; ++i) {

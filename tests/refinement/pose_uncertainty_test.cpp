@@ -87,6 +87,7 @@ TEST_F(PoseUncertaintyTest, APoseWithoutEvidenceIsAnywhere) {
 
 TEST(ProbabilityWithin, AgreesWithDraws) {
   KeyedRandom random(1, 2);
+
   // Several spreads, among them a very flat one.
   for (const Eigen::Vector3d& deviations : {Eigen::Vector3d(0.004, 0.004, 0.004), Eigen::Vector3d(0.002, 0.005, 0.011),
                                             Eigen::Vector3d(0.0001, 0.0001, 0.02)}) {

@@ -91,6 +91,7 @@ TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
   // All fingers are hidden.
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
   auto observation = test::observe_skin(other_knuckles, truth);
+
   // Up to the knuckles.
   hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);
 

@@ -310,6 +310,7 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
   ScanEquations shared;
   shared.set_zero(variables.count());
   frames[0].add_to(shared);
+
   // The optimal step along `change`. A pixel belongs to its nearest vertex, and skin beside the changed one counts
   // more because it follows one bone, so the step is shorter than -1. With twice or half the derivative it would be
   // -0.13 or -0.53.
@@ -326,6 +327,7 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
     model.in_parent[s] += in_parent;
     model.in_segment[s] += in_segment;
   });
+
   // For a hinge that bends about one axis, only the difference along that axis can be recovered.
   const Vector3d found_parent = step.segment<3>(ScanVariables::joint(s)),
                  found = step.segment<3>(ScanVariables::joint(s) + 3);

@@ -92,6 +92,7 @@ TEST(KinectNoise, LeavesABandWithoutDataBesideAnEdge) {
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 80; u < 120; ++u) step.depth.at(u, v) = 0.5f;
   const auto depth = DepthNoise().kinect(kCamera, step, kMaterials, {}, 5, 0);
+
   // The projector is on the right, so its shadow is to the left of the near surface: baseline * f * (1/0.5 - 1/0.9)
   // wide.
   const int band = static_cast<int>(0.075 * kCamera.fx * (1 / 0.5 - 1 / 0.9));

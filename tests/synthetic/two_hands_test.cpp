@@ -75,6 +75,7 @@ TEST(TwoHands, AreARightAndALeftOne) {
     for (int s = 0; s < kSegmentCount; ++s)
       EXPECT_LT((frame.hands[hand].table->rows[s].distal - distal_end(profile, again, s)).norm(), 1e-6);
   }
+
   // With palms to the camera and fingers up, the right hand's thumb is on the right in the image and the left hand's
   // on the left.
   const auto thumb_side = [&](int hand) {

@@ -47,6 +47,7 @@ TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
   usb_.plug({.port = "1-4", .number = 6, .vendor = 0x046d, .product = 0xc077, .megabits = 12});
   usb_.plug({.port = "1-5", .number = 7, .vendor = 0x045e, .product = 0x02ae});
   usb_.plug({.port = "1-6", .number = 8, .vendor = 0x045e, .product = 0x0745});
+
   // The motor of a Kinect.
   usb_.plug({.port = "1-7", .number = 10, .vendor = 0x045e, .product = 0x02b0, .megabits = 12});
 

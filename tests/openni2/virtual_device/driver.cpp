@@ -78,6 +78,7 @@ class Driver : public oni::driver::DriverBase {
       const std::lock_guard lock(settings_mutex_);
       settings_ = std::move(now);
     }
+
     // No lock is held while OpenNI2 calls its listeners, because they may open a device.
     for (const std::string& uri : std::vector(present_))
       if (std::ranges::find(wanted, uri) == wanted.end()) unplug(uri);
