@@ -33,7 +33,7 @@ void NearestCell::index(const Image<std::int32_t>& occupied) {
 }
 
 std::int32_t NearestCell::find(int u, int v) const {
-  // Whether a column contains a nearer cell than the best so far.
+  // Takes the nearest occupied cell of a column if it is nearer than the best so far.
   const int width = row_.width();
   const std::int16_t* row = row_.row(v);
   int best_sq = std::numeric_limits<int>::max();

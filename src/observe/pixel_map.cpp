@@ -69,8 +69,8 @@ PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Wo
   workers.for_each_index(map.height, [&](int row) {
     const int v = row - 1;
     for (int u = -1; u <= w; ++u) {
-      // Inside the region a pixel is looked up; between the region and the image's border it is not hand; outside the
-      // image it stays silent.
+      // Inside the region each pixel has its own label; between the region and the image's border it is not hand;
+      // outside the image it gives no evidence.
       PixelMap::Cell& cell = map.cells[map.index(u + 1, row)];
       if (o.label.contains(u, v)) {
         cell = cells.at(u, v);

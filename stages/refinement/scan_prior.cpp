@@ -124,8 +124,8 @@ class Prior {
     add_mean_rows(unknowns, J, J * offset);
   }
 
-  // A finger is rooted in the middle of its skin from side to side, since images hardly show where along the knuckle's
-  // axis.
+  // A finger is rooted in the middle of its skin from side to side. This must be stated, as images hardly show where
+  // along the knuckle's axis the root is.
   void add_middle(int finger) {
     const int segment = segment_of(finger, 0);
     const auto sections = SkinSections::fit(start_.skin, segment, start_.profile.segments[segment].length, true);
