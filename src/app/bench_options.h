@@ -16,7 +16,7 @@ struct BenchOptions {
   std::int64_t store = 120;
   std::int64_t frames = 300;
   std::int64_t warm_up = 30;
-  std::optional<double> rate;  // frames per second of a live sensor; none: as fast as possible
+  std::optional<double> rate;  ///< frames per second of a live sensor; none: as fast as possible
   int threads = 1;
   bool single_threaded = false;  ///< --inline
   int repeat = 1;

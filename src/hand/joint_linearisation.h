@@ -28,7 +28,7 @@ struct JointLinearisation {
   JointJacobians of_gap() const;                        ///< of the gap: v_parent + w_parent x lever - v_segment
   JointJacobians of_turn() const;                       ///< of a rotation of R_joint_segment, in the joint's frame
   JointJacobians of_angles() const;                     ///< of flexion, abduction, twist
-  AngleExcess excess(const JointLimits& limits) const;  // how far the angles exceed `limits`
+  AngleExcess excess(const JointLimits& limits) const;  ///< how far the angles exceed `limits`
 };
 /// Linearises the joint between `segment`, which is not the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);
