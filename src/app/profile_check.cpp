@@ -20,9 +20,9 @@ constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 // of many attempts.
 constexpr int kMirroredAttempts = 2;
 
-// A trial may end after this number of frames in which both sides are tracked, and ends after at most kMostFrames.
-// While the mirrored profile is not tracked, it is searched in every kSearchAgain-th frame. The trial ends early with
-// this advantage of one side.
+// A trial ends when one side has the advantage kTrialAdvantage over at least kFewestFrames frames in which both are
+// tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is searched in every
+// kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
 constexpr double kTrialAdvantage = 0.2;
 constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
