@@ -5,8 +5,8 @@
 
 namespace barehand {
 
-/// How long to wait before the next attempt: twice as long each time, up to a limit that keeps the time to notice a
-/// sensor's return below two seconds.
+/// The waiting time before the next attempt. It doubles each time up to a limit, so that a sensor's return is noticed
+/// within two seconds.
 class Backoff {
  public:
   std::chrono::milliseconds next() {

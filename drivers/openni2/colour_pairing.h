@@ -7,9 +7,9 @@
 
 namespace barehand {
 
-/// Finds the colour picture that belongs to each depth picture, by the sensor's time stamps. A depth picture waits for
-/// its colour briefly, and not at all once colour has stopped: depth is what is tracked. `Picture` is a handle, empty
-/// by default. Microseconds.
+/// Finds the colour image that belongs to each depth image by the sensor's time stamps. A depth image waits for its
+/// colour only briefly, and not at all once colour has stopped, since depth is what is tracked. `Picture` is a handle
+/// that is empty by default. All times are in microseconds.
 template <class Picture>
 class ColourPairing {
  public:
@@ -22,10 +22,12 @@ class ColourPairing {
     std::optional<Picture> colour;
   };
 
-  /// `period_us`: between two depth frames; colour belongs to depth if their stamps differ by less than half of it.
+  /// `period_us`: time between two depth frames. Colour belongs to depth if their stamps differ by less than half of
+  /// it.
   explicit ColourPairing(std::int64_t period_us) : period_us_(period_us) {}
 
-  /// Depth that came; a pair that is thereby complete, or whose turn to wait is over.
+  /// Adds a depth image. Returns a pair that is thereby complete, or the previous depth image, whose time to wait is
+  /// over.
   std::optional<Pair> add_depth(Stamped depth) {
     std::optional<Pair> before;
     if (waiting_) before = flush();
@@ -33,35 +35,37 @@ class ColourPairing {
     if (before) return before;  // the new one waits for its colour, or for the next call of `due`
     return matched();
   }
+  /// Adds a colour image; returns the pair that is thereby complete.
   std::optional<Pair> add_colour(Stamped colour) {
     colour_ = std::move(colour);
     colour_taken_ = false;
     return matched();
   }
-  /// The waiting depth picture if its colour is there.
+  /// The waiting depth image if its colour has arrived.
   std::optional<Pair> matched() {
     if (!waiting_ || !colour_ || colour_taken_ || 2 * std::abs(waiting_->device_us - colour_->device_us) >= period_us_)
       return std::nullopt;
     colour_taken_ = true;
     return Pair{std::move(*std::exchange(waiting_, std::nullopt)), std::exchange(colour_->picture, Picture{})};
   }
-  /// The waiting depth picture, whatever became of its colour.
+  /// The waiting depth image, with or without its colour.
   std::optional<Pair> flush() {
     if (auto pair = matched()) return pair;
     if (!waiting_) return std::nullopt;
     return Pair{std::move(*std::exchange(waiting_, std::nullopt)), std::nullopt};
   }
-  /// The waiting depth picture if its colour came, or is not to be expected any more.
+  /// The waiting depth image if its colour has arrived or is no longer to be expected.
   std::optional<Pair> due(std::int64_t now_us) {
     if (auto pair = matched()) return pair;
     if (!waiting_ || (colour_runs(now_us) && now_us - waiting_->arrival_us < period_us_)) return std::nullopt;
     return flush();
   }
-  /// When `due` has to be asked at the latest; none: nothing waits.
+  /// The latest time at which `due` must be called; none if nothing waits.
   std::optional<std::int64_t> due_at(std::int64_t now_us) const {
     if (!waiting_) return std::nullopt;
     return colour_runs(now_us) ? waiting_->arrival_us + period_us_ : now_us;
   }
+  /// Whether colour has arrived within the last kColourGone.
   bool colour_runs(std::int64_t now_us) const { return colour_ && now_us - colour_->arrival_us < kColourGone; }
 
   static constexpr std::int64_t kColourGone = 500'000;

@@ -6,17 +6,19 @@
 namespace barehand {
 namespace {
 
-constexpr double kWindow = 1e6;            // [us]
-constexpr std::size_t kMostMarks = 60;     // a drift that changes with temperature is followed within a minute
-constexpr std::size_t kMarksForDrift = 5;  // fewer say more about jitter than about drift
+constexpr double kWindow = 1e6;            // us, duration of a window
+constexpr std::size_t kMostMarks = 60;     // follows a drift that changes with temperature within a minute
+constexpr std::size_t kMarksForDrift = 5;  // fewer marks show jitter rather than drift
 constexpr double kMaxDrift = 2e-3;         // no quartz is worse
-constexpr double kEarly = 50e3;            // [us] nothing arrives so much before its exposure: the clock was set
-constexpr double kLearning = 2e6;          // [us] the first arrivals may all have been late
-constexpr double kLate = 50e3, kLatePatience = 3e6;  // [us] late for so long is not late, but another clock
+constexpr double kEarly = 50e3;  // us; a frame that arrives this long before its exposure means that the clock was set
+constexpr double kLearning = 2e6;  // us; at the beginning all arrivals may have been late
+// us; a frame later than kLate for kLatePatience is not late: the clock was set
+constexpr double kLate = 50e3, kLatePatience = 3e6;
 
 }  // namespace
 
 DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arrival_us) {
+  // The first frame starts the mapping; a jump of the sensor's clock starts it anew.
   Mapped mapped{arrival_us};
   if (!begun_) {
     begin(device_us, arrival_us);
@@ -31,7 +33,8 @@ DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arriva
       mapped.host_us = first_arrival_ + std::llround(mark.x + line(mark.x));
     }
   }
-  // A frame is not exposed after it arrived, nor before its predecessor.
+
+  // A frame is exposed neither after its arrival nor before its predecessor.
   mapped.host_us = std::max(std::min(mapped.host_us, arrival_us), last_host_ + 1);
   last_device_ = device_us;
   last_arrival_ = arrival_us;
@@ -65,7 +68,7 @@ void DeviceClock::take_in(const Mark& mark) {
   if (mark.x >= window_end_) {
     window_end_ = mark.x + kWindow;
     if (marks_.size() == kMostMarks) marks_.erase(marks_.begin());
-    fit();  // before the new window is opened: its first arrival may be late
+    fit();  // before the new window opens, as its first arrival may be late
     marks_.push_back(mark);
   } else if (mark.y - slope_ * mark.x < marks_.back().y - slope_ * marks_.back().x) {
     marks_.back() = mark;
@@ -74,11 +77,14 @@ void DeviceClock::take_in(const Mark& mark) {
 }
 
 void DeviceClock::fit() {
+  // With few marks only the offset is fitted.
   if (marks_.size() < kMarksForDrift) {
     slope_ = 0;
     intercept_ = std::ranges::min(marks_, {}, &Mark::y).y;
     return;
   }
+
+  // Linear regression.
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   for (const Mark& m : marks_) {
     mean_x += m.x / static_cast<double>(marks_.size());

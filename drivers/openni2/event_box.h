@@ -11,12 +11,13 @@
 
 namespace barehand {
 
-/// Between a sensor's thread and whoever takes its frames: frames of which the newest win, and what else is to be told.
-/// Any thread.
+/// Passes frames and messages from a sensor's thread to whoever takes them. The number of waiting frames is bounded,
+/// and the newest win. Any thread may use it.
 class EventBox {
  public:
   explicit EventBox(std::size_t capacity) : capacity_(capacity) {}
 
+  /// Adds a frame; the oldest one is dropped if the box is full.
   void put(FramePtr frame) {
     const std::lock_guard lock(mutex_);
     if (frames_.size() == capacity_) {
@@ -27,14 +28,14 @@ class EventBox {
     ++pushed_;
     changed_.notify_one();
   }
-  /// A notice or a skipped frame; if nobody takes them the oldest go.
+  /// Adds a notice or a skipped frame; the oldest is dropped if nobody takes them.
   void tell(SourceEvent event) {
     const std::lock_guard lock(mutex_);
     if (told_.size() == kMostTold) told_.pop_front();
     told_.push_back(std::move(event));
     changed_.notify_one();
   }
-  /// The next event, what was told first; none within `patience`.
+  /// The next event, messages before frames; none if nothing arrives within `patience`.
   std::optional<SourceEvent> take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return !told_.empty() || !frames_.empty(); });
@@ -42,6 +43,7 @@ class EventBox {
     if (!frames_.empty()) return taken(frames_);
     return std::nullopt;
   }
+  /// Counts of the frames.
   QueueHealth health() const {
     const std::lock_guard lock(mutex_);
     const auto waiting = static_cast<std::int64_t>(frames_.size());

@@ -5,7 +5,7 @@
 namespace barehand {
 namespace {
 
-// [us] without a visible reason: where the bus does not tell what is plugged in, and where it does.
+// us, between two loadings without a visible reason: if the bus does not report changes, and if it does.
 constexpr std::int64_t kReloadBlindly = 600'000'000, kReloadAnyway = 86'400'000'000;
 
 }  // namespace
@@ -17,6 +17,8 @@ Result<void> OpenNiFinder::load() {
   library_.reset();
   bus_when_loaded_ = bus_state();
   loaded_us_ = looked_us_;
+
+  // OpenNI2 reports changes of the bus on its own threads.
   auto library = OpenNiLibrary::load([this](bool came, const std::string& uri) {
     if (came) return came_();
     {
@@ -31,27 +33,36 @@ Result<void> OpenNiFinder::load() {
 }
 
 Result<std::string> OpenNiFinder::find() {
-  looked_us_ = clock_.steady_us();  // not later: OpenNI2 may hang until the clock is gone
+  looked_us_ = clock_.steady_us();  // read before OpenNI2 is called, which may hang until the clock is destroyed
   if (!library_)
     if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
+
+  // Forget what was unplugged before.
   {
     const std::lock_guard lock(mutex_);
     gone_.clear();
   }
+
+  // Take the first sensor that matches.
   std::string others;
   for (const openni::DeviceInfo& sensor : library_->sensors()) {
     const std::string uri = sensor.getUri();
     if (uri.find(wanted_) != std::string::npos) return uri;
     others += (others.empty() ? "; there are: " : ", ") + uri;
   }
+
+  // OpenNI2 may not have noticed a sensor that was plugged in.
   distrust();
   return not_found(others);
 }
 
 tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
+  // Nothing at all is plugged in.
   const auto plugged = usb_ ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
   std::string what = whom() + " yet" + others;
   if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor shows what is seen");
+
+  // Sensors that are plugged in without a driver or a permission are named, with what to do.
   std::string remedy = "if OpenNI2 has no driver for it, put its maker's into OpenNI2/Drivers beside libOpenNI2.so.0";
   for (const UsbSensor& sensor : *plugged) {
     what += "; plugged in: " + to_text(sensor);
@@ -65,7 +76,7 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
 void OpenNiFinder::distrust() {
   const std::string bus = bus_state();
   const std::int64_t patience = bus.empty() ? kReloadBlindly : kReloadAnyway;
-  if (bus != bus_when_loaded_ || looked_us_ - loaded_us_ > patience) library_.reset();  // loaded again by `find`
+  if (bus != bus_when_loaded_ || looked_us_ - loaded_us_ > patience) library_.reset();  // find() loads it again
 }
 
 bool OpenNiFinder::gone(const std::string& uri) const {

@@ -11,22 +11,22 @@
 
 namespace barehand {
 
-/// Finds a sensor on a bus that changes. Drivers that do not watch the bus themselves see a change only when OpenNI2 is
-/// loaded anew; that costs memory each time (about 0.13 MB), so it is done when something was plugged, and else once a
-/// day, or every ten minutes where the bus does not tell.
+/// Finds a sensor on a bus that changes. Some OpenNI2 drivers do not watch the bus and see a change only when OpenNI2
+/// is loaded again. Each loading costs memory (about 0.13 MB), so it is done only when the devices on the bus have
+/// changed, and otherwise once a day, or every ten minutes if the bus does not report changes.
 class OpenNiFinder {
  public:
-  /// `wanted`: an address or a part of one; "": the first sensor found. `came`: on any thread, look again. `usb`
-  /// outlives the finder; null: no bus to look at.
+  /// `wanted`: an address or a part of one; "": the first sensor found. `came`: called on any thread when it is worth
+  /// looking again. `usb` must outlive the finder; null: there is no bus to look at.
   OpenNiFinder(std::string wanted, std::function<void()> came, UsbBus* usb, const Clock& clock);
 
-  /// The address of the wanted sensor. Errors: OpenNI2 does not start, there is no such sensor.
+  /// The address of the wanted sensor. Errors: OpenNI2 does not start, or there is no such sensor.
   Result<std::string> find();
-  /// The sensor was found but could not be used: OpenNI2's knowledge may be out of date.
+  /// Call when the sensor was found but cannot be used, because OpenNI2's view of the bus may be out of date.
   void distrust();
-  /// Lets go of OpenNI2.
+  /// Unloads OpenNI2.
   void unload() { library_.reset(); }
-  /// Whether the sensor at this address went since `find`.
+  /// Whether the sensor at this address was unplugged since the last call of `find`.
   bool gone(const std::string& uri) const;
 
  private:
@@ -40,7 +40,7 @@ class OpenNiFinder {
   UsbBus* const usb_;
   const Clock& clock_;
   mutable std::mutex mutex_;
-  std::vector<std::string> gone_;  // guarded by the mutex
+  std::vector<std::string> gone_;  // guarded by mutex_
   std::unique_ptr<OpenNiLibrary> library_;
   std::string bus_when_loaded_;
   std::int64_t looked_us_ = 0, loaded_us_ = 0;

@@ -8,12 +8,13 @@
 
 namespace barehand {
 
-/// Hands out frames and takes them back when their last owner, on whatever thread, lets go: their images keep their
-/// memory, so that a running stream allocates no pixels. May be destroyed before what it handed out.
+/// Lends frames and takes them back when their last owner, on whatever thread, releases them. Their images keep their
+/// memory, so that a running stream allocates no pixels. The pool may be destroyed before the frames it has lent.
 class FramePool {
  public:
-  /// A frame with arbitrary content; not shared with anyone.
+  /// A frame with arbitrary content and no other owner.
   std::shared_ptr<RgbdFrame> take() {
+    // Reuse an idle frame if there is one.
     std::unique_ptr<RgbdFrame> own;
     {
       const std::lock_guard lock(store_->mutex);
@@ -22,6 +23,8 @@ class FramePool {
         store_->idle.pop_back();
       }
     }
+
+    // The store is shared with the frame, so the pool may be destroyed first.
     if (!own) own = std::make_unique<RgbdFrame>();
     return {own.release(), [store = store_](RgbdFrame* used) {
               std::unique_ptr<RgbdFrame> back(used);

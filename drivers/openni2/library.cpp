@@ -14,8 +14,8 @@ std::string openni_error() {
 }
 
 Result<std::unique_ptr<OpenNiLibrary>> OpenNiLibrary::load(Changed changed) {
-  // OpenNI2 goes into its drivers' folder and back while it loads them: that must not move threads which open relative
-  // paths meanwhile. Where a container forbids it, they are moved.
+  // While OpenNI2 loads its drivers it changes into their folder and back, which must not affect other threads that
+  // open relative paths meanwhile. If a container forbids the separation, they are affected.
   static_cast<void>(unshare(CLONE_FS));
   if (openni::OpenNI::initialize() != openni::STATUS_OK) {
     const std::string reason = openni_error();

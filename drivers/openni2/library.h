@@ -11,18 +11,20 @@
 
 namespace barehand {
 
-/// OpenNI2 in use by this process, which counts its users: the last one to go unloads the drivers.
+/// Keeps OpenNI2 loaded in this process. OpenNI2 counts its users; the last one unloads the drivers.
 class OpenNiLibrary {
  public:
-  /// A sensor came (or went, with its address). Called on a thread of the sensor's driver.
+  /// Reports that a sensor was plugged in, or was unplugged and at which address. Called on a thread of the sensor's
+  /// driver.
   using Changed = std::function<void(bool came, const std::string& uri)>;
 
-  /// From then on the calling thread, and those that it starts, have a working directory of their own.
+  /// Loads OpenNI2. From then on the calling thread, and threads that it starts, have their own working directory.
   static Result<std::unique_ptr<OpenNiLibrary>> load(Changed changed = {});
   ~OpenNiLibrary();
   OpenNiLibrary(const OpenNiLibrary&) = delete;
   OpenNiLibrary& operator=(const OpenNiLibrary&) = delete;
 
+  /// The sensors that OpenNI2 lists now.
   std::vector<openni::DeviceInfo> sensors() const;
 
  private:
@@ -40,7 +42,7 @@ class OpenNiLibrary {
   std::unique_ptr<Listener> listener_;
 };
 
-/// OpenNI2's account of the last failure on this thread, without line breaks.
+/// OpenNI2's description of the last failure on this thread, without line breaks.
 std::string openni_error();
 
 }  // namespace barehand

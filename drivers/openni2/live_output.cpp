@@ -3,7 +3,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kRepeatEvery = 2'000'000;  // [us]
+constexpr std::int64_t kRepeatEvery = 2'000'000;  // us
 constexpr int kMostLost = 1000;                   // a larger gap is another way of counting, not a loss
 
 }  // namespace
@@ -12,7 +12,7 @@ LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& cl
     : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
-  // What is well again is always said: the last word must not be a trouble that is over.
+  // Good news is always reported, since the last message must not be about a trouble that is over.
   const auto kept_back = trouble ? filter_.admit(kind) : 0;
   if (!kept_back) return;
   const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";

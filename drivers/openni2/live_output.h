@@ -9,27 +9,31 @@
 
 namespace barehand {
 
-/// What a live sensor's thread hands out, whichever time the sensor is open: numbered frames, and what is to be told
-/// about them, repetitions kept back.
+/// The output of a live sensor's thread over all sessions of the sensor: numbered frames, and messages about them
+/// without repetitions.
 class LiveOutput {
  public:
+  /// `source`: name of the source, for messages; `capacity`: frames that may wait.
   LiveOutput(std::string source, std::size_t capacity, const Clock& clock);
 
-  /// A frame with arbitrary content.
+  /// A frame with arbitrary content, to be filled.
   std::shared_ptr<RgbdFrame> frame() { return pool_.take(); }
   void put(FramePtr frame) { box_.put(std::move(frame)); }
-  /// A trouble of a kind that was said within the last two seconds is kept back, and counted.
+  /// Sends a message to the user. Troubles of a kind that was reported within the last two seconds are suppressed and
+  /// counted.
   void notice(const std::string& kind, const std::string& what, const std::string& remedy = "", bool trouble = true);
-  /// A frame that came and cannot be used.
+  /// Reports a frame that arrived but cannot be used.
   void skip(const std::string& what, const std::string& remedy);
 
-  /// The number of a frame that the sensor gave this index; gaps in its counting are frames lost on the way.
+  /// The number of the frame to which the sensor gave this index; gaps in the sensor's counting are frames that were
+  /// lost.
   std::int64_t number(int index);
-  /// The sensor counts from anew.
+  /// Call when the sensor starts to count anew.
   void restart_numbers() { last_index_ = -1; }
 
-  /// Any thread.
+  /// Any thread may take from it.
   EventBox& box() { return box_; }
+  /// Counts of the frames that arrived and that were lost before.
   QueueHealth transit() const;
 
  private:

@@ -7,7 +7,8 @@
 namespace barehand {
 namespace {
 
-// A reset disturbs whatever hangs on the device, so it comes after opening it again did not help, and not for ever.
+// A reset disturbs everything that uses the device, so it comes only after opening it again did not help, and not
+// endlessly.
 constexpr int kSilentUntilReset = 2, kMostResets = 3;
 
 }  // namespace
@@ -43,12 +44,15 @@ void LiveReader::look_again() {
 }
 
 void LiveReader::connect() {
+  // Find the sensor.
   const auto where = finder_.find();
   if (stop_) return;
   if (!where) {
     output_.notice("absent", where.error().what, where.error().remedy);
     return wait(backoff_.next());
   }
+
+  // Open it.
   auto sensor = OpenNiSensor::open(*where, params_);
   if (stop_) return;
   if (!sensor) {
@@ -56,25 +60,34 @@ void LiveReader::connect() {
     finder_.distrust();
     return wait(backoff_.next());
   }
+
+  // Report what was opened, and what it lacks.
   output_.notice("opened", "opened " + (*sensor)->description() + usb_port(*where), "", false);
   for (const std::string& shortfall : (*sensor)->shortfalls()) output_.notice(shortfall, "the sensor " + shortfall);
   session_ = std::make_unique<LiveSession>(std::move(*sensor), params_, output_, clock_, stop_);
 }
 
 void LiveReader::follow() {
+  // Read. A sensor that delivers is healthy, whatever happened before.
   auto loss = session_->step();
   if (stop_) return;
   if (session_->proven()) {
     backoff_.reset();
     silent_ = resets_ = 0;
   }
+
+  // Check whether it was lost.
   if (finder_.gone(session_->where())) loss = LiveSession::Loss{"unplugged", "was unplugged", "plug it in again"};
   if (!loss) return;
+
+  // Report the loss and close the sensor.
   const std::string where = session_->where();
   silent_ = loss->kind == "stalled" && !session_->proven() ? silent_ + 1 : 0;
   output_.notice(loss->kind, "the sensor at " + where + " " + loss->what, loss->remedy);
   session_.reset();
   if (stop_) return;
+
+  // A sensor that opens but never answers is reset.
   if (silent_ >= kSilentUntilReset && resets_ < kMostResets) reset(where);
   if (loss->kind != "unplugged") wait(backoff_.next());
 }
@@ -92,7 +105,7 @@ void LiveReader::reset(const std::string& uri) {
   if (!usb_ || !address) return;
   silent_ = 0;
   ++resets_;
-  finder_.unload();  // or its driver holds the device
+  finder_.unload();  // otherwise its driver would hold the device
   if (stop_) return;
   if (auto done = usb_->reset(*address); !done)
     output_.notice("not reset", done.error().message(), done.error().remedy);

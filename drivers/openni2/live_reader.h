@@ -13,44 +13,50 @@
 
 namespace barehand {
 
-/// What goes on on a live sensor's thread: finds it, opens it, reads it, and when it is lost, stalls or talks nonsense
-/// starts over, for as long as nobody stops it.
+/// The work of a live sensor's thread: it finds the sensor, opens it and reads it. When the sensor is lost, stalls or
+/// delivers nonsense, it starts over, until it is stopped.
 class LiveReader {
  public:
-  /// `usb`: the bus that the sensor may be on; null: none is looked at.
+  /// `usb`: the bus to which the sensor may be connected; null: no bus is watched.
+  // `wanted` and `capacity`: see OpenNiLiveSource.
   LiveReader(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
              std::unique_ptr<UsbBus> usb);
 
-  /// Returns some time after a stop was requested: when the sensor's driver lets go. `clock` is then not used any more.
+  /// Runs until some time after a stop was requested, when the sensor's driver returns. From the request on, `clock`
+  /// is not used any more.
   void run();
-  /// Any thread.
+  /// Any thread may call it.
   void request_stop();
-  /// Any thread.
+  /// Any thread may call it.
   LiveOutput& output() { return output_; }
 
  private:
+  // Finds and opens the sensor; waits if that fails.
   void connect();
+  // Reads the open sensor; closes it if it is lost.
   void follow();
   std::string usb_port(const std::string& uri) const;
+  // Resets the sensor's USB port.
   void reset(const std::string& uri);
   void wait(std::chrono::milliseconds duration);
+  // Wakes the thread: something on the bus has changed.
   void look_again();
 
   const OpenNiParams params_;
   const Clock& clock_;
   LiveOutput output_;
 
-  std::mutex mutex_;  // of the next two
+  std::mutex mutex_;  // guards changed_
   std::condition_variable wake_;
   bool changed_ = false;
   std::atomic<bool> stop_ = false;
 
   Backoff backoff_;
-  int silent_ = 0;  ///< times in a row that the sensor was opened and never answered
-  int resets_ = 0;  ///< since it last answered
+  int silent_ = 0;  ///< number of times in a row that the sensor was opened and never answered
+  int resets_ = 0;  ///< number of resets since the sensor last answered
   const std::unique_ptr<UsbBus> usb_;
   OpenNiFinder finder_;
-  std::unique_ptr<LiveSession> session_;  // before the finder goes, which unloads the drivers
+  std::unique_ptr<LiveSession> session_;  // destroyed before the finder, which unloads the drivers
 };
 
 }  // namespace barehand

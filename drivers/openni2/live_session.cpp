@@ -9,18 +9,19 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kReadWait = 50'000;       // [us] bounds the time to stop
-constexpr double kFirstDepth = 3;                // [s] a sensor needs to get going
-constexpr double kPeriods = 5;                   // frames missing in a row are a stall, however slow the sensor
-constexpr std::int64_t kColourGone = 1'000'000;  // [us]
-constexpr int kOutOfStep = 10;                   // pairs in a row with times that do not fit
-constexpr int kDepthAlone = 5;                   // depth frames without colour; fewer come when a stall ends
-constexpr std::int64_t kSayAfter = 1'000'000;    // [us] a single odd picture is not worth a word
-constexpr std::int64_t kClockSet = 100'000;      // [us]
+constexpr std::int64_t kReadWait = 50'000;       // us, bounds the time to stop
+constexpr double kFirstDepth = 3;                // s, time that a sensor may need for its first depth image
+constexpr double kPeriods = 5;                   // this many missing frames are a stall, however slow the sensor
+constexpr std::int64_t kColourGone = 1'000'000;  // us
+constexpr int kOutOfStep = 10;                   // pairs in a row whose times do not fit
+constexpr int kDepthAlone = 5;                   // depth frames without colour; fewer may come when a stall ends
+constexpr std::int64_t kSayAfter = 1'000'000;    // us, a single odd image is not reported
+constexpr std::int64_t kClockSet = 100'000;      // us, a larger change means that the clock was set
 
 constexpr const char* kReplug = "it is opened again; if this goes on, re-plug it, into a USB port of its own";
 
-/// Host time at the steady clock's zero. Between the readings the process may be held up, so the quickest counts.
+/// Host time at the zero of the steady clock [us]. The process may be interrupted between the readings, so the
+/// quickest attempt counts.
 std::int64_t host_epoch(const Clock& clock) {
   std::int64_t epoch = 0, quickest = INT64_MAX;
   for (int i = 0; i < 4 && quickest > 20; ++i) {
@@ -68,7 +69,7 @@ std::int64_t LiveSession::wait_us() const {
 void LiveSession::take(OpenNiSensor::Picture picture) {
   Pairing::Stamped stamped{static_cast<std::int64_t>(picture.frame.getTimestamp()), now_us_, picture.frame};
   if (picture.colour) {
-    if (pairing_held_all_ && any_depth_ && !colour_missing_) resume_step();  // both are there
+    if (pairing_held_all_ && any_depth_ && !colour_missing_) resume_step();  // both cameras deliver
     last_colour_us_ = now_us_;
     depth_since_colour_ = 0;
     if (auto pair = pairing_.add_colour(std::move(stamped))) deliver(*pair);
@@ -81,15 +82,20 @@ void LiveSession::take(OpenNiSensor::Picture picture) {
 }
 
 void LiveSession::deliver(const Pairing::Pair& pair) {
+  // Number and stamp the frame.
   const openni::VideoFrameRef& depth = pair.depth.picture;
   auto frame = output_.frame();
   frame->number = output_.number(depth.getFrameIndex());
   stamp(pair.depth, *frame);
+
+  // Check the depth image.
   if (!complete(depth, sensor_->depth_mode(), 2)) return judge(DepthFault::incomplete);
   copy_depth(depth, sensor_->mirrored(false), frame->depth);
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
   judge(fault);
   if (fault != DepthFault::none && fault != DepthFault::empty) return;
+
+  // Add colour, and deliver.
   add_colour(pair.colour, *frame);
   verify_step(pair.colour.has_value());
   frame->camera = sensor_->camera();
@@ -99,10 +105,13 @@ void LiveSession::deliver(const Pairing::Pair& pair) {
 }
 
 void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
+  // The sensor's clock.
   const auto mapped = device_clock_.map(depth.device_us, depth.arrival_us);
   if (mapped.jumped_by)
     output_.notice("sensor clock", formatted("the sensor's clock was set by %+.3f s; frames are stamped by it anew",
                                              1e-6 * static_cast<double>(*mapped.jumped_by)));
+
+  // The host's clock.
   const std::int64_t epoch = host_epoch(clock_);
   if (epoch_us_ && std::abs(epoch - *epoch_us_) > kClockSet)
     output_.notice("host clock", formatted("this machine's clock was set by %+.3f s, and the stamps with it",
@@ -112,11 +121,14 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
 }
 
 void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
+  // A frame without usable colour is delivered without it.
   const openni::VideoMode& mode = sensor_->colour_mode();
   if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
     frame.colour.reset(0, 0);
     return;
   }
+
+  // Report colour that stays black.
   copy_colour(*picture, sensor_->mirrored(true), frame.colour);
   const auto* pixels = frame.colour.data();
   const bool black = std::all_of(pixels, pixels + frame.colour.size(), [](const Rgb& p) { return p == Rgb{}; });
@@ -127,7 +139,7 @@ void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture
 }
 
 void LiveSession::verify_step(bool matched) {
-  // OpenNI2 pairs by the pictures' numbers, and claims to even where the driver cannot expose in step.
+  // OpenNI2 pairs images by their numbers, and claims to do so even if the driver cannot expose in step.
   const bool colour_runs = now_us_ - last_colour_us_ < kColourGone / 4;
   in_step_ += matched && sensor_->paired();
   out_of_step_ = matched || !colour_runs || !sensor_->paired() ? 0 : out_of_step_ + 1;
@@ -139,10 +151,11 @@ void LiveSession::pair_again() {
   if (pair_wanted_ && pairings_left_-- > 0) sensor_->pair_streams(true);
 }
 
-/// Both cameras deliver, each on its own, after none did in step: the sensor was slow, or pairing held all pictures up.
+/// Call when both cameras deliver separately after none delivered in step: either the sensor was slow, or pairing
+/// blocked both streams.
 void LiveSession::resume_step() {
   pairing_held_all_ = false;
-  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // paired again they stopped at once
+  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // paired again, they stopped at once
   pair_again();
 }
 
@@ -159,7 +172,7 @@ void LiveSession::judge(DepthFault fault) {
   switch (fault) {
     case DepthFault::none:
       break;
-    case DepthFault::empty:  // an honest picture of nothing: it goes on, and a hand in it is lost
+    case DepthFault::empty:  // valid but empty: tracking goes on, and a hand in it is lost
       if (now_us_ - fault_since_us_ > kSayAfter)
         output_.notice("empty", "no depth is measured anywhere", "uncover the lens; is something within its range?");
       break;
@@ -176,11 +189,14 @@ void LiveSession::judge(DepthFault fault) {
 }
 
 void LiveSession::watch_colour() {
+  // While the streams are paired, a colour camera that has stopped blocks depth as well.
   const bool missing = now_us_ - last_colour_us_ > kColourGone && depth_since_colour_ >= kDepthAlone;
   if (sensor_->paired() && depth_missing_for(0.5)) {  // in step, a stopped colour camera stops depth as well
     sensor_->pair_streams(false);
     pairing_held_all_ = true;
   }
+
+  // Report when colour stops and when it returns.
   if (missing && !colour_missing_) {
     colour_missing_ = true;
     pairing_held_all_ = false;
@@ -200,10 +216,13 @@ bool LiveSession::depth_missing_for(double factor) const {
 }
 
 std::optional<LiveSession::Loss> LiveSession::loss() {
+  // No depth at all.
   if (depth_missing_for(1)) {
     const double seconds = 1e-6 * static_cast<double>(now_us_ - last_depth_us_);
     return Loss{"stalled", formatted("stalled: no depth for %.1f s, and no error", seconds), kReplug};
   }
+
+  // Depth that is useless for too long.
   const bool useless =
       fault_ == DepthFault::repeated || fault_ == DepthFault::senseless || fault_ == DepthFault::incomplete;
   const double seconds = 1e-6 * static_cast<double>(now_us_ - fault_since_us_);

@@ -13,38 +13,45 @@
 
 namespace barehand {
 
-/// A live sensor from the moment it is open until it is lost: pairs its pictures, stamps, checks and delivers them.
-/// One thread.
+/// Reads an open live sensor until it is lost: pairs its depth and colour images, stamps them with the host's time,
+/// checks them and delivers them as frames. Used by one thread.
 class LiveSession {
  public:
   LiveSession(std::unique_ptr<OpenNiSensor> sensor, const OpenNiParams& params, LiveOutput& output, const Clock& clock,
               const std::atomic<bool>& stop);
 
-  /// Why a sensor has to be opened again.
+  /// The reason why a sensor must be opened again.
   struct Loss {
     std::string kind, what, remedy;
   };
-  /// Reads and delivers what comes within a short time.
+  /// Reads and delivers what arrives within a short time; returns the loss if the sensor must be opened again.
   std::optional<Loss> step();
 
   const std::string& where() const { return sensor_->where(); }
-  /// Whether a good frame came.
+  /// Whether a good frame has arrived.
   bool proven() const { return before_ != nullptr; }
 
  private:
   using Pairing = ColourPairing<openni::VideoFrameRef>;
 
+  // Takes an image from the sensor.
   void take(OpenNiSensor::Picture picture);
+  // Checks a pair of images and delivers it as a frame.
   void deliver(const Pairing::Pair& pair);
+  // Computes the capture time.
   void stamp(const Pairing::Stamped& depth, RgbdFrame& frame);
   void add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame);
+  // Checks whether the sensor really exposes in step.
   void verify_step(bool matched);
   void pair_again();
   void resume_step();
   void give_up_step();
+  // Counts and reports faults of the depth image.
   void judge(DepthFault fault);
+  // Notices when colour stops and when it returns.
   void watch_colour();
   std::optional<Loss> loss();
+  // Whether no depth has arrived for `factor` times the time after which the sensor counts as stalled.
   bool depth_missing_for(double factor) const;
   std::int64_t wait_us() const;
 
@@ -54,20 +61,20 @@ class LiveSession {
   const Clock& clock_;
   const std::atomic<bool>& stop_;
   const std::int64_t period_us_;
-  bool pair_wanted_;  ///< the sensor can expose in step
+  bool pair_wanted_;  ///< the sensor can expose depth and colour in step
   Pairing pairing_;
   DeviceClock device_clock_;
-  FramePtr before_;  ///< last sound frame
+  FramePtr before_;  ///< the last valid frame
 
-  std::int64_t now_us_, last_depth_us_, last_colour_us_;  // steady clock
+  std::int64_t now_us_, last_depth_us_, last_colour_us_;  // steady clock [us]
   int depth_since_colour_ = 0, out_of_step_ = 0;
   int in_step_ = 0;  ///< frames with colour since the streams were paired
   bool any_depth_ = false, colour_missing_ = false, pairing_held_all_ = false;
   static constexpr int kPairings = 3;
-  int pairings_left_ = kPairings;  ///< a colour camera that comes and goes must not stop depth each time
+  int pairings_left_ = kPairings;  ///< a colour camera that comes and goes must not interrupt depth each time
   DepthFault fault_ = DepthFault::none;
   std::int64_t fault_since_us_ = 0, black_since_us_ = 0;
-  std::optional<std::int64_t> epoch_us_;  ///< host time at the steady clock's zero
+  std::optional<std::int64_t> epoch_us_;  ///< host time at the zero of the steady clock
 };
 
 }  // namespace barehand

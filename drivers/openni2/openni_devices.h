@@ -12,9 +12,9 @@ struct OpenNiDevice {
   std::string uri, vendor, name;
 };
 
-/// Error: OpenNI2 does not start.
+/// The sensors that OpenNI2 finds. Error: OpenNI2 does not start.
 Result<std::vector<OpenNiDevice>> list_openni_devices();
-/// "2.2.0.33".
+/// The version of OpenNI2, such as "2.2.0.33".
 std::string openni_version();
 
 }  // namespace barehand

@@ -18,12 +18,12 @@
 namespace barehand {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{10'000};  // for the next picture of a file on a slow disk
+constexpr std::chrono::milliseconds kPatience{10'000};  // for the next image of a file on a slow disk
 constexpr std::string_view kMagic = "NI10";
 constexpr const char* kWhole = "give a whole .oni recording: one whose recorder was killed lacks its table";
 
-/// OpenNI2 knows a file by its name, and goes on where another reader of that name stopped. The descriptor stays open,
-/// as the player's handles do.
+/// A path under which OpenNI2 does not know the file yet: it identifies a file by its name and continues where another
+/// reader of the same name stopped. The descriptor stays open, like the player's handles.
 std::string name_of_its_own(const std::string& path) {
   return "/proc/self/fd/" + std::to_string(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
 }
@@ -31,15 +31,19 @@ std::string name_of_its_own(const std::string& path) {
 }  // namespace
 
 Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::string& path, const OpenNiParams& params) {
+  // The file must be readable.
   if (eaccess(path.c_str(), R_OK) != 0 && errno == EACCES)
     return fail("this user may not read it", path, "give the user the permission");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     return fail("no such file", path, "give the path of an .oni file");
-  // What is no recording does not reach OpenNI2, whose player is not made for that.
+
+  // OpenNI2's player cannot handle files that are not recordings, so they are refused here.
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   if (std::string_view(head.data(), head.size()) != kMagic) return fail("is no OpenNI recording", path, kWhole);
+
+  // Open it. Unloading OpenNI2 would destroy the player's streams, which may crash: see OpenNiSensor.
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
   static_cast<void>(library->release());  // unloaded it would destroy the player's streams: see OpenNiSensor
@@ -87,16 +91,21 @@ std::optional<OpenNiFilePlayer::Pairing::Pair> OpenNiFilePlayer::next_pair() {
 }
 
 SourceEvent OpenNiFilePlayer::frame_of(const Pairing::Pair& pair) {
+  // The time counts from the first image.
   const openni::VideoFrameRef& depth = pair.depth.picture;
   if (!first_us_) first_us_ = pair.depth.device_us;
   const std::string name = "picture " + std::to_string(position_ - 1);
   if (!complete(depth, sensor_->depth_mode(), 2)) return SkippedFrame{error(name + " is incomplete", "")};
+
+  // Depth.
   auto frame = std::make_shared<RgbdFrame>();
   frame->number = position_ - 1;
   frame->utime = OpenNiFileSource::kFirstUtime + pair.depth.device_us - *first_us_;
   frame->camera = sensor_->camera();
   frame->depth_unit = depth_unit(sensor_->depth_mode().getPixelFormat());
   copy_depth(depth, sensor_->mirrored(false), frame->depth);
+
+  // Colour, if it is complete.
   const openni::VideoMode& mode = sensor_->colour_mode();
   if (pair.colour && complete(*pair.colour, mode, colour_bytes_per_pixel(mode.getPixelFormat())))
     copy_colour(*pair.colour, sensor_->mirrored(true), frame->colour);

@@ -11,16 +11,17 @@
 
 namespace barehand {
 
-/// Reads the pictures of an .oni file in the file's order, each exactly once: the file goes on only when a picture is
-/// asked for, and whichever comes next is taken.
+/// Reads the images of an .oni file in the order of the file, each exactly once. The file advances only when an image
+/// is requested, and whichever image comes next is taken.
 class OpenNiFilePlayer {
  public:
+  /// Opens a file. Errors: it cannot be read, it is not a recording, or it has no depth.
   static Result<std::unique_ptr<OpenNiFilePlayer>> open(const std::string& path, const OpenNiParams& params);
 
-  /// The next depth picture with its colour.
+  /// The next depth image with its colour, as a frame.
   SourceEvent next();
   std::int64_t frames() const { return depth_total_; }
-  /// Number of the frame that `next` delivers.
+  /// The number of the frame that `next` will deliver.
   std::int64_t position() const { return position_; }
   OpenNiSensor& sensor() { return *sensor_; }
 

@@ -12,14 +12,14 @@ namespace barehand {
 
 class OpenNiFilePlayer;
 
-/// Plays an .oni recording: every depth picture once, in order, with the colour picture that belongs to it by the time
-/// stamps. Those count from the first picture, which gets the time of 1 s.
+/// Plays an .oni recording: every depth image once, in order, with the colour image that belongs to it by the time
+/// stamps. Times count from the first image, which gets the time of 1 s.
 class OpenNiFileSource : public FrameSource {
  public:
   static constexpr std::int64_t kFirstUtime = 1'000'000;
 
-  /// From frame `start` on every `step`-th, step > 0. Errors: no such file, no recording, no depth in it, no such
-  /// frame.
+  /// Plays every `step`-th frame (step > 0) from frame `start` on. Errors: there is no such file, it is not a
+  /// recording, it has no depth, it has no such frame.
   static Result<std::unique_ptr<OpenNiFileSource>> open(const std::string& path, const OpenNiParams& params,
                                                         std::int64_t start = 0, std::int64_t step = 1);
   ~OpenNiFileSource() override;
@@ -27,9 +27,11 @@ class OpenNiFileSource : public FrameSource {
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return false; }
   std::string name() const override { return "openni2:" + path_; }
+  /// Number of frames that are still to be delivered.
   std::int64_t remaining() const;
+  /// Frame rate of the depth stream [Hz].
   double fps() const;
-  /// What the recording lacks; none: nothing.
+  /// What the recording lacks; none if it is complete.
   std::optional<std::string> warning() const;
 
  private:

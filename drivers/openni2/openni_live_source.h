@@ -14,18 +14,18 @@ namespace barehand {
 
 class LiveReader;
 
-/// Frames from an OpenNI2 sensor. Opens at once and never fails: a sensor that is absent, unplugged or out of its mind
-/// is waited for, and what is wrong comes as SourceNotice. A thread of its own talks to the sensor, the newest frames
-/// wait here.
+/// Frames from an OpenNI2 sensor. It opens at once and never fails: it waits for a sensor that is absent, unplugged or
+/// faulty, and reports what is wrong as SourceNotice. A thread of its own reads the sensor; the newest frames wait
+/// here.
 class OpenNiLiveSource : public FrameSource {
  public:
   /// `wanted`: an address or a part of one, as `barehand doctor` lists them; "": the first sensor found. `capacity`:
-  /// frames that may wait. `clock` outlives the source. `usb`: the bus that the sensor may be on, for what is plugged
-  /// in to be noticed at once and for a sensor that hangs to be reset; null: the sensor is looked for from time to
-  /// time.
+  /// the number of frames that may wait. `clock` must outlive the source. `usb`: the bus to which the sensor may be
+  /// connected; it lets a new sensor be noticed at once and a hanging one be reset. Null: the sensor is looked for
+  /// from time to time.
   OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
                    std::unique_ptr<UsbBus> usb = nullptr);
-  /// Waits for the sensor's driver to let go, but not for ever: one that hangs is left behind.
+  /// Waits for the sensor's driver to return, but only for a while: a driver that hangs is left behind.
   ~OpenNiLiveSource() override;
 
   SourceEvent next(std::chrono::milliseconds patience) override;
@@ -36,7 +36,7 @@ class OpenNiLiveSource : public FrameSource {
 
  private:
   const std::string name_;
-  std::shared_ptr<LiveReader> reader_;  // shared with the thread, which may outlive this
+  std::shared_ptr<LiveReader> reader_;  // shared with the thread, which may outlive this object
   std::future<void> finished_;
   std::thread thread_;
 };

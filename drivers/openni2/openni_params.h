@@ -6,11 +6,11 @@
 
 namespace barehand {
 
-/// What is wanted of an OpenNI2 sensor, and when to lose patience with it.
+/// The wanted mode of an OpenNI2 sensor, and the times after which it is opened again.
 struct OpenNiParams {
   int width = 640, height = 480, fps = 30;
   std::string colour = "registered";
-  GivenIntrinsics camera;  ///< instead of the sensor's own
+  GivenIntrinsics camera;  ///< replaces the sensor's own intrinsics
   double latency = 0;
   double stall_timeout = 1;
   double reopen_after = 3;

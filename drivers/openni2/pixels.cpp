@@ -6,6 +6,7 @@
 namespace barehand {
 namespace {
 
+/// Gives the image the size of the frame.
 template <class T>
 void fit(const openni::VideoFrameRef& frame, Image<T>& image) {
   if (image.width() != frame.getWidth() || image.height() != frame.getHeight())
@@ -18,13 +19,14 @@ const std::uint8_t* row_of(const openni::VideoFrameRef& frame, int v) {
 
 std::uint8_t clamped(int value) { return static_cast<std::uint8_t>(std::clamp(value >> 8, 0, 255)); }
 
-/// BT.601 in 8 bit fixed point, video range.
+/// Conversion according to BT.601, video range, in 8-bit fixed point.
 Rgb from_yuv(int y, int u, int v) {
   const int c = 298 * (y - 16) + 128, d = u - 128, e = v - 128;
   return {clamped(c + 409 * e), clamped(c - 100 * d - 208 * e), clamped(c + 516 * d)};
 }
 
-/// Two pixels share u and v; the offsets are those of y of the first pixel, u, y of the second, v.
+/// Two pixels share u and v. The arguments y1, u, y2 and v are the offsets of the bytes within the four that make up
+/// two pixels.
 void convert_yuv(const std::uint8_t* in, int width, int y1, int u, int y2, int v, Rgb* out) {
   for (int x = 0; x + 1 < width; x += 2, in += 4) {
     out[x] = from_yuv(in[y1], in[u], in[v]);
@@ -40,6 +42,7 @@ void convert_colour_row(const std::uint8_t* in, int width, openni::PixelFormat f
     case openni::PIXEL_FORMAT_RGB888:
       std::memcpy(out, in, 3 * static_cast<std::size_t>(width));
       break;
+    // The formats with one u and v for two pixels differ in the order of their bytes.
     case openni::PIXEL_FORMAT_YUYV:
       convert_yuv(in, width, 0, 1, 2, 3, out);
       break;

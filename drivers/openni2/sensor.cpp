@@ -10,7 +10,8 @@
 namespace barehand {
 namespace {
 
-constexpr double kMostPixelStretch = 0.05;  // fx against fy; more is a field of view of another mode
+// Difference of fx and fy; a larger one means that the field of view belongs to another mode.
+constexpr double kMostPixelStretch = 0.05;
 constexpr const char* kGiveIntrinsics =
     "give fx, fy, cx and cy in the configuration's openni2 group; record and convert take --fx --fy --cx --cy";
 
@@ -44,7 +45,7 @@ Result<void> OpenNiSensor::open_device() {
   playback_ = device_.getPlaybackControl();
   if (!playback_) return {};
   playback_->setRepeatEnabled(false);
-  if (playback_->setSpeed(-1) != openni::STATUS_OK)  // frame by frame, as they are read
+  if (playback_->setSpeed(-1) != openni::STATUS_OK)  // frame by frame, on request
     return fail("cannot be played frame by frame: " + openni_error(), where_, "record it again");
   return {};
 }
@@ -52,19 +53,26 @@ Result<void> OpenNiSensor::open_device() {
 std::string OpenNiSensor::unless_file(const char* remedy) const { return where_.starts_with('/') ? "" : remedy; }
 
 Result<void> OpenNiSensor::create_depth() {
+  // Create the stream.
   if (!device_.hasSensor(openni::SENSOR_DEPTH) || depth_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK)
     return fail("has no depth: " + openni_error(), where_,
                 unless_file("choose a depth camera: barehand doctor lists them"));
+
+  // Choose the mode; a file has only one.
   if (!playback_) {
     const auto mode = choose_depth_mode(depth_.getSensorInfo(), params_);
     if (mode && depth_.setVideoMode(*mode) != openni::STATUS_OK)
       shortfalls_.push_back("does not take the mode " + to_text(*mode) + " that it offers: " + openni_error());
     if (depth_.isCroppingSupported()) depth_.resetCropping();
   }
+
+  // Check the mode that is in force.
   depth_mode_ = depth_.getVideoMode();
   if (depth_unit(depth_mode_.getPixelFormat()) == 0)
     return fail("its depth format " + std::to_string(depth_mode_.getPixelFormat()) + " is not known", where_,
                 unless_file("use a sensor or a mode with depth in millimetres or tenths"));
+
+  // Report if it is not the one that was wanted.
   const bool as_wanted =
       playback_ || (depth_mode_.getResolutionX() == params_.width && depth_mode_.getResolutionY() == params_.height &&
                     depth_mode_.getFps() == params_.fps);
@@ -76,29 +84,35 @@ Result<void> OpenNiSensor::create_depth() {
 }
 
 void OpenNiSensor::create_colour() {
+  // A sensor may have no colour, or refuse it.
   if (!device_.hasSensor(openni::SENSOR_COLOR)) {
     shortfalls_.push_back("has no colour: skin and things are told apart by depth alone");
     return;
   }
   if (colour_.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) return drop_colour(openni_error());
   has_colour_ = true;
+
+  // Choose a mode of the depth image's size.
   if (!playback_) {
     const auto mode = choose_colour_mode(colour_.getSensorInfo(), depth_mode_);
     if (!mode) return drop_colour("it has none of the depth image's size");
     if (colour_.setVideoMode(*mode) != openni::STATUS_OK) return drop_colour(openni_error());
     if (colour_.isCroppingSupported()) colour_.resetCropping();
   }
+
+  // Check the mode that is in force.
   colour_mode_ = colour_.getVideoMode();
   const bool fits = colour_mode_.getResolutionX() == depth_mode_.getResolutionX() &&
                     colour_mode_.getResolutionY() == depth_mode_.getResolutionY();
   if (!fits) return drop_colour("it is not of the depth image's size");
   if (colour_bytes_per_pixel(colour_mode_.getPixelFormat()) == 0) return drop_colour("its format is not known");
+
   unmirror(colour_, colour_mirrored_, "colour");
   register_colour();
 }
 
 void OpenNiSensor::register_colour() {
-  if (playback_) {  // a file does not say; it holds what the recorder saw
+  if (playback_) {  // a file does not state it; it holds what the recorder saw
     registered_ = true;
     return;
   }
@@ -124,18 +138,22 @@ void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const c
 }
 
 Result<void> OpenNiSensor::choose_intrinsics() {
+  // Intrinsics that were given take precedence.
   const int width = depth_mode_.getResolutionX(), height = depth_mode_.getResolutionY();
   camera_ = params_.camera.of_size(width, height);
   if (params_.camera.any()) {
     if (plausible(camera_)) return {};
     return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
   }
-  // Registered depth is what the colour camera would measure.
+
+  // Otherwise they follow from the field of view. Registered depth is what the colour camera would measure.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);
   camera_.fy = height / 2.0 / std::tan(eye.getVerticalFieldOfView() / 2.0);
   camera_.cx = (width - 1) / 2.0;
   camera_.cy = (height - 1) / 2.0;
+
+  // Implausible values are refused or reported.
   if (!plausible(camera_)) return fail("does not tell its field of view", where_, kGiveIntrinsics);
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)
     shortfalls_.push_back("states fields of view that make pixels oblong (fx " + std::to_string(camera_.fx) + ", fy " +
@@ -148,14 +166,14 @@ Result<void> OpenNiSensor::start() {
     return fail("depth does not start: " + openni_error(), where_,
                 unless_file("re-plug the sensor, into a port of its own"));
   if (has_colour() && colour_.start() != openni::STATUS_OK) drop_colour("it does not start: " + openni_error());
-  // Only now: before both run, OpenNI2 does not pair them. A file is paired by its time stamps instead.
+  // OpenNI2 pairs streams only when both run. A file is paired by its time stamps instead.
   if (has_colour() && !playback_ && !pair_streams(true))
     shortfalls_.push_back("does not expose depth and colour in step; they are paired by time");
   return {};
 }
 
 bool OpenNiSensor::pair_streams(bool wanted) {
-  // Asked whether it is so, OpenNI2 says yes even when the driver refused.
+  // When asked, OpenNI2 claims that the streams are paired even if the driver refused.
   paired_ = device_.setDepthColorSyncEnabled(wanted) == openni::STATUS_OK && wanted;
   return paired_;
 }

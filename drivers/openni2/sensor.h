@@ -14,26 +14,30 @@
 
 namespace barehand {
 
-/// An opened OpenNI2 sensor or .oni file with running streams: depth, and colour of the same size where there is some.
-/// One thread. Closing a sensor may take as long as its driver likes; a file is stopped, and its handles are left to
-/// the end of the process: OpenNI2's player crashes about once in a hundred times that its streams are destroyed.
+/// An open OpenNI2 sensor or .oni file with running streams: depth and, if available, colour of the same size. Used by
+/// one thread. Closing a sensor may take as long as its driver likes. A file is only stopped and its handles live
+/// until the end of the process, because OpenNI2's player crashes about once in a hundred times when its streams are
+/// destroyed.
 class OpenNiSensor {
  public:
-  /// `where`: the sensor's address, or a file's path. Errors: it cannot be opened, has no depth, no known depth format
-  /// or no intrinsics, does not start. What helps with a file that OpenNI2 does not play its player knows.
+  /// `where`: the address of a sensor or the path of a file. Errors: it cannot be opened, has no depth, an unknown
+  /// depth format or no intrinsics, or does not start. The error for a file that OpenNI2 cannot play has no remedy;
+  /// the file's player adds it.
   static Result<std::unique_ptr<OpenNiSensor>> open(const std::string& where, const OpenNiParams& params);
   ~OpenNiSensor();
   OpenNiSensor(const OpenNiSensor&) = delete;
   OpenNiSensor& operator=(const OpenNiSensor&) = delete;
 
+  /// An image of one of the streams.
   struct Picture {
-    bool colour = false;  ///< else depth
+    bool colour = false;  ///< false: depth
     openni::VideoFrameRef frame;
   };
-  /// The next picture of any stream; none within `patience`.
+  /// The next image of any stream; none if nothing arrives within `patience`.
   std::optional<Picture> read(std::chrono::milliseconds patience);
 
-  /// Depth and colour come in pairs, or each on its own; returns what is so then.
+  /// Switches pairing on or off: paired streams deliver depth and colour together, others each on its own. Returns
+  /// whether the streams are paired then.
   bool pair_streams(bool wanted);
 
   const std::string& where() const { return where_; }
@@ -43,20 +47,23 @@ class OpenNiSensor {
   const openni::VideoMode& depth_mode() const { return depth_mode_; }
   const openni::VideoMode& colour_mode() const { return colour_mode_; }
   const Intrinsics& camera() const { return camera_; }
-  /// Of a file: pictures in the depth and the colour stream.
+  /// For a file: the numbers of images in the depth and the colour stream; 0 for a sensor.
   int depth_pictures() { return playback_ ? playback_->getNumberOfFrames(depth_) : 0; }
   int colour_pictures() { return playback_ && has_colour() ? playback_->getNumberOfFrames(colour_) : 0; }
-  /// "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered, in step".
+  /// Text for messages, such as "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered, in
+  /// step".
   std::string description() const;
-  /// What was wanted and could not be had, a sentence each.
+  /// What was wanted but is not available, one sentence each.
   const std::vector<std::string>& shortfalls() const { return shortfalls_; }
 
  private:
   OpenNiSensor(std::string where, const OpenNiParams& params) : where_(std::move(where)), params_(params) {}
   Result<void> open_device();
+  // The remedy, or none for a file; see open().
   std::string unless_file(const char* remedy) const;
   Result<void> create_depth();
   void create_colour();
+  // Aligns colour with depth, or leaves colour out.
   void register_colour();
   void drop_colour(const std::string& why);
   void unmirror(openni::VideoStream& stream, bool& mirrored, const char* name);
@@ -74,7 +81,7 @@ class OpenNiSensor {
   openni::Device& device_ = handles_->device;
   openni::VideoStream& depth_ = handles_->depth;
   openni::VideoStream& colour_ = handles_->colour;
-  openni::PlaybackControl* playback_ = nullptr;  ///< of a file; belongs to the device
+  openni::PlaybackControl* playback_ = nullptr;  ///< of a file, owned by the device; null for a sensor
   bool has_colour_ = false, paired_ = false;
   openni::VideoMode depth_mode_, colour_mode_;
   bool registered_ = false, depth_mirrored_ = false, colour_mirrored_ = false;

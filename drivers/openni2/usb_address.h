@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-/// Where an OpenNI2 sensor with this address ("1d27/0601@1/4") is on the USB bus; none: it is not there.
+/// The place on the USB bus of an OpenNI2 sensor with an address like "1d27/0601@1/4"; none if it is not a USB
+/// address.
 std::optional<UsbAddress> usb_address(const std::string& uri);
 
 }  // namespace barehand

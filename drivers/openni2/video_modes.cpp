@@ -10,7 +10,7 @@ namespace {
 
 using openni::VideoMode;
 
-/// The mode with the lowest cost; `cost` is none for what cannot be used.
+/// The mode with the lowest cost; a mode whose `cost` is none cannot be used.
 template <class Cost>
 std::optional<VideoMode> best(const openni::SensorInfo& sensor, Cost cost) {
   std::optional<VideoMode> found;
@@ -25,7 +25,7 @@ std::optional<VideoMode> best(const openni::SensorInfo& sensor, Cost cost) {
   return found;
 }
 
-/// RGB first: the others are converted, and halve or lose colour.
+/// RGB is preferred: the other formats are converted, and have half of the colour or none.
 int rank(openni::PixelFormat format) {
   switch (format) {
     case openni::PIXEL_FORMAT_RGB888:

@@ -8,17 +8,18 @@
 
 namespace barehand {
 
-/// The depth mode nearest to the wanted size, then rate, then with the finer unit; none: no format that is known.
+/// The depth mode nearest to the wanted size, then nearest to the wanted rate, then with the finest unit; none if
+/// there is no known format.
 std::optional<openni::VideoMode> choose_depth_mode(const openni::SensorInfo& sensor, const OpenNiParams& wanted);
 
-/// A colour mode of exactly the depth image's size, the rate nearest to its rate; none: there is no such mode.
+/// A colour mode of exactly the depth image's size with the rate nearest to that of depth; none if there is none.
 std::optional<openni::VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, const openni::VideoMode& depth);
 
-/// [m] per count; 0: not a depth format.
+/// Metres per count; 0 if this is not a depth format.
 double depth_unit(openni::PixelFormat format);
-/// 0: a format that is not known.
+/// 0 if the format is not known.
 int colour_bytes_per_pixel(openni::PixelFormat format);
-/// "640x480 at 30 Hz".
+/// Text for messages, such as "640x480 at 30 Hz".
 std::string to_text(const openni::VideoMode& mode);
 
 }  // namespace barehand

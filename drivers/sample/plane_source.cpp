@@ -7,8 +7,8 @@ namespace barehand {
 namespace {
 
 constexpr Intrinsics kCamera = {320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double kDepthUnit = 0.0001;  // [m]
-constexpr double kPeriod = 2;          // of the swing [s]
+constexpr double kDepthUnit = 0.0001;  // m per count
+constexpr double kPeriod = 2;          // s per swing
 
 }  // namespace
 
@@ -16,7 +16,7 @@ Result<std::unique_ptr<PlaneSource>> PlaneSource::open(const Options& options) {
   if (options.frames <= 0) return fail("no frames are asked for", "plane", "ask for at least one");
   if (!(options.fps > 0 && options.fps <= 1000))
     return fail("no camera has this frame rate", "plane", "give 1 to 1000");
-  const double farthest = 65535 * kDepthUnit;  // what 16 bits can say
+  const double farthest = 65535 * kDepthUnit;  // the largest distance that 16 bits can hold
   if (!(options.near > 0 && options.near <= options.far && options.far <= farthest))
     return fail("the distances are not in order", "plane", "0 < near <= far <= " + std::to_string(farthest));
   return std::unique_ptr<PlaneSource>(new PlaneSource(options));
@@ -24,9 +24,13 @@ Result<std::unique_ptr<PlaneSource>> PlaneSource::open(const Options& options) {
 
 SourceEvent PlaneSource::next(std::chrono::milliseconds) {
   if (next_ >= options_.frames) return EndOfStream{};
+
+  // The distance of the wall at this time.
   const double time = static_cast<double>(next_) / options_.fps;
   const double swing = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPeriod);
   const double z = options_.near + swing * (options_.far - options_.near);
+
+  // A frame has its capture time, its number, its camera and the meaning of its depth.
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = 1'000'000 + std::llround(1e6 * time);
   frame->number = next_++;

@@ -8,24 +8,23 @@
 
 namespace barehand {
 
-/// A driver to copy (docs/adding_a_driver.md): a "camera" before a wall that swings to and fro. It delivers exact depth
-/// without colour, and it is what a driver must be: frames in order with capture times, intrinsics and depth unit, an
-/// end, errors as values, and no state outside the object.
+/// A driver to copy (docs/adding_a_driver.md). It simulates a camera in front of a wall that swings back and forth,
+/// and delivers exact depth without colour. It has everything that a driver needs: frames in order with capture times,
+/// intrinsics and a depth unit, an end, errors as values, and no state outside the object.
 class PlaneSource : public FrameSource {
  public:
   struct Options {
     int frames = 90;
     double fps = 30;
-    double near = 0.5, far = 1.0;  ///< the wall swings between these distances [m]
+    double near = 0.5, far = 1.0;  ///< range of the swing [m]
   };
 
-  /// Checks everything that can be wrong before the first frame. Errors: no frames, a rate or distances that no camera
-  /// has.
+  /// Checks everything before the first frame. Errors: no frames, or a rate or distances that no camera has.
   static Result<std::unique_ptr<PlaneSource>> open(const Options& options);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
-  /// False: this source has time; every frame is delivered. A sensor's driver says true, and its frames may be dropped
-  /// when the tracker is slow.
+  /// False, since this source can wait, so every frame is delivered. The driver of a sensor returns true; its frames
+  /// may be dropped when the tracker is slow.
   bool live() const override { return false; }
   std::string name() const override { return "plane"; }
 

@@ -28,11 +28,14 @@ HandPose AnimatedHand::pose(const SkeletonPose& skeleton) const {
 
 SceneGeometry AnimatedHand::geometry(const HandState& state, const std::string& sleeve,
                                      std::uint8_t first_surface) const {
+  // The skin.
   const HandPose pose = pose_segments(rig_.profile, state.skeleton);
   TriangleMesh skin;
   skin.triangles = rig_.mesh.triangles;
   skinner_.deform(pose, skin.vertices);
   vertex_normals(skin.vertices, skin.triangles, skin.normals);
+
+  // Each segment is a surface of its own, and so is the sleeve.
   SceneGeometry geometry;
   geometry.add(skin, SE3{}, first_surface);
   for (std::size_t i = 0; i < geometry.surface.size(); ++i) geometry.surface[i] += triangle_segments()[i];

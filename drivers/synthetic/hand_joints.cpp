@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, kJointCount> kNames = {"wrist",
                                                               "little_distal",
                                                               "little_tip"};
 
+/// The words of a name in lower case.
 std::vector<std::string> words(std::string_view name) {
   std::vector<std::string> parts(1);
   for (const char c : name) {
@@ -46,6 +47,7 @@ std::vector<std::string> words(std::string_view name) {
   return parts;
 }
 
+/// Whether the word does not distinguish joints.
 bool is_filler(const std::string& word) {
   constexpr std::array<std::string_view, 11> kFiller = {"",        "xr",   "hand",  "joint", "ext", "finger",
                                                         "phalanx", "left", "right", "l",     "r"};

@@ -3,7 +3,7 @@
 namespace barehand::synthetic {
 namespace {
 
-/// Stretch of what moves with a joint, along the joint's own axes.
+/// Scale factors for what moves with a joint, along the joint's own axes.
 Eigen::Vector3d stretch(int joint, const HandShape& shape) {
   const std::array<double, kFingerCount> length = {shape.thumb, shape.index, shape.middle, shape.ring, shape.little};
   if (segment_of_joint(joint) == kPalm) return shape.scale * Eigen::Vector3d(1, shape.thickness, 1);
@@ -15,7 +15,9 @@ Eigen::Vector3d stretch(int joint, const HandShape& shape) {
 
 HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
   HandMesh result = mesh;
-  std::array<Eigen::Affine3d, kJointCount> deform;  // old hand frame to new hand frame
+  std::array<Eigen::Affine3d, kJointCount> deform;  // old to new hand frame
+
+  // Stretch joint after joint.
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SE3& T = mesh.T_hand_joint[joint];
     const int parent = parent_of_joint(joint);
@@ -24,6 +26,8 @@ HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
                     Eigen::Affine3d(Eigen::Matrix3d(T.R * stretch(joint, shape).asDiagonal() * T.R.transpose())) *
                     Eigen::Translation3d(-T.t);
   }
+
+  // The skin follows by its weights.
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = 0; i < 4; ++i)

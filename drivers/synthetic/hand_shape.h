@@ -4,10 +4,10 @@
 
 namespace barehand::synthetic {
 
-/// How another person's hand differs from the mesh: factors on its size.
+/// How a hand's shape differs from that of the mesh: factors on its dimensions.
 struct HandShape {
   double scale = 1;                                               ///< the whole hand
-  double thickness = 1;                                           ///< fingers and palm across the bones
+  double thickness = 1;                                           ///< fingers and palm, across the bones
   double thumb = 1, index = 1, middle = 1, ring = 1, little = 1;  ///< lengths of the phalanges
 };
 template <class V>
@@ -21,7 +21,7 @@ void visit(V& v, HandShape& p) {
   v("little", p.little, 0.7, 1.4, "factor on the little finger's length");
 }
 
-/// The same rig for a hand of another shape: joints move along their bones, the skin follows by its weights.
+/// The same rig for a hand of another shape: the joints move along their bones, and the skin follows by its weights.
 HandMesh reshaped(const HandMesh& mesh, const HandShape& shape);
 
 }  // namespace barehand::synthetic

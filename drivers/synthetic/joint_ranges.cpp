@@ -26,7 +26,7 @@ std::vector<JointDof> thumb_dofs(int k, const Eigen::Vector3d& abduction, const 
 std::vector<JointDof> joint_dofs(int segment, Handedness handedness) {
   if (segment == kPalm) return {};
   const int finger = finger_of(segment), k = (segment - 1) % 3;
-  // Turning about +y moves a right hand's finger to the thumb's side, a left hand's to the little finger's.
+  // A rotation about +y moves a right hand's finger towards the thumb, a left hand's towards the little finger.
   const double side = side_sign(handedness) * (finger <= 2 ? 1 : -1);
   const Eigen::Vector3d abduction = side * Eigen::Vector3d::UnitY(), flexion = -Eigen::Vector3d::UnitX();
   if (finger == 0) return thumb_dofs(k, abduction, flexion);

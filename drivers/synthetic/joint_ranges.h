@@ -6,9 +6,9 @@
 
 namespace barehand::synthetic {
 
-/// Degrees of freedom of a segment's joint in the order applied, with the ranges of a free hand. Flexion counts towards
-/// the palm; abduction away from the middle finger (the middle finger's own: towards the index), the thumb's out of
-/// the palm's plane.
+/// Degrees of freedom of a segment's joint, in the order in which they are applied, with the ranges of a free hand.
+/// Flexion is positive towards the palm; abduction is positive away from the middle finger (for the middle finger:
+/// towards the index; for the thumb: out of the palm's plane).
 std::vector<JointDof> joint_dofs(int segment, Handedness handedness);
 
 }  // namespace barehand::synthetic

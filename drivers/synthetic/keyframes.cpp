@@ -11,13 +11,14 @@
 namespace barehand::synthetic {
 namespace {
 
-/// Slope at a key between two secants: harmonic mean, or 0 at an extremum.
+/// Slope at a key between two secants: their weighted harmonic mean, or 0 at an extremum.
 double slope(double before, double after, double h_before, double h_after) {
   if (before * after <= 0) return 0;
   const double w1 = 2 * h_after + h_before, w2 = h_after + 2 * h_before;
   return (w1 + w2) / (w1 / before + w2 / after);
 }
 
+/// All values of a key in one list.
 std::vector<double> flat(const HandKey& key) {
   std::vector<double> values = {key.position.x(), key.position.y(), key.position.z(),
                                 key.turn.x(),     key.turn.y(),     key.turn.z()};
@@ -38,7 +39,7 @@ SmoothTrack make_track(const std::vector<HandKey>& keys) {
   return {std::move(times), std::move(values)};
 }
 
-/// Smooth noise in [-1, 1]: three sines of random phase.
+/// Smooth noise in [-1, 1]: the mean of three sines of random phase and frequency.
 double drift(double time, std::uint64_t seed, std::uint32_t channel) {
   KeyedRandom random(seed, channel, 0, static_cast<std::uint32_t>(Draw::tremor));
   double sum = 0;

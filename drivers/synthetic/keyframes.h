@@ -6,12 +6,14 @@
 
 namespace barehand::synthetic {
 
-/// Smooth curve through keys: monotone cubic (Fritsch and Carlson 1980) in every component, so that nothing overshoots
-/// a key and what is equal in two neighbouring keys stays still. Before the first and after the last key it holds.
+/// A smooth curve through keys: monotone cubic interpolation (Fritsch and Carlson 1980) in every component. The curve
+/// overshoots no key, and a value that is equal in two neighbouring keys stays constant between them. It is constant
+/// before the first and after the last key.
 class SmoothTrack {
  public:
-  /// Times rise strictly; all keys have the same number of values.
+  /// `times` must rise strictly, and all keys must have the same number of values.
   SmoothTrack(std::vector<double> times, std::vector<std::vector<double>> values);
+  /// The values at this time.
   std::vector<double> at(double time) const;
 
  private:
@@ -19,19 +21,20 @@ class SmoothTrack {
   std::vector<std::vector<double>> values_, slopes_;
 };
 
-/// Where the hand is at one time.
+/// The state of the hand at one time.
 struct HandKey {
   double time = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< wrist [m]
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      ///< rotation vector applied to the track's base orientation
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< rotation vector, applied to the base orientation of the track
   HandAngles angles;
 };
 
-/// The animated hand as a function of time.
+/// The pose of the animated hand as a function of time.
 class HandTrack {
  public:
-  /// A pose is {exp(turn) base, position}, in the frame that the keys are given in.
+  /// The pose of the wrist is {exp(turn) base, position}, in the frame of the keys.
   HandTrack(const Eigen::Matrix3d& base, const std::vector<HandKey>& keys);
+  /// The pose at this time [s].
   SkeletonPose at(double time) const;
 
  private:
@@ -39,7 +42,7 @@ class HandTrack {
   SmoothTrack track_;
 };
 
-/// Slow drift of all 26 degrees of freedom as of a hand held in the air, up to about 1.5 mm and 1.5 degrees.
+/// Adds the slow drift of a hand held in the air to all 26 degrees of freedom, up to about 1.5 mm and 1.5 degrees.
 SkeletonPose with_tremor(const SkeletonPose& pose, double time, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

@@ -10,13 +10,13 @@
 namespace barehand::synthetic {
 namespace {
 
-/// A piece of skin in a segment's frame.
+/// A sample of the skin in a segment's frame.
 struct SkinSample {
   Eigen::Vector3d point;
   double area;
 };
 
-/// Evenly spread over the triangles that belong to the segment: their centres of 4^2 parts.
+/// Samples the skin of a segment evenly: ten points on each of the triangles that belong to it.
 std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
   std::vector<SkinSample> samples;
   const SE3 T_segment_hand = mesh.T_hand_joint[joint_of_segment(segment)].inverse();
@@ -25,6 +25,7 @@ std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
     const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>(), b = mesh.vertices[t[1]].cast<double>(),
                           c = mesh.vertices[t[2]].cast<double>();
     const double area = 0.5 * (b - a).cross(c - a).norm();
+    // Only relative weights matter, so every sample carries the area of its whole triangle.
     constexpr int n = 4;
     for (int i = 0; i < n; ++i)
       for (int j = 0; i + j < n; ++j) {
@@ -35,24 +36,29 @@ std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
   return samples;
 }
 
-/// Elliptic cross sections along the bone, linear between both ends: centre x, centre y, half width, half thickness
+/// Elliptic cross-sections along a bone, linear between both ends: centre x, centre y, half width and half thickness
 /// at end 0, then at end 1.
 using EllipticTaper = Eigen::Matrix<double, 8, 1>;
 
-/// Gauss-Newton on the distance to the skin to first order, ((x / a)^2 + (y / b)^2 - 1) / |gradient| (Sampson).
+/// Gauss-Newton on the first-order distance to the skin, ((x / a)^2 + (y / b)^2 - 1) / |gradient| (Sampson).
 EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, double radius) {
   EllipticTaper fit;
   fit << 0, 0, radius, radius, 0, 0, radius, radius;
   for (int iteration = 0; iteration < 30; ++iteration) {
     Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Identity() * 1e-12;
     Eigen::Matrix<double, 8, 1> b = Eigen::Matrix<double, 8, 1>::Zero();
+    // One residual per sample beside the bone.
     for (const SkinSample& s : skin) {
       const double t = -s.point.z() / length;
       if (t < 0 || t > 1) continue;
+
+      // The section at the sample's place, and the distance to it.
       const Eigen::Vector4d e = (1 - t) * fit.head<4>() + t * fit.tail<4>();
       const double x = (s.point.x() - e[0]) / e[2], y = (s.point.y() - e[1]) / e[3];
       const double slope = std::max(2 * std::hypot(x / e[2], y / e[3]), 1e-6);
       const double residual = (x * x + y * y - 1) / slope;
+
+      // Its derivatives.
       Eigen::Vector4d g(-x / e[2], -y / e[3], -x * x / e[2], -y * y / e[3]);
       g *= 2 / slope;
       Eigen::Matrix<double, 8, 1> J;
@@ -60,6 +66,8 @@ EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, d
       A += s.area * J * J.transpose();
       b -= s.area * residual * J;
     }
+
+    // Step.
     const Eigen::Matrix<double, 8, 1> step = A.ldlt().solve(b);
     fit += step;
     if (step.norm() < 1e-8) break;
@@ -67,15 +75,18 @@ EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, d
   return fit;
 }
 
-/// The palm's skin has gaps at the thumb and the fingers, where an ellipse would slip out: half of what it measures
-/// across, in slices.
+/// The palm's skin has gaps at the thumb and the fingers, where a fitted ellipse would slip out. So its sections are
+/// half of the extents across the bone, measured in slices.
 EllipticTaper fit_extents(const std::vector<SkinSample>& skin, double length) {
+  // Measure the slices.
   constexpr int kSlices = 8;
   std::array<Eigen::AlignedBox2d, kSlices> slices;
   for (const SkinSample& s : skin) {
     const double t = -s.point.z() / length;
     if (t >= 0 && t < 1) slices[static_cast<int>(t * kSlices)].extend(s.point.head<2>());
   }
+
+  // Fit lines through their centres and half extents.
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity() * 1e-12;
   Eigen::Matrix<double, 2, 4> b = Eigen::Matrix<double, 2, 4>::Zero();
   for (int i = 0; i < kSlices; ++i) {
@@ -85,13 +96,14 @@ EllipticTaper fit_extents(const std::vector<SkinSample>& skin, double length) {
     A += w * w.transpose();
     b += w * Eigen::RowVector4d(centre.x(), centre.y(), half.x(), half.y());
   }
+
   const Eigen::Matrix<double, 2, 4> ends = A.ldlt().solve(b);
   EllipticTaper fit;
   fit << ends.row(0).transpose(), ends.row(1).transpose();
   return fit;
 }
 
-/// Round taper about the bone itself: least squares of the distance to it.
+/// Round taper about the bone: least squares of the distance from it.
 std::array<double, 2> fit_round(const std::vector<SkinSample>& skin, double length) {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity() * 1e-15;
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
@@ -106,14 +118,14 @@ std::array<double, 2> fit_round(const std::vector<SkinSample>& skin, double leng
   return {r[0], r[1]};
 }
 
-/// Where the skin ends along the bone [m from the proximal end].
+/// The farthest point of the skin along the bone [m from the proximal end].
 double skin_end(const std::vector<SkinSample>& skin) {
   double end = 0;
   for (const SkinSample& s : skin) end = std::max(end, -s.point.z());
   return end;
 }
 
-/// Distal end of a fingertip: on the line to the tip joint, one radius before the skin ends.
+/// Distal end of a fingertip: on the line to the tip joint, one radius before the end of the skin.
 Eigen::Vector3d tip_centre(const std::vector<SkinSample>& skin, const Eigen::Vector3d& tip_joint) {
   const Eigen::Vector3d along = tip_joint.normalized();
   double length = tip_joint.norm();

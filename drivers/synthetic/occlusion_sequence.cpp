@@ -1,3 +1,4 @@
+// Sequences in which a plate hides a part of the fingers.
 #include <algorithm>
 
 #include "drivers/synthetic/shapes.h"
@@ -9,12 +10,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOccluderDepth = 0.45;  // [m], in front of a hand at 0.58
+constexpr double kOccluderDepth = 0.45;  // m; the hand is at 0.58 m
 
-/// y / z in the image of a camera-frame point.
+/// y / z of a point in the camera frame: its row in the image.
 double slope_of(const Vector3d& p) { return p.y() / p.z(); }
 
-/// Image slopes between which the fingers 2-5 lie while they are joined: highest fingertip skin and lowest knuckle.
+/// The rows in the image (as y / z) between which the joined fingers 2 to 5 lie: from the highest skin to the lowest
+/// knuckle.
 std::pair<double, double> finger_extent(const HandRig& rig, const SkeletonPose& skeleton) {
   const HandPose pose = pose_segments(rig.profile, skeleton);
   const Skinner skinner(rig.mesh);
@@ -29,9 +31,10 @@ std::pair<double, double> finger_extent(const HandRig& rig, const SkeletonPose& 
 
 }  // namespace
 
-/// The paper's Fig. 6b, c: the fingers spread and rejoin behind a plate that covers the upper part of the image down to
-/// a fraction of the fingers' length.
+/// The paper's Fig. 6b, c: the fingers spread and rejoin behind a plate that covers the upper part of the image, down
+/// to a fraction of the fingers' length.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed) {
+  // The motion of the hand.
   const Vector3d here(0.0, 0.09, 0.58), still(0.1, 0, 0);
   FreeSequence::Setting s;
   s.duration = 1.8;
@@ -40,9 +43,12 @@ std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::ui
             {0.1, here, still, open_joined()},
             {0.9, here, still, open_spread()},
             {1.7, here, still, open_joined()}};
+
+  // The plate's lower edge for this degree of occlusion.
   const auto [top, bottom] = finger_extent(rig, HandTrack(s.base, s.keys).at(0));
-  const double margin = 0.02;  // the uncovered hand stays clear of the plate, the covered one clearly behind it
+  const double margin = 0.02;  // keeps the uncovered hand clear of the plate and the covered one behind it
   const double edge = (top - margin) + degree / 6.0 * (bottom - top + 2 * margin);
+
   SceneObject plate{"occluder", make_plate({-0.17, -0.25, 0}, {0.34, 0, 0}, {0, 0.25, 0}), {{62, 118, 88}}};
   s.objects = {plate};
   s.T_camera_object = {SE3{exp_so3({0, 0.15, 0.06}), {0.01, edge * kOccluderDepth, kOccluderDepth}}};

@@ -4,7 +4,7 @@
 
 namespace barehand::synthetic {
 
-/// What a random number is for: the last word of its key, so that no two purposes share draws.
+/// The purpose of a random number. It is the last word of the number's key, so that no two purposes share numbers.
 enum class Draw : std::uint32_t { grain = 1, depth_noise = 2, holes = 3, tremor = 4, variation = 5 };
 
 }  // namespace barehand::synthetic

@@ -25,6 +25,7 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
                       std::uint32_t first) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t index = first + static_cast<std::uint32_t>(i);
+    // Writes one row of pixels.
     const auto fill = [&](int v, int begin, int end, double inverse_z, double step) {
       float* nearest = buffer_.inverse_z.row(v);
       std::uint32_t* front = buffer_.triangle.row(v);
@@ -36,6 +37,8 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
         front[u] = nearer ? index : front[u];
       }
     };
+
+    // Clip the triangle and fill what remains.
     project_clipped(camera_, corners_of(vertices, triangles[i]),
                     [&](const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
                       scan_triangle(camera_.width, camera_.height, a, b, c, fill);
@@ -45,16 +48,22 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
 
 std::vector<int> covered_pixels(const Intrinsics& camera, int margin, std::span<const Eigen::Vector3f> vertices,
                                 std::span<const Triangle> triangles, std::span<const std::uint8_t> classes) {
+  // Enlarge the image.
   Intrinsics wide = camera;
   wide.width += 2 * margin;
   wide.height += 2 * margin;
   wide.cx += margin;
   wide.cy += margin;
+
+  // Mark the classes that cover each pixel, one bit per class.
   Image<std::uint16_t> covered(wide.width, wide.height, 0);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     assert(classes[i] < 16);
+    // Only triangles that face the camera count.
     const auto corners = corners_of(vertices, triangles[i]);
     if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[0]) >= 0) continue;
+
+    // Mark the pixels of the triangle.
     const auto bit = static_cast<std::uint16_t>(1u << classes[i]);
     const auto mark = [&](int v, int begin, int end, double, double) {
       std::uint16_t* row = covered.row(v);
@@ -64,6 +73,8 @@ std::vector<int> covered_pixels(const Intrinsics& camera, int margin, std::span<
       scan_triangle(wide.width, wide.height, a, b, c, mark);
     });
   }
+
+  // Count the bits.
   std::vector<int> counts(16, 0);
   for (std::size_t i = 0; i < covered.size(); ++i)
     for (std::uint32_t bits = covered[i]; bits; bits &= bits - 1) ++counts[std::countr_zero(bits)];

@@ -11,32 +11,32 @@
 
 namespace barehand::synthetic {
 
-/// The hand that sequences are made for: always a right one (a left hand is simulated in a mirror).
+/// The hand for which sequences are made, always a right one; a left hand is simulated by mirroring.
 struct HandRig {
   HandMesh mesh;
-  HandProfile profile;  ///< measured on it
+  HandProfile profile;  ///< measured on the mesh
 };
 
-/// A thing beside the hand, with its surface in its own frame.
+/// An object beside the hand, with its surface in its own frame.
 struct SceneObject {
   std::string name;
   TriangleMesh mesh;
   Material material;
 };
 
-/// Where a hand is at one time, as a right one: a left hand is where the mirror x = 0 shows it. Camera frame.
+/// The state of one hand at one time, as a right hand in the camera frame; a left hand is its mirror image in x = 0.
 struct HandState {
   SkeletonPose skeleton;
-  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< where the forearm leads to
+  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< the elbow, to which the forearm leads [m]
 };
 
-/// Where everything is at one time. Camera frame.
+/// The state of the whole scene at one time. Camera frame.
 struct SceneState {
-  std::vector<HandState> hands;      ///< as many as SequenceInfo says; of two the right one comes first
-  std::vector<SE3> T_camera_object;  ///< one for every object of the sequence
+  std::vector<HandState> hands;      ///< as many as SequenceInfo states; of two hands the right one comes first
+  std::vector<SE3> T_camera_object;  ///< one for each object of the sequence
 };
 
-/// A motion of hands and things: a pure function of time.
+/// A motion of hands and objects, as a pure function of time.
 class Sequence {
  public:
   virtual ~Sequence() = default;
@@ -45,19 +45,21 @@ class Sequence {
   virtual SceneState at(double time) const = 0;
 };
 
-/// What a user can ask for.
+/// Description of a sequence that a user can select.
 struct SequenceInfo {
   std::string name, description;
-  int frames = 0;  ///< at `fps`
+  int frames = 0;  ///< number of frames at `fps`
   double fps = 30;
-  bool both_hands = false;  ///< a right and a left one; otherwise one, of either side
+  bool both_hands = false;  ///< a right and a left hand; otherwise one hand of either side
 };
+// All sequences.
 const std::vector<SequenceInfo>& sequence_list();
 
-/// Error if there is no such sequence, naming those that exist.
+/// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
-/// `rig` is used for one-handed sequences and only in the call. Error as of sequence_info.
+/// Creates a sequence. `rig` is used for one-handed sequences, and only during the call. Errors: as for
+/// sequence_info().
 Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

@@ -1,3 +1,4 @@
+// The list of all sequences, and their creation by name.
 #include "drivers/synthetic/stage_set.h"
 
 namespace barehand::synthetic {
@@ -16,9 +17,13 @@ std::vector<SequenceInfo> make_list() {
     list.push_back({"occlusion_" + std::to_string(degree),
                     "fingers spread and rejoin, " + std::to_string(degree) + "/6 of them behind a plate (Fig. 6b, c)",
                     45, 25});
+
+  // The grasps.
   list.push_back({"grasp_mug", "reaches for a mug, lifts, turns, lowers and releases it", 200, 30});
   list.push_back({"grasp_ball", "the same with a 65 mm ball", 200, 30});
   list.push_back({"grasp_pliers", "the same with pliers", 200, 30});
+
+  // Free motion.
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
   list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
   list.push_back({"open", "an open hand turns slowly", 180, 30});

@@ -10,21 +10,23 @@
 namespace barehand::synthetic {
 namespace {
 
-const Eigen::Vector3f kLamp(-0.35f, -0.8f, -0.1f);  // [m], camera frame
+const Eigen::Vector3f kLamp(-0.35f, -0.8f, -0.1f);  // m, camera frame
 constexpr Rgb kNothing = {22, 22, 26};
 constexpr float kAmbient = 0.42f, kDiffuse = 0.62f;
 
-/// A quantity that is linear on a triangle, as a function of the 3D point.
+/// A quantity that is linear on a triangle, as a function of the point in space.
 struct Linear {
   Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
   float offset = 0;
   float at(const Eigen::Vector3f& p) const { return gradient.dot(p) + offset; }
 };
 
+/// Light and cosine of the viewing angle on a triangle.
 struct TriangleShade {
   Linear light, cosine;
 };
 
+/// Interpolates values at the corners of a triangle.
 class TriangleFrame {
  public:
   TriangleFrame(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) : a_(a) {
@@ -34,7 +36,7 @@ class TriangleFrame {
     to_c_ = n.cross(ab) / square;
     facing_ = n.dot(a) <= 0 ? 1.0f : -1.0f;
   }
-  /// -1 where the camera sees the inner side.
+  /// 1, or -1 if the camera sees the inner side.
   float facing() const { return facing_; }
   Linear interpolate(float at_a, float at_b, float at_c) const {
     Linear f;
@@ -48,6 +50,7 @@ class TriangleFrame {
   float facing_ = 1;
 };
 
+/// Light and viewing angle at the corners of a triangle, interpolated between them.
 TriangleShade shade_triangle(const SceneGeometry& scene, const Triangle& t) {
   const TriangleFrame frame(scene.vertices[t[0]], scene.vertices[t[1]], scene.vertices[t[2]]);
   std::array<float, 3> light{}, cosine{};
@@ -66,7 +69,7 @@ Rgb lit(Rgb colour, float light, float noise) {
   return {level(colour.r * light + noise), level(colour.g * light + noise), level(colour.b * light + noise)};
 }
 
-/// Grain of the colour sensor: one byte a pixel, 16 pixels a draw.
+/// Grain of the colour sensor: one byte per pixel, 16 pixels per random block.
 void fill_grain(std::uint64_t seed, std::uint32_t frame, std::uint32_t row, std::vector<std::uint8_t>& grain) {
   for (std::size_t u = 0; u < grain.size(); u += 16) {
     const auto block =
@@ -83,9 +86,13 @@ RenderedView shade(const Intrinsics& camera, const VisibilityBuffer& visible, co
   RenderedView view{Image<float>(camera.width, camera.height), Image<float>(camera.width, camera.height),
                     Image<std::uint8_t>(camera.width, camera.height, kNoSurface),
                     Image<Rgb>(camera.width, camera.height)};
+
+  // Shade every triangle once.
   std::vector<TriangleShade> shades;
   shades.reserve(scene.triangles.size());
   for (const Triangle& t : scene.triangles) shades.push_back(shade_triangle(scene, t));
+
+  // Then look up every pixel.
   std::vector<std::uint8_t> grain(camera.width + 1);
   const auto inverse_fx = static_cast<float>(1 / camera.fx), inverse_fy = static_cast<float>(1 / camera.fy);
   for (int v = 0; v < camera.height; ++v) {
@@ -93,11 +100,14 @@ RenderedView shade(const Intrinsics& camera, const VisibilityBuffer& visible, co
     const float y = (static_cast<float>(v) - static_cast<float>(camera.cy)) * inverse_fy;
     for (int u = 0; u < camera.width; ++u) {
       const float noise = (static_cast<float>(grain[u] + grain[u + 1]) - 255.0f) * (1 / 48.0f);
+
       const std::uint32_t index = visible.triangle.at(u, v);
       if (index == kNoTriangle) {
         view.colour.at(u, v) = lit(kNothing, 1, noise);
         continue;
       }
+
+      // The visible point and its appearance.
       const float z = 1 / visible.inverse_z.at(u, v);
       const Eigen::Vector3f p(z * (static_cast<float>(u) - static_cast<float>(camera.cx)) * inverse_fx, z * y, z);
       view.depth.at(u, v) = z;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Path with the frame carried along it: columns normal, binormal.
+/// Transports a frame along a path without twisting it; columns: normal, binormal.
 std::vector<Eigen::Matrix<double, 3, 2>> carried_frames(std::span<const Vector3d> path) {
   std::vector<Eigen::Matrix<double, 3, 2>> frames(path.size());
   Vector3d normal = (path[1] - path[0]).unitOrthogonal();
@@ -30,10 +30,14 @@ std::vector<Eigen::Matrix<double, 3, 2>> carried_frames(std::span<const Vector3d
 TriangleMesh make_patch(int columns, int rows, const std::function<Vector3d(double, double)>& point, bool closed_u,
                         bool closed_v) {
   TriangleMesh mesh;
+
+  // Vertices; a closed direction has one row less.
   const int nu = closed_u ? columns : columns + 1, nv = closed_v ? rows : rows + 1;
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i)
       mesh.vertices.push_back(point(static_cast<double>(i) / columns, static_cast<double>(j) / rows).cast<float>());
+
+  // Two triangles per quadrilateral.
   const auto index = [&](int i, int j) { return static_cast<std::uint32_t>((j % nv) * nu + i % nu); };
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
@@ -103,9 +107,12 @@ TriangleMesh make_tube(std::span<const Vector3d> path, std::span<const double> r
 }
 
 TriangleMesh make_mug(const MugSize& size) {
+  // The body.
   const double r = size.radius, h = size.height / 2, w = size.wall;
   const Eigen::Vector2d outline[] = {{1e-6, -h}, {r, -h}, {r, h}, {r - w, h}, {r - w, -h + w}, {1e-6, -h + w}};
   TriangleMesh mug = make_turned(outline);
+
+  // The handle.
   std::vector<Vector3d> path;
   for (int i = 0; i <= 24; ++i) {
     const double a = std::numbers::pi * (i / 24.0 - 0.5);
@@ -119,21 +126,26 @@ TriangleMesh make_pliers(const PliersSize& size) {
   TriangleMesh pliers;
   const double pivot = -0.3 * size.length, front = -0.55 * size.length, back = 0.45 * size.length;
   for (const double side : {-1.0, 1.0}) {
+    // One handle, from the pivot to its end.
     std::vector<Vector3d> path;
     std::vector<double> radii;
-    for (int i = 0; i <= 20; ++i) {  // from the pivot along the handle
+    for (int i = 0; i <= 20; ++i) {
       const double t = i / 20.0, opening = size.spread * std::sin(t * 2.0) / std::sin(2.0);
       path.emplace_back(pivot + t * (back - pivot), side * opening * 0.75, 0);
       radii.push_back(size.handle_radius * std::sqrt(std::max(0.02, std::min(1.0, 14 * (1 - t)))));
     }
     pliers.append(make_tube(path, radii));
+
+    // One jaw, which becomes thinner towards the front.
     TriangleMesh jaw = make_box({(pivot - front) / 2, 0.004, 0.006});
-    for (auto& v : jaw.vertices) {  // tapers to the front
+    for (auto& v : jaw.vertices) {
       const float t = v.x() / static_cast<float>(pivot - front) + 0.5f;
       v = {v.x() + static_cast<float>(0.5 * (pivot + front)), static_cast<float>(side) * 0.0045f + v.y() * t, v.z()};
     }
     pliers.append(jaw);
   }
+
+  // The rivet.
   const Eigen::Vector2d disc[] = {{1e-6, -0.008}, {0.012, -0.008}, {0.012, 0.008}, {1e-6, 0.008}};
   TriangleMesh rivet = make_turned(disc);
   for (auto& v : rivet.vertices) v.x() += static_cast<float>(pivot);

@@ -7,14 +7,16 @@
 
 namespace barehand::synthetic {
 
-/// Distance from a thing's surface in its own frame [m]; negative inside.
+/// Distance of a point from the surface of a thing, in the frame of the thing [m]; negative inside.
 using SignedDistance = std::function<double(const Eigen::Vector3d&)>;
 
+// A sphere about the origin.
 SignedDistance sphere_distance(double radius);
-/// Solid cylinder about z.
+/// A solid cylinder about z.
 SignedDistance cylinder_distance(double radius, double half_height);
-/// Union of balls rolled along the path.
+/// A tube: the union of all spheres with centres on the path.
 SignedDistance tube_distance(std::vector<Eigen::Vector3d> path, double radius);
+/// The union of several things.
 SignedDistance union_of(std::vector<SignedDistance> parts);
 
 }  // namespace barehand::synthetic

@@ -9,7 +9,7 @@ namespace barehand::synthetic {
 namespace {
 
 constexpr Rgb kSkin = {214, 162, 134}, kCloth = {42, 66, 138};
-constexpr int kMargin = 200;  // [px] around the image in which a segment still counts as projected
+constexpr int kMargin = 200;  // px, a segment that is this close to the image still counts as projected
 
 Intrinsics camera_of(const SimulatorParams& p) {
   const double focal = p.focal > 0 ? p.focal : 525.0 * p.width / 640;
@@ -25,9 +25,10 @@ Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const Simulat
   return std::vector{Handedness::right, Handedness::left};
 }
 
-/// Surfaces of a hand: see AnimatedHand; things come after all hands.
+/// Index of the first surface of a hand, see AnimatedHand; objects follow after all hands.
 std::uint8_t first_surface(std::size_t hand) { return static_cast<std::uint8_t>(AnimatedHand::kSurfaceCount * hand); }
 
+/// Depth in metres as counts of the sensor.
 Image<std::uint16_t> counts(const Image<float>& depth) {
   Image<std::uint16_t> image(depth.width(), depth.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -42,6 +43,7 @@ Image<std::uint16_t> counts(const Image<float>& depth) {
 Simulator::Simulator(const SimulatorParams& params, const Intrinsics& camera) : params_(params), rasteriser_(camera) {}
 
 Result<Simulator> Simulator::create(const SimulatorParams& params, const std::string& mesh_folder) {
+  // Check the parameters.
   const auto info = sequence_info(params.sequence);
   if (!info) return tl::unexpected(info.error());
   constexpr double kSlowest = 0.1;
@@ -50,16 +52,22 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
                 formatted("give 0 for the sequence's own or %g at least", kSlowest));
   const auto sides = sides_of(*info, params);
   if (!sides) return tl::unexpected(sides.error());
+
+  // Load the hands.
   Simulator simulator(params, camera_of(params));
   for (const Handedness side : *sides) {
     auto hand = AnimatedHand::load(side, params.shape, mesh_folder);
     if (!hand) return tl::unexpected(hand.error());
     simulator.hands_.push_back(std::move(*hand));
   }
+
+  // Make the sequence.
   auto sequence =
       make_sequence(params.sequence, simulator.hands_.front().rig(), static_cast<std::uint64_t>(params.seed));
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
+
+  // Number of frames at this rate and speed.
   simulator.fps_ = params.fps > 0 ? params.fps : info->fps;
   simulator.frame_count_ = std::max(1L, std::lround(info->frames / info->fps * simulator.fps_ / params.speed));
   if (params.frames > 0) simulator.frame_count_ = std::min<std::int64_t>(simulator.frame_count_, params.frames);
@@ -82,7 +90,7 @@ SceneGeometry Simulator::things(const SceneState& state) const {
   for (std::size_t i = 0; i < objects.size(); ++i)
     geometry.add(objects[i].mesh, state.T_camera_object[i],
                  static_cast<std::uint8_t>(first_surface(hands_.size()) + i));
-  if (hands_.front().side() == Handedness::left) geometry.mirror();  // one left hand: all of the scene is in the mirror
+  if (hands_.front().side() == Handedness::left) geometry.mirror();  // a single left hand: the whole scene is mirrored
   return geometry;
 }
 
@@ -96,15 +104,20 @@ Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) con
 
 std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
                                               const HandPose& pose) const {
+  // Pixels in which each segment is front-most.
   std::array<int, kSegmentCount> front{};
   for (std::size_t i = 0; i < view.surface.size(); ++i) {
     const int segment = view.surface[i] - first_surface(hand);
     if (segment >= 0 && segment < kSegmentCount) ++front[segment];
   }
   if (std::all_of(front.begin(), front.end(), [](int n) { return n == 0; })) return std::nullopt;
+
+  // Pixels that it would cover without occlusion.
   const auto& segments = hands_[hand].triangle_segments();
   const auto covered = covered_pixels(camera(), kMargin, geometry.vertices,
                                       std::span(geometry.triangles).first(segments.size()), segments);
+
+  // The visible fraction is their ratio.
   TableFrame table;
   for (int s = 0; s < kSegmentCount; ++s) {
     table.rows[s] = {proximal_end(pose, s), distal_end(hands_[hand].profile(), pose, s),
@@ -114,6 +127,7 @@ std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedVi
 }
 
 SimulatedFrame Simulator::render(std::int64_t number) {
+  // The scene at this time.
   const double time = static_cast<double>(number) / fps_ * params_.speed;
   const SceneState state = sequence_->at(std::min(time, sequence_->duration()));
   std::vector<SceneGeometry> hands;
@@ -123,16 +137,21 @@ SimulatedFrame Simulator::render(std::int64_t number) {
     scene.add(hands.back());
   }
   scene.add(things(state));
+
+  // Render it, and add the sensor's noise.
   rasteriser_.clear();
   rasteriser_.draw(scene.vertices, scene.triangles, 0);
   RenderedView view = shade(camera(), rasteriser_.buffer(), scene, materials(),
                             static_cast<std::uint64_t>(params_.seed), static_cast<std::uint32_t>(number));
+
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = kFirstUtime + std::llround(1e6 * static_cast<double>(number) / fps_);
   frame->number = number;
   frame->camera = camera();
   frame->depth_unit = kDepthUnit;
   frame->depth = counts(spoil(view, number));
+
+  // The truth about each hand.
   SimulatedFrame result;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}};
@@ -143,6 +162,7 @@ SimulatedFrame Simulator::render(std::int64_t number) {
     }
     result.hands.push_back(std::move(truth));
   }
+
   frame->colour = std::move(view.colour);
   result.frame = std::move(frame);
   return result;

@@ -12,7 +12,7 @@
 
 namespace barehand::synthetic {
 
-/// What to simulate.
+/// What to simulate; the meaning of each value is stated in visit().
 struct SimulatorParams {
   std::string sequence = "fist";  ///< a name of sequence_list()
   std::string noise = "none";
@@ -41,43 +41,47 @@ void visit(V& v, SimulatorParams& p) {
   visit(v, p.shape);
 }
 
-/// What is true of a hand in one frame.
+/// The truth about one hand in one frame.
 struct HandTruth {
   HandPose pose;                    ///< T_camera_segment
-  std::optional<TableFrame> table;  ///< absent while no part of this hand is in the picture
+  std::optional<TableFrame> table;  ///< none if no part of this hand is in the image
 };
 
-/// One simulated measurement and what is true of it.
+/// One simulated frame and the truth about it.
 struct SimulatedFrame {
   FramePtr frame;
   std::vector<HandTruth> hands;  ///< in the order of Simulator::hands()
 };
 
-/// Renders a sequence: one or two animated hand meshes with sleeves, things and a table, before a range camera. Frame i
-/// is a pure function of the parameters and i. Not for use by several threads at once.
+/// Renders a sequence: one or two animated hand meshes with sleeves, objects and a table, as a range camera sees them.
+/// Frame i is a pure function of the parameters and of i. Not to be used by several threads at once.
 class Simulator {
  public:
   static constexpr double kDepthUnit = 0.0001;            ///< m per count
   static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< of frame 0
 
-  /// Errors: hand mesh not fetched or unfit, unknown sequence, a left hand wanted of a sequence that has both.
-  /// `mesh_folder`: see hand_mesh_folder().
+  /// Errors: the hand mesh was not fetched or is unusable, there is no such sequence, or a left hand is requested from
+  /// a sequence with both hands. `mesh_folder`: see hand_mesh_folder().
   static Result<Simulator> create(const SimulatorParams& params, const std::string& mesh_folder = {});
 
+  /// Renders the frame with this number.
   SimulatedFrame render(std::int64_t number);
 
   std::int64_t frame_count() const { return frame_count_; }
   double fps() const { return fps_; }
   const Intrinsics& camera() const { return rasteriser_.camera(); }
-  /// One; or a right and a left one.
+  /// One hand, or a right and a left one.
   const std::vector<AnimatedHand>& hands() const { return hands_; }
   const SimulatorParams& params() const { return params_; }
 
  private:
   Simulator(const SimulatorParams& params, const Intrinsics& camera);
+  // The objects of the scene.
   SceneGeometry things(const SceneState& state) const;
   std::vector<Material> materials() const;
+  // Adds the sensor's noise to an ideal depth image.
   Image<float> spoil(const RenderedView& view, std::int64_t number) const;
+  // The truth table of one hand; none if it is not in the image.
   std::optional<TableFrame> table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
                                      const HandPose& pose) const;
 

@@ -6,21 +6,22 @@
 
 namespace barehand::synthetic {
 
-/// The 20 joint angles of the animated hand [rad], per finger. Flexion counts towards the palm, abduction away from the
-/// middle finger (the middle finger's own: towards the index; the thumb's: out of the palm's plane).
+/// Joint angles of one finger of the animated hand [rad]; a hand has 20. Flexion is positive towards the palm;
+/// abduction is positive away from the middle finger (for the middle finger: towards the index; for the thumb: out of
+/// the palm's plane).
 struct FingerAngles {
-  double abduction = 0;             ///< knuckle; the thumb's CMC joint
-  std::array<double, 3> flexion{};  ///< from the palm to the tip (thumb: CMC, MCP, IP; fingers: MCP, PIP, DIP)
+  double abduction = 0;             ///< of the knuckle; for the thumb of the CMC joint
+  std::array<double, 3> flexion{};  ///< from palm to tip (thumb: CMC, MCP, IP; fingers: MCP, PIP, DIP)
 };
 using HandAngles = std::array<FingerAngles, kFingerCount>;
 
-/// 26 degrees of freedom: the wrist's six and the joint angles.
+/// The 26 degrees of freedom: six of the wrist and the joint angles.
 struct SkeletonPose {
   SE3 T_camera_palm;
   HandAngles angles;
 };
 
-/// All segments of an animated hand; every joint closed.
+/// The poses of all segments of an animated hand, with closed joints.
 HandPose pose_segments(const HandProfile& profile, const SkeletonPose& skeleton);
 
 /// Named shapes of the hand.

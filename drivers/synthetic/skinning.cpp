@@ -18,7 +18,7 @@ Skinner::Skinner(const HandMesh& mesh) : rest_(mesh.vertices), weights_(mesh.wei
 }
 
 void Skinner::deform(const HandPose& pose, std::vector<Eigen::Vector3f>& vertices) const {
-  std::array<Eigen::Matrix<float, 3, 4>, kSegmentCount> move;  // rest to posed
+  std::array<Eigen::Matrix<float, 3, 4>, kSegmentCount> move;  // from rest to pose
   for (int s = 0; s < kSegmentCount; ++s) {
     const SE3 T = pose[s] * T_segment_hand_[s];
     move[s] << T.R.cast<float>(), T.t.cast<float>();

@@ -7,11 +7,12 @@
 
 namespace barehand::synthetic {
 
-/// Moves a hand mesh with its segments by linear blend skinning. Holds what does not depend on the pose.
+/// Deforms a hand mesh with its segments by linear blend skinning. It holds everything that does not depend on the
+/// pose.
 class Skinner {
  public:
   explicit Skinner(const HandMesh& mesh);
-  /// Vertices in the frame of `pose`, in the order of the mesh.
+  /// Vertices in the frame in which `pose` is given, in the order of the mesh.
   void deform(const HandPose& pose, std::vector<Eigen::Vector3f>& vertices) const;
   /// Segment of every triangle of the mesh.
   const std::vector<std::uint8_t>& triangle_segments() const { return triangle_segments_; }
@@ -25,7 +26,7 @@ class Skinner {
   std::vector<std::uint8_t> triangle_segments_, vertex_segments_;
 };
 
-/// Area-weighted vertex normals of a closed surface; outward for counter-clockwise triangles.
+/// Area-weighted vertex normals of a closed surface, which point outward for counter-clockwise triangles.
 void vertex_normals(const std::vector<Eigen::Vector3f>& vertices, const std::vector<Triangle>& triangles,
                     std::vector<Eigen::Vector3f>& normals);
 

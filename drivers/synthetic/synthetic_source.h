@@ -11,35 +11,37 @@
 
 namespace barehand::synthetic {
 
-/// A hand of the simulator.
+/// A simulated hand and its truth in the frame that was delivered last.
 struct SimulatedHand {
-  HandProfile profile;              ///< as measured on it
-  std::optional<TableFrame> truth;  ///< of the frame delivered last; none if the hand is not in view there
-  HandPose pose;                    ///< in that frame
+  HandProfile profile;              ///< measured on the hand
+  std::optional<TableFrame> truth;  ///< none if the hand is not in view
+  HandPose pose;                    ///< T_camera_segment
 };
 
-/// The simulator as a camera. Replayed: every frame once, stamped from 1 s on. Live: a frame becomes due at its time by
-/// the clock and is stamped with that; frames that nobody fetched in time are left out, as a sensor would.
+/// The simulator as a source of frames. Replay: every frame once, with times from 1 s on. Live: a frame becomes due at
+/// its time by the clock and carries this time; frames that nobody took in time are dropped, as a sensor would drop
+/// them.
 class SyntheticSource : public FrameSource {
  public:
-  /// `text`: what stands after "sim:", see parse_synthetic_spec. `clock` outlives the source and is used when live.
+  /// `text`: the part after "sim:", see parse_synthetic_spec(). `clock` must outlive the source; it is used for live
+  /// frames only.
   static Result<std::unique_ptr<SyntheticSource>> open(const std::string& text, const Clock& clock);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return spec_.live; }
   std::string name() const override { return name_; }
 
-  /// One, or a right and a left one.
+  /// One hand, or a right and a left one.
   const std::vector<SimulatedHand>& hands() const { return hands_; }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
-  /// Frames still to come; -1 if it goes on for ever.
+  /// Number of frames still to come; -1 if the sequence is repeated endlessly.
   std::int64_t remaining() const;
 
  private:
   SyntheticSource(SyntheticSpec spec, Simulator simulator, std::string name, const Clock& clock);
   bool at_end() const { return !spec_.loop && next_ >= simulator_.frame_count(); }
-  /// Waits for the next frame; false if it is not due within `patience`.
+  /// Waits until the next frame is due; false if that takes longer than `patience`.
   bool wait_until_due(std::chrono::milliseconds patience);
   FramePtr deliver();
 
@@ -48,7 +50,7 @@ class SyntheticSource : public FrameSource {
   std::string name_;
   const Clock& clock_;
   std::int64_t next_ = 0;
-  std::int64_t start_us_ = -1;    // clock time of frame 0, once live frames were asked for
+  std::int64_t start_us_ = -1;    // clock time of frame 0 once live frames were requested; before: -1
   std::int64_t start_utime_ = 0;  // the same since the epoch
   std::vector<SimulatedHand> hands_;
 };

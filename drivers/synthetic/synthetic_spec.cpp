@@ -20,7 +20,7 @@ std::optional<T> number_in(const std::string& text) {
   return value;
 }
 
-/// "fist,a=1,b=2" to values by key.
+/// Splits "a=1,b=2" into values by key.
 Result<std::map<std::string, std::string>> split(std::istringstream& words, const std::string& where) {
   std::map<std::string, std::string> values;
   for (std::string word; std::getline(words, word, ',');) {
@@ -33,7 +33,7 @@ Result<std::map<std::string, std::string>> split(std::istringstream& words, cons
   return values;
 }
 
-/// Fills in the values given; remembers the first that is wrong.
+/// Sets the values that were given, and remembers the first error.
 class SpecReader : public ConfigVisitor {
  public:
   SpecReader(std::map<std::string, std::string> values, std::string where)
@@ -100,7 +100,7 @@ class SpecReader : public ConfigVisitor {
   std::optional<Error> error_;
 };
 
-/// Lists keys, defaults and meanings.
+/// Lists all keys with defaults and meanings.
 class SpecLister : public ConfigVisitor {
  public:
   using ConfigVisitor::operator();

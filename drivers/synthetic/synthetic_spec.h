@@ -7,7 +7,7 @@
 
 namespace barehand::synthetic {
 
-/// What stands after "sim:".
+/// The specification of a simulated source, given after "sim:".
 struct SyntheticSpec {
   SimulatorParams simulator;
   bool live = false;
@@ -22,11 +22,12 @@ void visit(V& v, SyntheticSpec& p) {
   v("hands", p.hands, "folder with left.glb and right.glb, empty = where deploy/fetch_hand_mesh.sh puts them");
 }
 
-/// Reads "NAME" or "NAME,key=value,key=value", for example "fist,noise=kinect,seed=3,fps=60". Errors name the key:
-/// unknown sequence or key, no value, a value that is no number, out of range or not among the choices, a key twice.
+/// Parses "NAME" or "NAME,key=value,key=value", for example "fist,noise=kinect,seed=3,fps=60". Errors name the key: an
+/// unknown sequence or key, a missing value, a value that is not a number, out of range or not among the choices, a
+/// key given twice.
 Result<SyntheticSpec> parse_synthetic_spec(const std::string& text);
 
-/// Every key with its range and meaning, one a line.
+/// One line per key with its default, range and meaning.
 std::string synthetic_spec_help();
 
 }  // namespace barehand::synthetic

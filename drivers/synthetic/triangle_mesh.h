@@ -6,13 +6,14 @@
 
 namespace barehand::synthetic {
 
-/// A rigid thing's surface in its own frame [m]. Normals are outward, one a vertex; edges that shall look sharp have
-/// their vertices twice.
+/// The surface of a rigid object in its own frame [m]. There is one outward normal per vertex; at sharp edges the
+/// vertices are doubled.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;
   std::vector<Triangle> triangles;
 
+  /// Adds the triangles of another mesh in the same frame.
   void append(const TriangleMesh& other);
 };
 

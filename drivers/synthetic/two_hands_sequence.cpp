@@ -1,3 +1,4 @@
+// The sequence of a right and a left hand.
 #include "drivers/synthetic/stage_set.h"
 
 namespace barehand::synthetic {
@@ -5,7 +6,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two hands that move in the air, each on a track of its own.
+/// Two hands that move in the air, each on its own track.
 class TwoHandsSequence : public Sequence {
  public:
   TwoHandsSequence(FreeSequence::Setting right, FreeSequence::Setting left)
@@ -22,11 +23,12 @@ class TwoHandsSequence : public Sequence {
   FreeSequence right_, left_;
 };
 
-const Vector3d kElbow(-0.03, 0.25, 0.05);  // from the wrist: a person who faces the camera
-const Vector3d kOut(-0.62, 0.1, 0.6);      // of view
+const Vector3d kElbow(-0.03, 0.25, 0.05);  // from the wrist, for a person who faces the camera
+const Vector3d kOut(-0.62, 0.1, 0.6);      // outside the view
 
-// Each hand's own side is x < 0, for the left one is seen in a mirror. They cross twice, at 4.2 s with the right one in
-// front and at 6.5 s with the left one, stand side by side as fists from 8.0 to 8.9 s, and leave the view one by one.
+// Both tracks are those of right hands, at x < 0, since the left hand is mirrored. The hands pass each other twice (at
+// 4.2 s with the right one in front, at 6.5 s with the left one), stand side by side as fists from 8.0 to 8.9 s, and
+// leave the view one after the other.
 
 std::vector<HandKey> right_keys() {
   return {{0.0, {-0.14, 0.09, 0.60}, {0, 0, 0}, fist()},

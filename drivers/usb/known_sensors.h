@@ -5,7 +5,7 @@
 
 namespace barehand {
 
-/// What deploy/udev calls the depth sensor with these numbers; "": it is none that is known.
+/// The name that deploy/udev gives to the depth sensor with these USB numbers; "" if it is not known.
 std::string known_sensor(std::uint16_t vendor, std::uint16_t product);
 
 }  // namespace barehand

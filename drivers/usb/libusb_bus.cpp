@@ -10,10 +10,11 @@
 namespace barehand {
 namespace {
 
+/// Speed of the device's connection [Mb/s]; 0 if it is not known.
 int megabits(libusb_device* device) {
   switch (libusb_get_device_speed(device)) {
     case LIBUSB_SPEED_LOW:
-      return 2;  // 1.5
+      return 2;  // 1.5, rounded up
     case LIBUSB_SPEED_FULL:
       return 12;
     case LIBUSB_SPEED_HIGH:
@@ -27,7 +28,8 @@ int megabits(libusb_device* device) {
   }
 }
 
-/// Whether the device's own account of itself names a faster bus. A USB 3 device on a USB 2 port says 2.1.
+/// Whether the device's descriptor names a faster bus than the one it is connected to. A USB 3 device reports 2.1 at a
+/// USB 2 port.
 bool held_back(libusb_device* device) {
   libusb_device_descriptor descriptor{};
   libusb_get_device_descriptor(device, &descriptor);
@@ -57,10 +59,13 @@ Result<std::vector<UsbSensor>> LibUsbBus::sensors() {
   const auto listing = UsbListing::take();
   if (!listing) return tl::unexpected(listing.error());
   std::vector<UsbSensor> found;
+
+  // Look for known sensors, and check whether this user may open them.
   for (libusb_device* device : listing->devices()) {
     const UsbAddress address = address_of(device);
     const std::string name = known_sensor(address.vendor, address.product);
     if (name.empty()) continue;
+
     UsbSensor sensor{address, name, port_of(device), megabits(device), held_back(device), {}};
     if (const auto handle = open_usb(device); !handle) sensor.obstacle = handle.error();
     found.push_back(std::move(sensor));
@@ -76,6 +81,7 @@ Result<void> LibUsbBus::watch(std::function<void()> changed) {
 }
 
 Result<void> LibUsbBus::reset(const UsbAddress& address) {
+  // Find the device.
   const auto listing = UsbListing::take();
   if (!listing) return tl::unexpected(listing.error());
   const auto devices = listing->devices();
@@ -83,11 +89,13 @@ Result<void> LibUsbBus::reset(const UsbAddress& address) {
       std::find_if(devices.begin(), devices.end(), [&](libusb_device* d) { return address_of(d) == address; });
   const std::string where = formatted("USB device %04x:%04x on bus %d, number %d", address.vendor, address.product,
                                       address.bus, address.number);
+
+  // Reset it.
   if (device == devices.end()) return fail("is not plugged in any more", where, "plug it in");
   const auto handle = open_usb(*device);
   if (!handle) return tl::unexpected(handle.error());
   const int status = libusb_reset_device(handle->get());
-  if (status != LIBUSB_SUCCESS && status != LIBUSB_ERROR_NOT_FOUND)  // not found: it came back under another number
+  if (status != LIBUSB_SUCCESS && status != LIBUSB_ERROR_NOT_FOUND)  // not found: it has come back under another number
     return fail(std::string("cannot be reset: ") + libusb_strerror(status), where, "re-plug it");
   return {};
 }

@@ -8,7 +8,7 @@ namespace barehand {
 
 class UsbWatch;
 
-/// The USB bus of this machine through libusb.
+/// The USB bus of this machine, accessed through libusb.
 class LibUsbBus : public UsbBus {
  public:
   LibUsbBus();

@@ -12,12 +12,15 @@ Result<UsbListing> UsbListing::take() {
   int status = libusb_init(&context);
   listing.context_.reset(context);
   libusb_device** devices = nullptr;
+
+  // List the devices; the list must be freed on every path.
   if (status == LIBUSB_SUCCESS) {
     const auto count = libusb_get_device_list(context, &devices);
     listing.devices_.reset(devices);
     listing.count_ = count > 0 ? static_cast<std::size_t>(count) : 0;
     status = count < 0 ? static_cast<int>(count) : LIBUSB_SUCCESS;
   }
+
   if (status != LIBUSB_SUCCESS)
     return fail(std::string("the bus cannot be looked at: ") + libusb_strerror(status), "USB",
                 "in a container, hand in /dev/bus/usb and /sys");

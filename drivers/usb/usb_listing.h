@@ -9,10 +9,11 @@
 
 namespace barehand {
 
-/// What is on the bus now. Scanned anew each time: a list that libusb keeps follows udev, which some containers lack.
+/// The devices that are on the bus now. The bus is scanned for every listing, because a list that libusb maintains
+/// depends on udev, which some containers lack.
 class UsbListing {
  public:
-  /// Error: libusb finds no bus.
+  /// Scans the bus. Error: libusb finds no bus.
   static Result<UsbListing> take();
 
   std::span<libusb_device* const> devices() const { return {devices_.get(), count_}; }
@@ -25,18 +26,21 @@ class UsbListing {
     void operator()(libusb_device** devices) const { libusb_free_device_list(devices, 1); }
   };
   std::unique_ptr<libusb_context, Exit> context_;
-  std::unique_ptr<libusb_device*[], Free> devices_;  // before the context goes
+  std::unique_ptr<libusb_device*[], Free> devices_;  // must be freed before the context
   std::size_t count_ = 0;
 };
 
+/// An open device, which is closed at the end of its life.
 struct CloseUsb {
   void operator()(libusb_device_handle* handle) const { libusb_close(handle); }
 };
 using UsbHandle = std::unique_ptr<libusb_device_handle, CloseUsb>;
 
+// Vendor, product, bus and number of a device, and its port such as "1-2.3".
 UsbAddress address_of(libusb_device* device);
 std::string port_of(libusb_device* device);
-/// Opens a device without disturbing it. Errors: no permission, it went, there is no device file.
+/// Opens a device without disturbing it. Errors: the permission is missing, the device was unplugged, there is no
+/// device file.
 Result<UsbHandle> open_usb(libusb_device* device);
 
 }  // namespace barehand

@@ -9,7 +9,7 @@ constexpr auto kEvents = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EV
 
 int tell(libusb_context*, libusb_device*, libusb_hotplug_event, void* changed) {
   (*static_cast<const std::function<void()>*>(changed))();
-  return 0;  // go on
+  return 0;  // 0: keep the callback registered
 }
 
 }  // namespace
@@ -19,18 +19,21 @@ Result<std::unique_ptr<UsbWatch>> UsbWatch::start(std::function<void()> changed)
   if (const int status = libusb_init(&context); status != LIBUSB_SUCCESS)
     return fail(std::string("the bus cannot be watched: ") + libusb_strerror(status), "USB", "");
   std::unique_ptr<UsbWatch> watch(new UsbWatch(context, std::move(changed)));
+
+  // Register for all devices.
   constexpr int kAny = LIBUSB_HOTPLUG_MATCH_ANY;
   const int status = libusb_hotplug_register_callback(context, kEvents, 0, kAny, kAny, kAny, tell,
                                                       const_cast<std::function<void()>*>(&watch->changed_), nullptr);
   if (status != LIBUSB_SUCCESS)
     return fail(std::string("plugs cannot be watched: ") + libusb_strerror(status), "USB", "");
+
   watch->thread_ = std::thread([watch = watch.get()] { watch->run(); });
   return watch;
 }
 
 void UsbWatch::run() {
   while (!stop_) {
-    timeval patience{1, 0};  // ends the wait in case the interruption came just before it
+    timeval patience{1, 0};  // a bound, in case the interruption came just before the wait
     libusb_handle_events_timeout(context_, &patience);
   }
 }

@@ -11,10 +11,11 @@ struct libusb_context;
 
 namespace barehand {
 
-/// Tells from a thread of its own whenever something is plugged in or pulled, for as long as it lives.
+/// Calls a function from a thread of its own whenever a device is plugged in or unplugged, for as long as the object
+/// lives.
 class UsbWatch {
  public:
-  /// Error: libusb cannot watch on this machine.
+  /// Starts the thread. Error: libusb cannot watch the bus on this machine.
   static Result<std::unique_ptr<UsbWatch>> start(std::function<void()> changed);
   ~UsbWatch();
   UsbWatch(const UsbWatch&) = delete;

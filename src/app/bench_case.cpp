@@ -15,9 +15,9 @@
 namespace barehand {
 namespace {
 
-constexpr int kMemoryPoints = 50;  // of the curve over a run
+constexpr int kMemoryPoints = 50;  // points of the memory curve over a run
 
-/// Starts the measurement when the warm-up is over and follows the memory from there.
+/// Starts the measurement after the warm-up, and records time and memory from then on.
 class MeasuringSink : public Sink {
  public:
   MeasuringSink(const BenchConditions& conditions, std::int64_t stored_bytes, const Clock& clock)
@@ -26,12 +26,19 @@ class MeasuringSink : public Sink {
   std::string name() const override { return "measure"; }
   Result<void> consume(const TrackedFrame& tracked) override {
     if (++seen_ == conditions_.warm_up) start();
+
     if (seen_ <= conditions_.warm_up) return {};
+
+    // Count the frames in which all hands are tracked.
     tracked_ += std::ranges::all_of(tracked.estimates,
                                     [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
+
+    // Sample the memory at equal steps.
     const std::int64_t step = std::max<std::int64_t>(1, conditions_.frames / kMemoryPoints);
     if ((seen_ - conditions_.warm_up) % step == 0)
       resident_mb_.push_back(static_cast<double>(memory_usage().resident - stored_bytes_) / kMegabyte);
+
+    // The last frame sets the end of the measurement.
     end_us_ = clock_.steady_us();
     cpu_end_ = cpu_seconds();
     return {};
@@ -43,6 +50,7 @@ class MeasuringSink : public Sink {
     cpu_start_ = cpu_seconds();
   }
 
+  /// Writes the figures of the counted frames to `out`.
   void report(BenchResult& out) const {
     const auto counted = static_cast<double>(std::max<std::int64_t>(1, seen_ - conditions_.warm_up));
     out.seconds = static_cast<double>(end_us_ - start_us_) * 1e-6;
@@ -52,6 +60,7 @@ class MeasuringSink : public Sink {
     out.resident_mb = resident_mb_;
   }
 
+  /// Called when the warm-up is over.
   std::function<void()> on_start;
 
  private:
@@ -63,7 +72,7 @@ class MeasuringSink : public Sink {
   std::vector<double> resident_mb_;
 };
 
-/// Receives the states like any client and measures how old they are.
+/// Receives the states like any other client and measures their age.
 class Reception {
  public:
   Reception(std::shared_ptr<LcmBus> bus, const std::string& prefix, const Clock& clock)
@@ -85,7 +94,7 @@ class Reception {
  private:
   mutable std::mutex mutex_;
   TimeHistogram ages_;
-  LcmListener listener_;  // last: its thread uses the others
+  LcmListener listener_;  // last, as its thread uses the members above
 };
 
 }  // namespace
@@ -96,13 +105,16 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);
   if (!workers) return tl::unexpected(workers.error());
-  (*workers)->go_live();  // a scan of a mean hand takes what tracking leaves, as beside a sensor
+  (*workers)->go_live();  // as beside a sensor, the scan of a mean hand only uses time that tracking leaves
+
+  // The states go through LCM and come back.
   auto opened = LcmBus::open(conditions.lcm_url);
   if (!opened) return tl::unexpected(opened.error());
   const std::shared_ptr<LcmBus> bus = std::move(*opened);
   const std::string& prefix = bench.config.run.channel_prefix;
   Reception reception(bus, prefix, clock);
 
+  // The source replays the stored frames; the sinks publish and measure.
   reset_peak_memory();
   MemorySource source(store, {conditions.warm_up + conditions.frames, conditions.rate}, clock);
   MeasuringSink measure(conditions, store.bytes(), clock);
@@ -112,12 +124,16 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       {[&] { return pipeline->health(); }, static_cast<std::int64_t>(bench.config.run.health_period * 1e6), "bench"},
       clock);
   if (!publish) return tl::unexpected(publish.error());
+
+  // The stages are those of `barehand track`.
   TrackStages stages = make_track_stages(bench.config, hands, std::nullopt, {}, **workers, log);
   PipelineOptions options;
   options.threaded = !conditions.inline_stages;
   pipeline = std::make_unique<Pipeline>(
       PipelineStages{source, std::move(stages.preprocess), std::move(stages.track), {publish->get(), &measure}},
       options, clock, log);
+
+  // Only frames after the warm-up count.
   std::int64_t dropped_before = 0;
   measure.on_start = [&] {
     dropped_before = pipeline->take_interval_health().dropped;
@@ -127,6 +143,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   const RunResult run = pipeline->run();
   if (run.error) return tl::unexpected(*run.error);
 
+  // Collect the figures.
   BenchResult result;
   measure.report(result);
   result.health = pipeline->take_interval_health();

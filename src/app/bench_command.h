@@ -6,8 +6,8 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand bench`, which measures the speed of `barehand track`. When it has run, `exit_code` holds its result
-/// (exit_code.h).
+/// Adds the command `barehand bench`, which measures the speed of `barehand track`. After it has run, `exit_code`
+/// holds its result (exit_code.h).
 void add_bench_command(CLI::App& app, int& exit_code);
 
 }  // namespace barehand

@@ -1,3 +1,4 @@
+// Writes the figures of `barehand bench` as JSON for programs.
 #include "app/bench_report.h"
 #include "io/json_fields.h"
 
@@ -15,6 +16,7 @@ Json to_json(const TimeSummary& t) {
 }
 
 Json to_json(const BenchRow& row) {
+  // The case and its total figures.
   const BenchResult& r = row.result;
   Json json = {{"sweep", row.sweep},
                {"value", row.value},
@@ -26,10 +28,14 @@ Json to_json(const BenchRow& row) {
                {"frames_per_second", rounded(r.frames_per_second)},
                {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
                {"tracked_share", rounded(r.tracked_share)},
+
+               // Dropped frames, and memory.
                {"dropped", r.health.dropped},
                {"peak_mb", rounded(static_cast<double>(r.peak_bytes) / kMegabyte)},
                {"stored_frames_mb", rounded(static_cast<double>(r.frame_bytes) / kMegabyte)},
                {"resident_mb", r.resident_mb},
+
+               // Times of the whole path and of each stage and queue.
                {"capture_to_publish_ms", to_json(r.health.latency)},
                {"capture_to_reception_ms", to_json(r.received)},
                {"stages_ms", Json::object()},

@@ -11,11 +11,12 @@ namespace barehand {
 struct BenchOptions {
   std::string source = "sim:grasp_ball";
   std::vector<std::string> configs = {"default.yaml"};
-  std::vector<std::string> hands;  ///< none: the source's own, or the shipped adult hand
+  std::vector<std::string> hands;  ///< empty: the source's own, or the shipped adult hand
+  // Numbers of frames; see `barehand bench --help`.
   std::int64_t store = 120;
   std::int64_t frames = 300;
   std::int64_t warm_up = 30;
-  std::optional<double> rate;
+  std::optional<double> rate;  ///< frames per second of a live sensor; none: as fast as possible
   int threads = 1;
   bool single_threaded = false;  ///< --inline
   int repeat = 1;

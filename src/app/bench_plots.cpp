@@ -1,3 +1,4 @@
+// Draws the figures of `barehand bench` from its JSON file.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -12,7 +13,7 @@ namespace {
 
 using json_fields::Json;
 
-/// A box from the percentiles that were kept: whiskers from median to p99, box from median to p95.
+/// A box from the stored percentiles: the box reaches from the median to p95, its whisker to p99.
 Distribution box_of(const Json& time) {
   Distribution d;
   d.count = time.at("count");
@@ -23,6 +24,7 @@ Distribution box_of(const Json& time) {
   return d;
 }
 
+/// The legend's text for a case.
 std::string label_of(const Json& row) {
   std::string label = row.at("config");
   if (row.at("sweep") != "")
@@ -30,12 +32,17 @@ std::string label_of(const Json& row) {
   return label + ", " + std::to_string(row.at("threads").get<int>()) + " threads";
 }
 
+/// Boxes of the time per frame: one category per stage and queue, one series per case.
 BoxChart stages_chart(const std::vector<Json>& rows) {
   BoxChart chart;
   chart.text = {"Time per frame (median, p95, p99)", "", "time [ms]"};
+
+  // The categories are those of the first case.
   for (const auto& [name, time] : rows[0].at("stages_ms").items()) chart.categories.push_back(name);
   for (const auto& [name, time] : rows[0].at("waits_ms").items()) chart.categories.push_back("wait " + name);
   chart.categories.push_back("latency");
+
+  // One series per case.
   for (const Json& row : rows) {
     chart.series.push_back({label_of(row), {}});
     auto& boxes = chart.series.back().boxes;
@@ -46,7 +53,7 @@ BoxChart stages_chart(const std::vector<Json>& rows) {
   return chart;
 }
 
-/// CPU time per frame against one parameter, and the straight line through the first and last point.
+/// CPU time per frame against one parameter, and the straight line through the first and the last point.
 LineChart sweep_chart(const std::string& parameter, const std::vector<Json>& rows) {
   LineChart chart;
   chart.text = {"CPU time per frame against " + parameter, parameter, "CPU [ms per frame]"};
@@ -62,6 +69,7 @@ LineChart sweep_chart(const std::string& parameter, const std::vector<Json>& row
   return chart;
 }
 
+/// Resident memory over the run, one line per case.
 LineChart memory_chart(const std::vector<Json>& rows, std::int64_t frames) {
   LineChart chart;
   chart.text = {"Resident memory over the run, without the stored frames", "frame", "resident [MB]"};
@@ -75,13 +83,18 @@ LineChart memory_chart(const std::vector<Json>& rows, std::int64_t frames) {
 }
 
 Result<void> draw(const Json& report, const std::string& directory) {
+  // The cases, sorted by the parameter that they vary.
   std::map<std::string, std::vector<Json>> by_sweep;
   for (const Json& row : report.at("cases")) by_sweep[row.at("sweep")].push_back(row);
+
+  // One chart per parameter.
   for (auto& [parameter, rows] : by_sweep) {
     if (parameter.empty()) continue;
     std::sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) { return a.at("value") < b.at("value"); });
     if (auto done = write_chart(sweep_chart(parameter, rows), directory + "/" + parameter + ".png"); !done) return done;
   }
+
+  // The charts of the unchanged configurations.
   if (by_sweep[""].empty()) return {};
   return write_chart(stages_chart(by_sweep[""]), directory + "/stages.png").and_then([&] {
     return write_chart(memory_chart(by_sweep[""], report.at("frames")), directory + "/memory.png");

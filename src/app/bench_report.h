@@ -33,8 +33,8 @@ std::string bench_text(const BenchRow& row);
 /// Durations in ms, memory in MB.
 Result<void> write_bench_json(const BenchReport& report, const std::string& path);
 
-/// Draws a file that write_bench_json wrote into a folder, as PNG: times of the stages, frame time against every swept
-/// parameter beside the line that linear growth would give, memory over the run.
+/// Draws a file that write_bench_json wrote as PNG images into a folder: the times of the stages; CPU time per frame
+/// against every swept parameter, beside the straight line of linear growth; memory over the run.
 Result<void> draw_bench(const std::string& json_path, const std::string& directory);
 
 }  // namespace barehand

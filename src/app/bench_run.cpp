@@ -17,6 +17,7 @@
 namespace barehand {
 namespace {
 
+/// A case and the name of its configuration.
 struct NamedCase {
   std::string config;
   BenchCase bench;
@@ -29,27 +30,34 @@ std::string processor_name() {
   return "unknown";
 }
 
-/// Every configuration as it is, then every sweep of the first one.
+/// All cases to measure: every configuration as it is, then every sweep of the first one.
 Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
   if (const auto workers = make_workers(options.threads); !workers) return tl::unexpected(workers.error());
+
+  // The configurations as they are.
   std::vector<NamedCase> cases;
   for (const std::string& name : options.configs) {
     auto config = read_configuration(name);
     if (!config) return tl::unexpected(config.error());
     cases.push_back({name, {"", 0, std::move(*config), options.threads, 1}});
   }
+
+  // The sweeps.
   const NamedCase base = cases.front();
   for (const std::string& sweep : options.sweeps) {
     auto swept = parse_sweep(sweep, base.bench);
     if (!swept) return tl::unexpected(swept.error());
     for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
   }
+
+  // None of the cases may need more memory than there is.
   for (const NamedCase& named : cases)
     if (const auto fits = check_memory(named.bench.config.tracker, available_memory()); !fits)
       return tl::unexpected(fits.error());
   return cases;
 }
 
+/// The frames and hands that all cases use.
 struct Input {
   FrameStore store;
   HandsTracker::Profiles hands;
@@ -123,10 +131,14 @@ int run_bench(const BenchOptions& options) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
     return drawn ? kExitOk : tell(drawn.error(), kExitUsage);
   }
+
+  // Check everything before the measurement starts.
   const auto cases = cases_of(options);
   if (!cases) return tell(cases.error(), kExitUsage);
   const auto input = read_input(options);
   if (!input) return tell(input.error(), kExitUsage);
+
+  // The conditions belong to the report.
   BenchReport report;
   report.source = options.source;
   report.processor = processor_name();

@@ -10,6 +10,7 @@
 namespace barehand {
 namespace {
 
+/// A parameter that can be swept: its name, its range and its place in a case.
 struct Parameter {
   std::string_view name;
   int lo, hi;
@@ -26,6 +27,7 @@ constexpr std::array kParameters = {
     Parameter{"decimate", 1, 16, [](BenchCase& c) -> int& { return c.decimate; }},
 };
 
+/// Parses a value of the parameter.
 Result<int> number(const std::string& text, const Parameter& parameter) {
   int value = 0;
   const char* end = text.data() + text.size();
@@ -46,11 +48,14 @@ std::string sweep_names() {
 }
 
 Result<std::vector<BenchCase>> parse_sweep(const std::string& text, const BenchCase& base) {
+  // The name of the parameter.
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   const auto* parameter = std::find_if(kParameters.begin(), kParameters.end(), [&](auto& p) { return p.name == name; });
   if (parameter == kParameters.end() || equals == std::string::npos)
     return fail("nothing that can be swept", "--sweep " + text, "give NAME=VALUE,VALUE with one of " + sweep_names());
+
+  // One case per value.
   std::vector<BenchCase> cases;
   std::istringstream values(text.substr(equals + 1));
   for (std::string value; std::getline(values, value, ',');) {

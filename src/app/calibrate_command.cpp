@@ -35,11 +35,12 @@ int tell(const Error& error, int exit_code) {
 }
 
 constexpr int kSettling = 60;                 // tracked frames before the first that is kept
-constexpr int kMost = 128, kMostOfSkin = 64;  // frames kept; the latter where the joints stay
+constexpr int kMost = 128, kMostOfSkin = 64;  // frames to keep; the latter if the joints stay fixed
 
-/// Keeps the hand as fitted last and frames to scan its skin from, and tells the person what to show next.
+/// Collects what a scan needs, the hand as it was fitted last and frames, and tells the user what to show next.
 class ScanSink : public Sink {
  public:
+  // What was collected so far.
   struct Scan {
     ScanReport report;
     ScanFrames frames;
@@ -60,6 +61,7 @@ class ScanSink : public Sink {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
 
+  // Tells the user from time to time what is still missing.
   void advise() {
     if (complete_ || Clock::now() < advised_ + kAdvise) return;
     const auto missing = scan_.report.missing();
@@ -73,6 +75,7 @@ class ScanSink : public Sink {
   Clock::time_point advised_ = Clock::now();
 };
 
+/// Prints the fitted bones, and what was seen of each of them.
 void print(const ScanReport& report, const HandProfile& start, const HandProfile& fitted) {
   std::printf("%-20s %11s %11s %12s %12s %12s\n", "segment", "length [mm]", "before [mm]", "palm side", "back",
               "bent [deg]");
@@ -88,18 +91,22 @@ void print(const ScanReport& report, const HandProfile& start, const HandProfile
     std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
 }
 
-/// The hand with a skin of its own; none if the scan says too little.
+/// Scans the skin from the frames that were kept; none if they do not suffice.
 std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int threads) {
+  // Too few frames do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
     std::puts("too short a scan for a skin of its own");
     return std::nullopt;
   }
+
+  // Scan, and report the progress.
   Workers workers(threads);
   const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
     std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
                  progress.mismatch * 1e3);
   });
+
   if (hand)
     std::printf("skin and joints from %d frames\n", frames);
   else
@@ -108,20 +115,23 @@ std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int 
 }
 
 int run(const CalibrateOptions& o) {
+  // Check the input before the user starts to move.
   auto config = read_configuration(o.track.config);
   if (!config) return tell(config.error(), kExitUsage);
   config->tracker.shape_fit.enabled = true;
-  config->tracker.shape_fit.scans = 0;  // one of all that is shown is made at the end
+  config->tracker.shape_fit.scans = 0;  // a scan of all frames follows at the end
   const auto hands = choose_hands({o.hand}, {});
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)
     return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
   if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
 
+  // Track, and collect what the user shows.
   const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;
   ScanSink::Scan scan{.report = {}, .frames = {kSettling, joints_stay ? kMostOfSkin : kMost}, .profile = nullptr};
   std::vector<std::unique_ptr<Sink>> sinks;
   sinks.push_back(std::make_unique<ScanSink>(scan));
+
   TrackOptions track_options = o.track;
   track_options.hands = {o.hand};
   track_options.saved_later = o.out;
@@ -132,8 +142,11 @@ int run(const CalibrateOptions& o) {
   if (!scan.profile)
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
-  // What is there is safe before what takes a while.
+
+  // Save the fitted hand before the scan, which takes a while.
   if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
+
+  // Scan the skin.
   const auto hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
   if (hand)
     if (const auto saved = save_profile(*hand, o.out); !saved) return tell(saved.error(), kExitFailure);
@@ -148,6 +161,8 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   CalibrateOptions& o = *options;
   o.track.no_publish = true;
   o.track.threads = available_cores();
+
+  // Input and output.
   CLI::App* calibrate =
       app.add_subcommand("calibrate", "Make the profile of a person's hand that is shown to the sensor");
   calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
@@ -157,6 +172,8 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
       ->add_option("--hand", o.hand,
                    "right or left: which hand is shown; or a hand.json, whose joints stay if it was measured")
       ->capture_default_str();
+
+  // How the hand is tracked.
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
   calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");
   add_overwrite_option(*calibrate, o.track.overwrite);

@@ -1,3 +1,4 @@
+// Draws the results of `barehand eval`.
 #include <cmath>
 #include <filesystem>
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kMillimetre = 1000;
 
+/// Boxes of the segment error, one per run.
 BoxChart runs_chart(const std::vector<EvaluatedRun>& runs) {
   BoxChart chart;
   chart.text = {"Error over all hand segments (median, quartiles, range)", "", "segment error [mm]"};
@@ -20,6 +22,7 @@ BoxChart runs_chart(const std::vector<EvaluatedRun>& runs) {
   return chart;
 }
 
+/// Boxes of the error by segment, one series per run.
 BoxChart segments_chart(const std::vector<EvaluatedRun>& runs) {
   BoxChart chart;
   chart.text = {"Error by segment (median, quartiles, range)", "", "segment error [mm]"};
@@ -32,6 +35,7 @@ BoxChart segments_chart(const std::vector<EvaluatedRun>& runs) {
   return chart;
 }
 
+/// The frame error over the sequence, one line per run.
 LineChart time_chart(const std::vector<EvaluatedRun>& runs) {
   LineChart chart;
   chart.text = {"Frame error over the sequence", "frame", "frame error [mm]"};
@@ -45,6 +49,7 @@ LineChart time_chart(const std::vector<EvaluatedRun>& runs) {
   return chart;
 }
 
+/// Boxes of the distance between projected and labelled fingertips.
 BoxChart fingertips_chart(const FingertipEvaluation& fingertips) {
   BoxChart chart;
   chart.text = {"Projected fingertips against labels (median, quartiles, range)", "", "distance [px]"};
@@ -55,6 +60,7 @@ BoxChart fingertips_chart(const FingertipEvaluation& fingertips) {
   return chart;
 }
 
+/// Actual against stated values, with the diagonal of a perfect statement.
 LineChart reliability_chart(const std::vector<ReliabilityBin>& bins, ChartText text, double scale) {
   LineChart chart;
   chart.text = std::move(text);
@@ -70,16 +76,23 @@ LineChart reliability_chart(const std::vector<ReliabilityBin>& bins, ChartText t
 }  // namespace
 
 Result<void> write_plots(const EvalReport& report, const std::string& directory) {
+  // The folder may be missing.
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
+
+  // Errors of the runs.
   Result<void> done;
   if (!report.runs.empty())
     done = write_chart(runs_chart(report.runs), directory + "/runs.png")
                .and_then([&] { return write_chart(segments_chart(report.runs), directory + "/segments.png"); })
                .and_then([&] { return write_chart(time_chart(report.runs), directory + "/time.png"); });
+
+  // Fingertips, if there are labels.
   if (done && report.fingertips)
     done = write_chart(fingertips_chart(*report.fingertips), directory + "/fingertips.png");
+
+  // Stated uncertainty, if the result has it.
   if (done && report.reliability) {
     const Reliability& r = *report.reliability;
     const ChartText errors{"Error of segment ends (root mean square)", "stated [mm]", "actual [mm]"};

@@ -1,3 +1,4 @@
+// Compares one result of a tracker with the truth.
 #include "app/eval_report.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// The results of `barehand eval` as text tables for the user.
 #include "app/eval_report.h"
 #include "core/format.h"
 
@@ -21,12 +22,16 @@ void print_row(std::string& out, const std::string& name, const Distribution& d,
                    d.p90 * scale, d.p95 * scale, d.max * scale);
 }
 
-/// "3, 7-12, 20"
+/// Frame numbers with ranges, for example "3, 7-12, 20".
 std::string frame_list(const std::vector<std::int64_t>& numbers) {
   std::string text;
+
+  // Find the end of a run of consecutive numbers.
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t end = i;
     while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
+
+    // Append the run.
     if (!text.empty()) text += ", ";
     text += std::to_string(numbers[i]);
     if (end > i) text += formatted("-%lld", static_cast<long long>(numbers[end]));
@@ -35,6 +40,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
   return text;
 }
 
+/// Frames where a hand was reported although there was none, and how long a returning hand took to be tracked.
 void print_returns(std::string& out, const Evaluation& e) {
   if (!e.phantoms.empty()) out += "  a hand where there is none: " + frame_list(e.phantoms) + "\n";
   if (e.returns.empty()) return;
@@ -46,14 +52,19 @@ void print_returns(std::string& out, const Evaluation& e) {
 }
 
 void print_run(std::string& out, const EvaluatedRun& run, const std::optional<double>& hand_length) {
+  // What was compared, and how many frames were tracked.
   const Evaluation& e = run.evaluation;
   out += formatted("%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
   if (run.truncated) out += formatted("  the result was cut short; its last frame is left out\n");
   out += formatted("  frames %zu, tracked %zu, lost %zu (%zu without a hand, %zu off by more than %.0f mm)\n",
                    e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked,
                    e.lost.size() - e.untracked, kLostFrameError * kMillimetre);
+
+  // Frames that were lost.
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
   print_returns(out, e);
+
+  // Distributions of the errors.
   print_head(out, "error [mm]");
   print_row(out, "frame", e.frame_error, kMillimetre);
   print_row(out, "frame without palm", e.frame_error_without_palm, kMillimetre);
@@ -61,6 +72,8 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
   print_row(out, "segment seen", e.seen, kMillimetre);
   print_row(out, "segment hidden", e.hidden, kMillimetre);
   for (int s = 0; s < kSegmentCount; ++s) print_row(out, std::string(kSegmentNames[s]), e.per_segment[s], kMillimetre);
+
+  // The mean error relative to the hand's length, and the joint gap.
   if (hand_length && e.frame_error.count > 0)
     out += formatted("  mean frame error = %.2f %% of a hand length of %.0f mm\n",
                      e.frame_error.mean / *hand_length * 100, *hand_length * kMillimetre);
@@ -77,12 +90,14 @@ void print_fingertips(std::string& out, const FingertipEvaluation& e) {
   for (int f = 0; f < kFingerCount; ++f) print_row(out, std::string(kFingerNames[f]), e.per_finger[f], 1);
 }
 
+/// How often the truth lies within the stated 90 % intervals, and the stated and actual size of the errors.
 void print_coverage(std::string& out, const char* name, const Coverage& c) {
   if (c.intervals == 0) return;
   out += formatted("  %-22s %9zu %9.1f %% %12.2f %12.2f\n", name, c.intervals, c.covered * 100, c.stated * kMillimetre,
                    c.actual * kMillimetre);
 }
 
+/// Stated against actual values, one line per bin.
 void print_bins(std::string& out, const char* title, const std::vector<ReliabilityBin>& bins, double scale) {
   out += formatted("  %-22s %9s %12s %12s\n", title, "count", "stated", "actual");
   for (const ReliabilityBin& bin : bins)

@@ -6,8 +6,8 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand experiment`: the paper's experiments on the simulator. When it has run, `exit_code` holds its result
-/// (exit_code.h).
+/// Adds the command `barehand experiment`, which repeats the paper's experiments on the simulator. After it has run,
+/// `exit_code` holds its result (exit_code.h).
 void add_experiment_command(CLI::App& app, int& exit_code);
 
 }  // namespace barehand

@@ -8,6 +8,7 @@
 namespace barehand {
 namespace {
 
+/// The simulated sequences that an experiment uses.
 std::vector<std::string> sequences_of(const std::string& experiment) {
   if (experiment == "fist") return {"fist"};
   if (experiment == "grasp") return {"grasp_mug", "grasp_ball", "grasp_pliers"};
@@ -17,6 +18,7 @@ std::vector<std::string> sequences_of(const std::string& experiment) {
   return levels;
 }
 
+/// Reads the configurations; each is labelled by its file name.
 Result<std::vector<ExperimentVariant>> read_variants(const std::vector<std::string>& configs) {
   std::vector<ExperimentVariant> variants;
   for (const std::string& name : configs) {
@@ -49,19 +51,26 @@ Result<ExperimentPlan> plan_experiment(const std::string& name, const std::vecto
 }
 
 std::vector<ExperimentVariant> ablations(const Config& complete) {
+  // The complete method comes first.
   std::vector<ExperimentVariant> variants = {{"complete", complete}};
   const auto without = [&](const char* label, auto change) {
     variants.push_back({label, complete});
     change(variants.back().config.tracker);
   };
+
+  // Without one of the parts that estimate the pose.
   without("no_sampling", [](TrackerParams& p) { p.sampling = false; });
   without("no_refinement", [](TrackerParams& p) { p.refinement.enabled = false; });
   without("no_icp", [](TrackerParams& p) { p.icp.enabled = false; });
   without("no_velocity", [](TrackerParams& p) { p.prediction.velocity = false; });
+
+  // Without one of the parts that treat hidden fingers, contact and the person's hand.
   without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
   without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
   without("no_doubt", [](TrackerParams& p) { p.doubt = 1000; });
+
+  // Without one of the additions to the local trackers.
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });
   without("palm_unobserved", [](TrackerParams& p) { p.segment_tracker.observe_palm = false; });
   without("missing_is_background", [](TrackerParams& p) { p.segment_tracker.missing_depth = "background"; });

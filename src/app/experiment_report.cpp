@@ -14,12 +14,14 @@ namespace {
 constexpr double kMillimetre = 1000;
 using json_fields::Json;
 
+/// One column of the report.
 struct Figure {
   const char* name;
-  double value;  // NaN: there is none
+  double value;  // NaN: there is no value
   int decimals;
 };
 
+/// The columns of a row.
 std::vector<Figure> figures_of(const ExperimentRow& row) {
   const Evaluation& e = row.run.evaluation;
   return {{"frames", static_cast<double>(e.frames.size()), 0},
@@ -34,11 +36,13 @@ std::vector<Figure> figures_of(const ExperimentRow& row) {
           {"track_ms", row.track_ms, 1}};
 }
 
+/// The value as text; `none` if there is no value.
 std::string decimal(const Figure& figure, const char* none) {
   if (!std::isfinite(figure.value)) return none;
   return formatted("%.*f", figure.decimals, figure.value);
 }
 
+/// Right-aligned in `width` characters.
 std::string padded(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
 }
@@ -64,7 +68,7 @@ Json json_of(const ExperimentReport& report) {
   return json;
 }
 
-/// Place of `name` in `names`, at the end if it is new.
+/// Index of `name` in `names`, to which a new name is appended.
 std::size_t place(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto index = static_cast<std::size_t>(found - names.begin());
@@ -88,13 +92,18 @@ BoxChart chart_of(const ExperimentReport& report) {
 }  // namespace
 
 std::string experiment_table(const ExperimentReport& report) {
+  // The columns of names are as wide as their longest name.
   std::size_t sequence = 8, variant = 7;  // widths of the headings
   for (const ExperimentRow& row : report.rows) {
     sequence = std::max(sequence, row.sequence.size());
     variant = std::max(variant, row.run.label.size());
   }
+
+  // The heading.
   std::string text = padded("sequence", sequence) + "  " + padded("variant", variant);
   for (const Figure& figure : figures_of(report.rows.front())) text += "  " + std::string(figure.name);
+
+  // One line per row.
   for (const ExperimentRow& row : report.rows) {
     text.append("\n").append(padded(row.sequence, sequence)).append("  ").append(padded(row.run.label, variant));
     for (const Figure& figure : figures_of(row))

@@ -7,22 +7,23 @@
 
 namespace barehand {
 
-/// One variant on one sequence.
+/// The result of one variant on one sequence.
 struct ExperimentRow {
   std::string sequence;
-  EvaluatedRun run;                        ///< its label is the variant's
-  double preprocess_ms = 0, track_ms = 0;  ///< mean time a frame spent in these stages [ms]
+  EvaluatedRun run;                        ///< labelled with the variant
+  double preprocess_ms = 0, track_ms = 0;  ///< mean time per frame in these stages [ms]
 };
 
+/// The results of a whole experiment.
 struct ExperimentReport {
-  std::string name;  ///< of the experiment
+  std::string name;  ///< name of the experiment
   std::vector<ExperimentRow> rows;
 };
 
-/// A line per row: frames, lost ones, errors [mm], times.
+/// A text table with one line per row: numbers of frames and lost frames, errors [mm], times [ms].
 std::string experiment_table(const ExperimentReport& report);
-/// The same as DIRECTORY/NAME.txt, .csv and .json, and its errors as boxes per sequence and variant (paper Fig. 7) in
-/// DIRECTORY/NAME.png. A full disk is an error.
+/// Writes the same as DIRECTORY/NAME.txt, .csv and .json, and draws the errors as boxes per sequence and variant
+/// (paper Fig. 7) in DIRECTORY/NAME.png. Errors: a file that cannot be written, for example because the disk is full.
 Result<void> write_experiment(const ExperimentReport& report, const std::string& directory);
 
 }  // namespace barehand

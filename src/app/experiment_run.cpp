@@ -15,28 +15,35 @@ namespace {
 namespace fs = std::filesystem;
 using Step = tl::expected<void, TrackFailure>;
 
-constexpr std::int64_t kSnapshots = 8;
+constexpr std::int64_t kSnapshots = 8;  // frames per run that are stored with the tracked hand drawn over them
 
+/// A failure as the result of a step.
 tl::unexpected<TrackFailure> stop(const Error& error, int exit_code = kExitFailure) {
   return tl::unexpected(TrackFailure{error, exit_code});
 }
 
+/// Mean time of a stage per frame [ms]; 0 if it did not run.
 double mean_ms(const PipelineHealth& health, const std::string& stage) {
   for (const StageHealth& s : health.stages)
     if (s.name == stage) return s.time.mean * 1e3;
   return 0;
 }
 
+/// The state of a running experiment.
 class ExperimentRun {
  public:
   ExperimentRun(const ExperimentPlan& plan, const ExperimentOptions& options) : plan_(plan), options_(options) {}
   tl::expected<ExperimentReport, TrackFailure> run();
 
  private:
+  // Finds wrong input before anything is written.
   Step check() const;
   Step make_folders() const;
+  // Renders a sequence into a recording; returns its number of frames.
   tl::expected<std::int64_t, TrackFailure> render(const std::string& sequence) const;
+  // Tracks and compares a sequence with every variant.
   Step compare(const std::string& sequence);
+  // Tracks a sequence with one variant.
   tl::expected<ExperimentRow, TrackFailure> measure(const std::string& sequence, const ExperimentVariant& variant,
                                                     std::int64_t frames);
   std::string recording(const std::string& sequence) const { return options_.out + "/recordings/" + sequence; }
@@ -90,9 +97,12 @@ tl::expected<std::int64_t, TrackFailure> ExperimentRun::render(const std::string
 }
 
 Step ExperimentRun::compare(const std::string& sequence) {
+  // Render the sequence.
   const auto frames = render(sequence);
   if (!frames) return tl::unexpected(frames.error());
   if (auto made = make_folders(); !made) return made;
+
+  // Track it with every variant.
   EvalReport compared;
   for (const ExperimentVariant& variant : plan_.variants) {
     auto row = measure(sequence, variant, *frames);
@@ -100,6 +110,8 @@ Step ExperimentRun::compare(const std::string& sequence) {
     compared.runs.push_back(row->run);
     report_.rows.push_back(std::move(*row));
   }
+
+  // Write what `barehand eval` would write.
   const auto written = write_json_report(compared, options_.out + "/figures/" + sequence + ".json").and_then([&] {
     return write_plots(compared, options_.out + "/plots/" + sequence);
   });
@@ -110,9 +122,12 @@ Step ExperimentRun::compare(const std::string& sequence) {
 tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::string& sequence,
                                                                  const ExperimentVariant& variant,
                                                                  std::int64_t frames) {
+  // Report the progress.
   const std::string name = sequence + "." + variant.label;
   std::cerr << ++done_ << " of " << plan_.sequences.size() * plan_.variants.size() << ": " << sequence << ", "
             << variant.label << std::endl;
+
+  // Set up the run of track: its input, its outputs, and how it runs.
   TrackOptions options;
   options.source = "folder:" + recording(sequence);
   if (!options_.hand.empty()) options.hands = {options_.hand};
@@ -122,10 +137,14 @@ tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::stri
   options.overlay_every = static_cast<int>((frames + kSnapshots - 1) / kSnapshots);
   options.threads = options_.threads;
   options.no_publish = true;
+
+  // Track.
   const auto tracked = track(options, variant.config);
   if (!tracked) return tl::unexpected(tracked.error());
   if (tracked->stopped) return stop({"stopped", name, ""}, kExitInterrupted);
   if (tracked->exit_code != kExitOk) return stop({"was not tracked to the end", name, ""}, tracked->exit_code);
+
+  // Compare the result with the truth.
   const auto table = read_table(options.result);
   if (!table) return stop(table.error());
   auto run = evaluate_run(variant.label, recording(sequence) + "/truth.csv", options.result, *table);

@@ -7,9 +7,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.005;  // poses closer than this are the same [m]
-constexpr int kFoundAgain = 3;   // times the best pose was found: there is no better one
-constexpr int kMany = 8;         // poses; where all but one are alike, the hand is hard to see, but it is there
+constexpr double kSame = 0.005;  // poses closer than this [m] count as the same
+constexpr int kFoundAgain = 3;   // number of times that the best pose must be found to be final
+constexpr int kMany = 8;         // poses; if all but one are alike, the hand is there but hard to see
 
 }  // namespace
 
@@ -30,7 +30,11 @@ int FoundPoses::like_best(double distance) const {
 
 bool FoundPoses::settled() const {
   if (poses_.empty()) return false;
+
+  // The best pose is good enough, or repetition has confirmed it.
   if (best_score_ < enough_ || like_best(kSame) >= kFoundAgain) return true;
+
+  // Many poses were tried without a hand, or all of them show the hand at the same place.
   const int count = static_cast<int>(poses_.size());
   return count >= kMany && (best_score_ > worst_ || like_best(kAlike) >= count - 1);
 }

@@ -6,24 +6,27 @@
 
 namespace barehand {
 
-inline constexpr double kAlike = 0.040;  ///< poses closer than this differ in their fingers only [m]
+inline constexpr double kAlike = 0.040;  ///< poses closer than this [m] differ in their fingers only
 
-/// Poses that several searches of one frame found, and whether more searches may find a better one. A hand of which
-/// little is seen may be explained fairly well by several poses far apart; only chance finds the right one among them.
+/// Collects the poses that repeated searches found in one frame and decides when to stop searching. If little of a
+/// hand is visible, several poses far apart may explain it fairly well, and only repetition finds the best of them.
 class FoundPoses {
  public:
-  /// Global scores [m]: a pose below `enough` needs no other; where the best one is above `worst`, there is no hand.
+  /// Scores are global scores [m]. A pose below `enough` ends the search at once; if the best pose is above `worst`,
+  /// there is no hand.
   FoundPoses(const HandProfile& profile, double enough, double worst)
       : profile_(profile), enough_(enough), worst_(worst) {}
 
-  /// Whether it is the best so far. `score`: global [m].
+  /// Adds a pose with its global score [m]; returns whether it is the best one so far.
   bool add(const HandPose& pose, double score);
-  /// The best pose is good enough, or was found again often enough, or of many poses nearly all are like it or none
-  /// explains anything.
+  /// Whether further searches would not help, which is so if
+  /// - the best pose is below `enough`, or
+  /// - it was found several times, or
+  /// - there are many poses, of which nearly all resemble the best one or none explains the data.
   bool settled() const;
 
  private:
-  /// How many poses lie within `distance` [m] of the best one, itself included.
+  /// The number of poses within `distance` [m] of the best one, including itself.
   int like_best(double distance) const;
 
   const HandProfile& profile_;

@@ -9,13 +9,15 @@
 namespace barehand {
 namespace {
 
-// A search takes longer than tracking: beside a tracked hand, the other one is looked for on every so many frames only.
+// A search takes longer than tracking. Beside a tracked hand, the other one is therefore searched only in every n-th
+// frame.
 constexpr int kSearchEvery = 3;
 
-// A hand that was lost a moment ago most likely is the one that comes back; half of it fits the other side as well.
+// A hand that was lost a moment ago is most likely the one that returns. Half a hand also fits the other side, so the
+// other side needs a larger advantage then.
 constexpr double kOverReturning = 0.3;
 
-/// Of the palm from the middle of the hand that is seen [m].
+/// Distance of the palm from the middle of the observed hand [m].
 double distance(const HandPose& pose, const HandObservation& observation) {
   constexpr double kNowhere = 10;
   if (!observation.hand_present || observation.cloud.empty()) return kNowhere;
@@ -46,17 +48,20 @@ void HandsTracker::change(const TrackerParams& params) {
 
 void HandsTracker::check_anew() {
   checks_.clear();
-  for (const auto& hand : hands_)  // of two hands the other one is tracked: nothing to say about profiles
+  for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
     if (hand)
       checks_.push_back(std::make_unique<ProfileCheck>(params_, hand->profile(), seed_, workers_,
                                                        count() == 1 ? log_ : make_silent_logger()));
 }
 
 HandEstimates HandsTracker::process(const HandObservations& in_order) {
+  // With one hand there is nothing to distribute.
   if (count() == 1) return {process_only(*in_order[0])};
   ++frame_;
   const HandObservations observations = by_hand(in_order);
   HandEstimates out(hands_.size());
+
+  // Track the hands that are being tracked, in parallel.
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
     if (!searched(k, *observations[k])) tracked.push_back(k);
@@ -64,6 +69,8 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
     const int k = tracked[i];
     out[k] = track(k, *observations[k]);
   });
+
+  // Search the others.
   for (const int k : tracked) judge_trial(k, *out[k]);
   if (tracked.empty())
     search_both(observations, out);
@@ -73,7 +80,7 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   return out;
 }
 
-/// The k-th hand, and the mirrored one beside it while it is on trial.
+/// Tracks the k-th hand and, during a trial, the mirrored one beside it.
 HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
   if (!checks_[k]->on_trial()) return hands_[k]->process(observation);
   HandEstimatePtr estimate;
@@ -84,8 +91,8 @@ HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
   return estimate;
 }
 
-/// A hand that was tracked alone may turn out to be of the other side; where that is looked for, too, it goes on from
-/// there.
+/// A hand that was tracked alone may turn out to be of the other side. If the other side is tracked, too, it takes
+/// over from there.
 void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileCheck& check = *checks_[k];
@@ -98,14 +105,20 @@ void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileCheck& check = *checks_[0];
+
+  // A track goes on; its trial may end it.
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
     HandEstimatePtr estimate = track(0, observation);
     judge_trial(0, *estimate);
     return estimate;
   }
+
+  // Otherwise the hand is searched.
   const Effort effort = hand.effort();
   const int attempts = hand.attempts(effort);
   std::optional<Fit> found = hand.look(observation, effort, attempts);
+
+  // Report a wrong size, or refuse a hand of the other side.
   const double score = found ? found->refined.score : INFINITY;
   if (score > params_.loss.lost_score)
     check.nothing_found(observation, score);
@@ -114,6 +127,8 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   return hand.process(observation, std::move(found));
 }
 
+/// Without hints, preprocessing returns the regions in no particular order, so the assignment with the smaller total
+/// distance is taken.
 HandObservations HandsTracker::by_hand(const HandObservations& observations) const {
   if (observations[0]->followed || observations[1]->followed) return observations;
   const auto apart = [&](int k, int j) {
@@ -124,7 +139,7 @@ HandObservations HandsTracker::by_hand(const HandObservations& observations) con
   return observations;
 }
 
-/// Whether the observation may be anybody's.
+/// Whether the observation may belong to any hand, so that the k-th one is searched in it.
 bool HandsTracker::searched(int k, const HandObservation& observation) const {
   const HandTracker& hand = *hands_[k];
   return !observation.followed && !hand.start_is_given() && !hand.unconfirmed() &&
@@ -140,15 +155,22 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
-  // What is no hand at all to one side must not count for more than what is badly explained by it.
+
+  // If one side finds no hand at all, that must not count more than a bad explanation.
   const double none = params_.loss.lost_score;
   const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->refined.score, none) : none; };
+
+  // Whether some side already explains the observation well enough.
   const auto convincing = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;
   };
+
+  // Both sides search with the same effort, which gives them equal chances.
   const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
-  const Effort effort = full ? Effort::full : Effort::quick;  // equal chances
+  const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(hands_[0]->attempts(effort), hands_[1]->attempts(effort));
+
+  // One attempt each, and more of them only where neither side is convincing.
   const auto look = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
   };
@@ -156,7 +178,9 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
     look(j, 1);
     if (most > 1 && !convincing(j)) look(j, most);
   }
-  std::array<int, 2> owned = {-1, -1};  // by hand: observation
+
+  // Each side owns the observation that it explains clearly better. Two observations are assigned together.
+  std::array<int, 2> owned = {-1, -1};  // observation of each hand; -1: none
   if (observations[0]->hand_present && observations[1]->hand_present) {
     const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);
     if (clearly_better(straight, crossed)) owned = {0, 1};
@@ -169,6 +193,8 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
       if (clearly_better(score(k, j), score(1 - k, j), other_returns ? kOverReturning : kHandAdvantage)) owned[k] = j;
     }
   }
+
+  // Start the tracks. A single start is on trial against the other side.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
     if (j >= 0 && owned[1 - k] < 0) checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));

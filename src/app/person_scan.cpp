@@ -7,11 +7,11 @@
 namespace barehand {
 namespace {
 
-constexpr int kSettling = 8, kMost = 32;  // frames before the first that is kept, and frames kept
-constexpr int kPasses = 4;                // over all frames, while the mean hand is fitted to them
-constexpr int kIterations = 8;            // of a pose
+constexpr int kSettling = 8, kMost = 32;  // tracked frames before the first that is kept, and frames kept
+constexpr int kPasses = 4;                // over all frames, while a mean hand is fitted to them
+constexpr int kIterations = 8;            // Gauss-Newton steps of a pose
 
-/// Fits poses of frames to the given hand; a mean one may be fitted to the frames before.
+/// Fits the poses of frames to a hand and, with look(), the hand to the frames.
 class BatchFit {
  public:
   BatchFit(const TrackerParams& params, std::shared_ptr<const HandProfile> given)
@@ -19,6 +19,7 @@ class BatchFit {
     use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell)));
   }
 
+  // Refines the pose of a frame and fits the hand to it.
   void look(ScanFrame& frame) {
     refine(frame);
     const auto change = fit_.look(*frame.observation, frame.pose, *refinement_, skin_);
@@ -49,9 +50,12 @@ class BatchFit {
   std::unique_ptr<Refinement> refinement_;
 };
 
+/// Runs in the background: fits a mean hand to the frames, refines their poses and scans the skin. Null: stopped, or
+/// the frames do not yield a hand.
 std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::shared_ptr<const HandProfile> given,
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
+  // Only a mean hand needs to be fitted first.
   BatchFit fit(params, given);
   const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
   for (int pass = 0; pass < passes; ++pass)
@@ -59,6 +63,8 @@ std::shared_ptr<const HandProfile> scanned(const TrackerParams& params, std::sha
       if (stop.stop_requested()) return nullptr;
       fit.look(frame);
     }
+
+  // Refine the poses with the final bones, and scan.
   workers.for_each_index(static_cast<int>(frames.size()), [&](int i) { fit.refine(frames[i]); });
   auto hand = scan_hand(fit.profile(), params.skin_cell, std::move(frames), workers, {}, stop);
   if (!hand) return nullptr;
@@ -75,7 +81,7 @@ PersonScan::PersonScan(const TrackerParams& params, std::shared_ptr<const HandPr
       frames_(kSettling, kMost),
       next_(params.shape_fit.scan_after) {}
 
-PersonScan::~PersonScan() { stop_.request_stop(); }  // the future waits
+PersonScan::~PersonScan() { stop_.request_stop(); }  // the destructor of the future waits
 
 void PersonScan::add(const HandObservation& observation, const HandPose& pose) {
   if (scans_ == params_.shape_fit.scans) return;
@@ -89,7 +95,8 @@ void PersonScan::start() {
   of_hand_before_ = false;
   scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
                              Workers& workers) { return scanned(params, given, frames, workers, stop); });
-  if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};  // they are large
+  // The frames need much memory and are no longer needed.
+  if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};
 }
 
 void PersonScan::restart() {

@@ -8,30 +8,32 @@
 
 namespace barehand {
 
-/// Scans a person's hand while it is tracked, as `barehand calibrate` does: after some frames, and again after twice
-/// and four times as many, its skin is scanned from those that were kept. A mean hand is fitted to them before; the
-/// joints of a measured one stay. Workers::aside says when that is done.
+/// Scans a person's hand in the background while it is tracked, as `barehand calibrate` does. After a number of
+/// tracked frames, and again after twice and four times as many, the skin is scanned from the frames that were kept. A
+/// mean hand is first fitted to these frames; the joints of a measured hand stay fixed. The work is done by
+/// Workers::aside.
 class PersonScan {
  public:
-  /// `workers` outlives it.
+  /// `given`: the hand before anything was learnt. `workers` must outlive this object.
   PersonScan(const TrackerParams& params, std::shared_ptr<const HandProfile> given, Workers& workers);
-  /// Waits for a scan under way to stop: half a second.
+  /// Waits until a running scan has stopped, about half a second.
   ~PersonScan();
   PersonScan(const PersonScan&) = delete;
   PersonScan& operator=(const PersonScan&) = delete;
 
-  /// A frame that is explained well, at its refined pose.
+  /// Adds a tracked frame that is explained well, with its refined pose.
   void add(const HandObservation& observation, const HandPose& pose);
-  /// Another hand comes into view, most likely the same person's: it is scanned once more when as much was seen of it
-  /// as for the last scan.
+  /// Call when a new track begins, most likely of the same person. The hand is scanned once more as soon as as much
+  /// was seen of it as for the last scan.
   void restart();
-  /// The hand of a scan that has ended, once; throws what the scan threw.
+  /// Returns the scanned hand once after a scan has ended; null: there is nothing new. Rethrows what the scan threw.
   std::shared_ptr<const HandProfile> take();
-  /// Whether the scan taken last began before the last restart: it may show another person's hand.
+  /// Whether the scan that take() returned last began before the last restart, so that it may show another person's
+  /// hand.
   bool of_hand_before() const { return of_hand_before_; }
 
  private:
-  using Hand = std::shared_ptr<const HandProfile>;  // null: the frames tell none
+  using Hand = std::shared_ptr<const HandProfile>;  // null: the frames did not yield a hand
   void start();
 
   const TrackerParams params_;

@@ -8,14 +8,16 @@ namespace {
 
 Overflow door_policy(const FrameSource& source) { return source.live() ? Overflow::drop_oldest : Overflow::block; }
 
-/// One item between the stages of a live run: more would only add age.
+/// A live run holds one item between two stages, since a longer queue would only add latency.
 std::size_t capacity(const FrameSource& source, const PipelineOptions& options) {
   return source.live() ? 1 : options.replay_capacity;
 }
 
-/// Sensor clocks farther from ours than this say nothing about latency (for example a log that is played to the bus).
+/// If the sensor's clock differs by more than this from ours, it says nothing about latency (for example when a log is
+/// replayed to the bus).
 constexpr std::int64_t kMaxLatencyUs = 10'000'000;
-/// Frames taken from a live source in one go by the inline runner: one that never pauses must not starve the tracker.
+/// The inline runner takes at most this many frames at once from a live source, since a source that never pauses must
+/// not starve the tracker.
 constexpr int kMaxBacklog = 64;
 
 }  // namespace
@@ -35,6 +37,8 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
 
 RunResult Pipeline::run() {
   options_.threaded ? run_threaded() : run_inline();
+
+  // Collect how the run ended.
   finish_sinks();
   RunResult result{health(), std::nullopt, {}, stopped()};
   for (const auto& monitor : sink_monitors_)
@@ -45,6 +49,7 @@ RunResult Pipeline::run() {
 }
 
 void Pipeline::run_threaded() {
+  // Each stage ends when its input queue is closed and empty, and then closes the next queue.
   std::jthread sinks([&] {
     while (!queues_[kToSinks].drained()) {
       if (auto item = waited_for(kToSinks, queues_[kToSinks].pop_within(options_.patience)))
@@ -53,30 +58,35 @@ void Pipeline::run_threaded() {
         idle();
     }
   });
+
   std::jthread tracker([&] {
     while (auto item = pop(kToTrack))
       if (track(*item)) push(kToSinks, std::move(*item));
     queues_[kToSinks].close();
   });
+
   std::jthread preprocessor([&] {
     while (true) {
-      const HandEstimates hints = take_hints();  // first: a frame that waits for it at the door can still be replaced
+      // Taken first: meanwhile a frame at the door can still be replaced by a newer one.
+      const HandEstimates hints = take_hints();
       auto item = pop(kDoor);
       if (!item) break;
       if (preprocess(*item, hints)) push(kToTrack, std::move(*item));
     }
     queues_[kToTrack].close();
   });
+
+  // The calling thread serves the source.
   while (capture(options_.patience) != Capture::end) {
   }
-  queues_[kDoor].close();  // the rest follows downstream; the threads are joined in that order
+  queues_[kDoor].close();  // the other queues are closed in turn, and the threads join
 }
 
 void Pipeline::run_inline() {
   Capture captured = Capture::nothing;
   while (captured != Capture::end) {
     captured = capture(options_.patience);
-    if (stages_.source.live())  // what arrived while the last frame was tracked: the newest wins, as with threads
+    if (stages_.source.live())  // as with threads, the newest of the frames that arrived meanwhile wins
       for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
     while (auto item = try_pop(kDoor)) process(std::move(*item));
     if (captured == Capture::nothing) idle();
@@ -114,28 +124,37 @@ HandEstimates Pipeline::take_hints() {
 
 Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   if (stopped() || ending_) return Capture::end;
+
+  // A source that throws has failed.
   SourceEvent event;
   try {
     event = stages_.source.next(patience);
   } catch (const std::exception& e) {
     event = SourceFailed{{std::string("threw: ") + e.what(), stages_.source.name(), ""}};
   }
+
   ++answers_;
+
+  // A frame goes into the input queue.
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
     notice_at_ = kFirstNotice;
     push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), {}, {}}});
     return Capture::frame;
   }
+
+  // Anything else is reported; only a failure or the end of the source ends the run.
   if (auto* skipped = std::get_if<SkippedFrame>(&event)) {
     ++skipped_;
     log_.warn("skipped", "skipped a frame: " + skipped->error.message());
     return Capture::frame;
   }
+
   if (const auto* notice = std::get_if<SourceNotice>(&event)) {
     log_.logger().log(notice->trouble ? spdlog::level::warn : spdlog::level::info, notice->error.message());
     return Capture::nothing;
   }
+
   if (std::holds_alternative<Timeout>(event)) return waited(patience);
   if (auto* failed = std::get_if<SourceFailed>(&event)) end_with(failed->error);
   return Capture::end;
@@ -152,11 +171,14 @@ Pipeline::Capture Pipeline::waited(std::chrono::milliseconds patience) {
 
 bool Pipeline::preprocess(Item& item, const HandEstimates& hints) {
   item.index = next_index_++;
+
   auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, hints); });
   if (observations) {
     item.data.observations = std::move(*observations);
     return true;
   }
+
+  // The tracker's estimate of this frame will be missing, so later frames get empty hints.
   feedback_.post(item.index, {});
   ++failed_;
   report(preprocess_monitor_, item, observations.error());
@@ -177,7 +199,7 @@ bool Pipeline::track(Item& item) {
 
 void Pipeline::deliver(const Item& item) {
   bool delivered = true;
-  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // one that fails does not keep the frame from the others
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // a failing sink does not keep the frame from the others
     StageMonitor& monitor = *sink_monitors_[i];
     const int missed = monitor.failures_in_a_row();
     const auto consumed = monitor.run([&] { return stages_.sinks[i]->consume(item.data); });
@@ -186,10 +208,12 @@ void Pipeline::deliver(const Item& item) {
       continue;
     }
     delivered = false;
-    // What lasts for hours is said now and then: after 1, 2, 4, 8 .. frames.
+    // A failure that lasts for hours is reported ever more rarely: after 1, 2, 4, 8, ... frames.
     if (std::has_single_bit(static_cast<unsigned>(missed) + 1)) report(monitor, item, consumed.error());
     if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
   }
+
+  // Count the frame, and record its latency once.
   ++(delivered ? published_ : failed_);
   std::unique_lock lock(mutex_);
   latency_.add(latency_us(item));
@@ -240,7 +264,8 @@ std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
 }
 
 PipelinePulse Pipeline::pulse() const {
-  const std::int64_t finished = published_ + failed_;  // before the door: what is inside is never taken for less
+  // Read before the queue, so that the number of frames inside is never too small.
+  const std::int64_t finished = published_ + failed_;
   const QueueHealth door = queues_[kDoor].health();
   return {answers_, finished, door.pushed - door.dropped - finished};
 }
@@ -273,6 +298,7 @@ PipelineHealth Pipeline::take_interval_health() {
   health.stages = {preprocess_monitor_.take_interval(), track_monitor_.take_interval()};
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->take_interval());
   std::unique_lock lock(mutex_);
+
   health.latency = interval_latency_.summary();
   for (int q = 0; q < kQueueCount; ++q) {
     own_queues(health)[q].wait = interval_wait_[q].summary();

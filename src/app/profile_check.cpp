@@ -10,16 +10,19 @@
 namespace barehand {
 namespace {
 
-constexpr std::array<double, 4> kSizes = {0.8, 1.25, 0.65, 1.5};  // a search bridges a tenth by itself
-// Searches that fail between two tries. What is in view for long without being found is most likely no hand.
+constexpr std::array<double, 4> kSizes = {0.8, 1.25, 0.65, 1.5};  // a search compensates a tenth by itself
+// Failed searches between two tries of another size. What stays in view without being found is most likely no hand, so
+// tries become rare.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 
-// Attempts of the mirrored profile where its own does not convince. A hand of the other side is found by the first or
-// second one in most cases; one of its own side must not be taken for the other's by the luck of many.
+// Attempts for the mirrored profile if the profile's own score is not convincing. A hand of the other side is found by
+// the first or second attempt in most cases; a hand of the own side must not be taken for one of the other by the luck
+// of many attempts.
 constexpr int kMirroredAttempts = 2;
 
-// Of a trial: frames in which both are tracked before it may end, frames after which it does, those between two
-// searches while the mirrored profile is not tracked, and the advantage of one side that ends it.
+// A trial ends when one side has the advantage kTrialAdvantage over at least kFewestFrames frames in which both are
+// tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is searched in every
+// kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
 constexpr double kTrialAdvantage = 0.2;
 constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
@@ -58,14 +61,19 @@ void ProfileCheck::begin_trial(const HandObservation& observation, std::optional
 }
 
 bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
+  // Search with the mirrored profile in the same observation.
   trial_.reset();
   const bool convincing = score < params_.search_convincing;
   auto other = other_side().look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->refined.score : INFINITY;
+
+  // Once the other side was seen, the own side must win several searches in a row.
   const bool worse = clearly_better(other_score, score);
   if (worse) say_side();
   if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
   if (worse || suspected_ > 0) return true;
+
+  // An unconvincing start is put on trial.
   if (!convincing) begin_trial(observation, std::move(other));
   return false;
 }
@@ -79,16 +87,20 @@ void ProfileCheck::track_mirrored(const HandObservation& observation) {
 }
 
 bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
+  // Add up the scores of frames in which both sides are tracked.
   Trial& trial = *trial_;
-  const bool lost = !own.has_pose();  // it is searched anew then
+  const bool lost = !own.has_pose();  // the hand will be searched again
   if (own.status == TrackStatus::tracking && mirrored_->status() == TrackStatus::tracking) {
     ++trial.compared;
     trial.own_sum += own.score;
     trial.mirrored_sum += trial.mirrored->score;
   }
+
+  // One side must be clearly better over enough frames.
   const bool enough = trial.compared >= kFewestFrames;
   const bool other = enough && clearly_better(trial.mirrored_sum, trial.own_sum, kTrialAdvantage);
   const bool same = enough && clearly_better(trial.own_sum, trial.mirrored_sum, kTrialAdvantage);
+
   if (++trial.frames == kMostFrames || lost || other || same) trial_.reset();
   if (!other) return false;
   suspected_ = kSuspected;
@@ -97,9 +109,12 @@ bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
 }
 
 void ProfileCheck::nothing_found(const HandObservation& observation, double score) {
+  // A try costs a search, so it is made only now and then.
   if (said_size_ || !observation.hand_present) return;
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
+
+  // Search with a smaller or a larger copy.
   const double size = kSizes[tries_++ % kSizes.size()];
   const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick, 1);
   if (!other || other->refined.score > params_.loss.lost_score || !clearly_better(other->refined.score, score)) return;

@@ -7,39 +7,42 @@
 
 namespace barehand {
 
-/// Whether a profile can be that of the hand in view, asked while it is searched for and in the first frames of a
-/// doubtful start: a hand of the other side, a child's or a giant's may be bent to it or never be found. Looks with the
-/// profile seen in a mirror and with smaller and larger copies, and says in the log what it sees.
+/// Checks whether a profile fits the hand in view at all. A hand of the other side, a child's or a very large hand may
+/// be found with a wrong pose or not be found. While the hand is searched, and in the first frames of an uncertain
+/// start, the check compares the profile with its mirror image and with smaller and larger copies, and reports in the
+/// log what fits better.
 class ProfileCheck {
  public:
-  /// `workers` outlives it.
+  /// `workers` must outlive this object.
   ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
                std::shared_ptr<spdlog::logger> log);
 
-  /// A search of up to `attempts` found the hand with `score`: whether the mirrored profile, looked for in the same way
-  /// if in fewer attempts, explains it clearly better. If that is not said and the score does not convince, a trial
-  /// begins.
+  /// Call after a search of up to `attempts` found the hand with `score`. Returns whether the mirrored profile
+  /// explains the observation clearly better after a similar search with fewer attempts. If it does not, but the score
+  /// is not convincing, a trial begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
-  /// A trial: the mirrored profile is tracked, too, in the frames after a start, from where it was `found` at best. A
-  /// single frame seldom tells a hand from one of the other side that is bent to it; what moves does.
+  /// Begins a trial, in which the mirrored profile is tracked, too, during the first frames of a track. `found`: the
+  /// best pose that a search found for the mirrored profile. A single frame seldom distinguishes a hand from a
+  /// distorted one of the other side; motion does.
   void begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found);
   void end_trial() { trial_.reset(); }
   bool on_trial() const { return trial_.has_value(); }
-  /// The mirrored profile's part of one frame.
+  /// Tracks the mirrored profile in one frame of the trial.
   void track_mirrored(const HandObservation& observation);
-  /// After that and the profile's own part: whether the trial ends with the other side.
+  /// Call after that and after the profile's own frame. Returns whether the trial ends in favour of the other side.
   bool turns_out_other_side(const HandEstimate& own);
-  /// Where that ended: the hand of the other side (T_camera_segment).
+  /// Pose of the hand of the other side when the trial ended (T_camera_segment).
   const HandPose& mirrored_pose() const { return *mirrored_->whereabouts(); }
 
-  /// A search found no hand in what looks like one, at best with `score` (infinite: nothing at all). Now and then
-  /// another size is tried.
+  /// Call when a search found no hand in a region that looks like one. `score`: that of the best pose; infinite if
+  /// there was none. Now and then another size is tried.
   void nothing_found(const HandObservation& observation, double score);
 
  private:
   HandTracker tracker_of(const HandProfile& profile) const;
   HandTracker& other_side();
+  // Reports a hand of the other side, once.
   void say_side();
 
   TrackerParams params_;
@@ -52,12 +55,12 @@ class ProfileCheck {
   int failures_ = 0, tries_ = 0;
 
   struct Trial {
-    int frames = 0, compared = 0;          // compared: both were tracked
-    double own_sum = 0, mirrored_sum = 0;  // of their scores [m]
+    int frames = 0, compared = 0;          // compared: frames in which both were tracked
+    double own_sum = 0, mirrored_sum = 0;  // sums of the scores of these frames [m]
     HandEstimatePtr mirrored;
   };
   std::optional<Trial> trial_;
-  int suspected_ = 0;  // searches that must still find the profile's own side, since a trial found the other one
+  int suspected_ = 0;  // after a trial found the other side: searches that must still confirm the profile's own side
 };
 
 }  // namespace barehand

@@ -4,8 +4,9 @@
 
 namespace barehand {
 
-/// A pose that a search found, with what no data holds at ease (with_hidden_at_ease) and refined again: a search bends
-/// that at random. As it was found if that explains the frame better, by more than `search_advantage` and the noise.
+/// Improves a pose that a search found: a search leaves joints without data at random angles. Unobserved joints are
+/// set to a neutral pose (with_hidden_at_ease) and the pose is refined again. The pose is returned unchanged if its
+/// score is lower by more than `search_advantage` and by more than a fraction of the noise.
 RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
                          const Refinement& refinement, const TrackerParams& params);
 

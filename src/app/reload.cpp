@@ -22,6 +22,7 @@ void put_if_changed(Slot<Group>& slot, const Group& before, const Group& after) 
 }  // namespace
 
 Reload::Changes Reload::apply(const Config& wanted) {
+  // List the changes.
   Changes changes;
   const ConfigValues before = config_values(in_force_);
   for (const auto& [key, value] : config_values(wanted)) {
@@ -35,6 +36,7 @@ Reload::Changes Reload::apply(const Config& wanted) {
   next.tracker = wanted.tracker;
   next.tracker.shape_fit = in_force_.tracker.shape_fit;
   next.publish = wanted.publish;
+
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
   put_if_changed(out_.bus, in_force_.publish, next.publish);

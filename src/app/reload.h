@@ -8,25 +8,26 @@
 
 namespace barehand {
 
-/// Parameters that replace those in force, each taken by the one that works with them, between two frames.
+/// Mailboxes for new parameters. Each user takes its own between two frames.
 struct NewParams {
   Slot<PreprocessParams> preprocess;
   Slot<TrackerParams> tracker;
   Slot<PublishParams> bus, states_log;
 };
 
-/// Exchanges the configuration of a run that goes on.
+/// Exchanges the configuration of a running pipeline.
 class Reload {
  public:
-  /// `in_force`: what the run was started with. `out` outlives it.
+  /// `in_force`: the configuration that the run was started with. `out` must outlive this object.
   Reload(Config in_force, NewParams& out) : in_force_(std::move(in_force)), out_(out) {}
 
-  /// Values as "tracker.doubt: 0.15 -> 0.2".
+  /// What changed, one text per value, such as "tracker.doubt: 0.15 -> 0.2".
   struct Changes {
     std::vector<std::string> made;
-    std::vector<std::string> for_restart;  ///< cannot change while running: the old ones stay
+    std::vector<std::string> for_restart;  ///< cannot change while running; the old values stay in force
   };
-  /// One thread. `wanted` has passed every check of a start.
+  /// Puts changed groups of `wanted`, which must be a valid configuration, into the mailboxes. Call from one thread
+  /// only.
   Changes apply(const Config& wanted);
 
  private:

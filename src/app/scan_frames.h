@@ -6,19 +6,20 @@
 
 namespace barehand {
 
-/// Keeps frames of a scan for scan_hand: evenly spread over all of it, however long it lasts, but for its beginning,
-/// when the hand is not yet known well enough to be followed closely.
+/// Selects the frames that scan_hand uses: evenly spread over the whole scan, however long it lasts, except for its
+/// beginning, when the hand is not yet known well enough to be tracked precisely.
 class ScanFrames {
  public:
-  static constexpr int kFewest = 24;  ///< fewer say too little about a skin
+  static constexpr int kFewest = 24;  ///< fewer frames do not determine the skin
 
-  /// `settling`: tracked frames at the beginning; `most`: frames to keep.
+  /// `settling`: tracked frames to leave out at the beginning; `most`: number of frames to keep.
   ScanFrames(int settling, int most) : settling_(settling), most_(most) {}
 
-  /// Counts a tracked frame; whether it is to be kept.
+  /// Counts a tracked frame; returns whether it should be kept.
   bool wants();
+  /// Keeps a frame; if there are too many, every other one is dropped.
   void keep(HandObservationPtr observation, const HandPose& pose);
-  /// Both. A frame in which the hand is not tracked does not count.
+  /// Counts the frame and keeps it if it should be. Frames in which the hand is not tracked are ignored.
   void add(const HandObservationPtr& observation, const HandEstimate& estimate);
   const std::vector<ScanFrame>& frames() const { return frames_; }
   int tracked() const { return tracked_; }

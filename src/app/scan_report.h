@@ -8,25 +8,27 @@
 
 namespace barehand {
 
-/// What a scan has shown of one segment.
+/// What was seen of one segment during a scan.
 struct ScannedSegment {
-  int seen = 0;                          ///< tracked frames in which it was
-  int palm_side = 0, back_side = 0;      ///< of these, from there
-  double least_bent = 0, most_bent = 0;  ///< of these, flexion of its joint [rad]; the palm's: zeros
+  int seen = 0;                      ///< tracked frames in which the segment was seen
+  int palm_side = 0, back_side = 0;  ///< those of them in which that side faced the camera
+  /// Smallest and largest flexion of its joint in them [rad]; zeros for the palm.
+  double least_bent = 0, most_bent = 0;
 };
 
-/// What a hand that is fitted while it is tracked can be known from: skin from both sides, joints from bending them.
+/// Tells the user what is still to be shown: a hand can only be fitted where its skin was seen from both sides and its
+/// joints were bent.
 class ScanReport {
  public:
-  static constexpr int kEnoughFrames = 15;       ///< of a side
+  static constexpr int kEnoughFrames = 15;       ///< per side
   static constexpr double kEnoughBending = 0.5;  ///< [rad]
 
-  /// Frames in which the hand is not tracked say nothing.
+  /// Adds a frame; frames in which the hand is not tracked are ignored.
   void add(const HandEstimate& estimate);
 
   int frames() const { return frames_; }
   const ScannedSegment& segment(int s) const { return segments_[s]; }
-  /// What is still to be shown, a sentence each; none: everything was seen.
+  /// One sentence for each thing that is still to be shown; empty if everything was seen.
   std::vector<std::string> missing() const;
 
  private:

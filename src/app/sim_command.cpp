@@ -16,12 +16,14 @@
 namespace barehand {
 namespace {
 
+/// The arguments of `barehand sim`; empty ones were not given.
 struct SimArguments {
   std::string name, out, noise, seed, frames, fps, hand;
   std::vector<std::string> set;
   bool list = false, overwrite = false;
 };
 
+/// The specification of the sequence, "NAME,key=value,...".
 std::string spec_of(const SimArguments& a) {
   std::string spec = a.name;
   const auto add = [&](const char* key, const std::string& value) {
@@ -49,13 +51,18 @@ int fail_with(const Error& error, int code) {
 }
 
 int run(const SimArguments& a) {
+  // Listing needs no further arguments.
   if (a.list) {
     print_list();
     return printed(kExitOk);
   }
+
+  // Check the arguments.
   if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
     return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
+
+  // Render. An error before the first frame is one of the arguments.
   std::int64_t done = 0;
   std::atomic<bool> stop = false;
   const InterruptWatcher interrupt([&stop] { stop = true; });
@@ -73,6 +80,8 @@ int run(const SimArguments& a) {
 void add_sim_command(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<SimArguments>();
   CLI::App* sim = app.add_subcommand("sim", "Render a synthetic sequence of a hand with ground truth");
+
+  // What is rendered, and where to.
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
   sim->add_option("--out", a->out, "folder to make, or FILE.lcmlog");
   add_overwrite_option(*sim, a->overwrite);
@@ -81,6 +90,8 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   sim->add_option("--frames", a->frames, "end after this many frames");
   sim->add_option("--fps", a->fps, "frames per second, other than the sequence's own");
   sim->add_option("--hand", a->hand, "right or left, where a sequence shows one hand");
+
+  // Everything else.
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
   sim->add_flag("--list", a->list, "name the sequences and keys");
   sim->footer(

@@ -18,7 +18,7 @@ namespace {
 using synthetic::SimulatedHand;
 using synthetic::SyntheticSource;
 
-/// Path of a file that goes with the recording.
+/// Path of a file that belongs to the recording.
 std::string beside(const std::string& out, const std::string& name) {
   return is_log_path(out) ? std::filesystem::path(out).replace_extension(name).string() : out + "/" + name;
 }
@@ -54,8 +54,9 @@ class HandFiles {
     if (!truth) return tl::unexpected(truth.error());
     return HandFiles(std::move(*truth), path("start_pose.json"));
   }
+  /// Writes what belongs to the frame with this number.
   Result<void> write(const SimulatedHand& hand, std::int64_t number) {
-    if (!hand.truth) return {};  // not in view
+    if (!hand.truth) return {};  // the hand is not in view
     if (number == 0)
       if (auto ok = save_pose(hand.pose, start_pose_); !ok) return ok;
     return truth_.write(*hand.truth);
@@ -83,9 +84,11 @@ Result<std::vector<HandFiles>> create_hand_files(const SimOptions& options, cons
 
 Result<std::int64_t> run_sim(const SimOptions& options,
                              const std::function<bool(std::int64_t, std::int64_t)>& progress) {
+  // Open the source. A recording must end.
   const SystemClock clock;
   auto source = SyntheticSource::open(options.spec, clock);
   if (!source) return tl::unexpected(source.error());
+
   if ((*source)->live() || (*source)->remaining() < 0)
     return fail("a recording is neither live nor endless", "sim:" + options.spec, "leave out live and loop");
   if (const auto free = check_written(options, (*source)->hands()); !free) return tl::unexpected(free.error());
@@ -93,12 +96,16 @@ Result<std::int64_t> run_sim(const SimOptions& options,
   if (!writer) return tl::unexpected(writer.error());
   auto hand_files = create_hand_files(options, (*source)->hands());
   if (!hand_files) return tl::unexpected(hand_files.error());
+
+  // Render and write frame by frame.
   const std::int64_t all = (*source)->remaining();
   std::int64_t done = 0;
   while (done < all) {
     const SourceEvent event = (*source)->next(std::chrono::milliseconds(0));
     const auto* frame = std::get_if<FramePtr>(&event);
     if (!frame) break;
+
+    // The frame, and the truth about each hand.
     if (auto ok = (*writer)->write(**frame); !ok) return tl::unexpected(ok.error());
     for (std::size_t i = 0; i < hand_files->size(); ++i)
       if (auto ok = (*hand_files)[i].write((*source)->hands()[i], (*frame)->number); !ok)

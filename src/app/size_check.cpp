@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<double, 4> kSizes = {0.78, 0.88, 1.14, 1.28};
 
-/// Around the middle of the palm, which the data holds best.
+/// Scales a pose about the middle of the palm, whose position the data determines best.
 HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
   const Eigen::Vector3d centre = pose[kPalm] * (0.5 * hand.segments[kPalm].distal);
   for (SE3& T : pose) T.t = centre + size * (T.t - centre);
@@ -36,6 +36,7 @@ std::string other_size(double size, const HandProfile& profile) {
 }
 
 std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
+  // One copy per frame, in turn, since more would delay the frame.
   if (looks_ >= kLooks) return std::nullopt;
   if (candidates_.empty()) make_candidates();
   const std::size_t turn = frames_++ % kEvery;
@@ -43,9 +44,12 @@ std::optional<double> SizeCheck::look(const HandObservation& observation, const 
   Candidate& candidate = candidates_[turn];  // one a frame, or this frame would come late
   const HandPose start = scaled(*profile_, pose, candidate.size);
   const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
+
   candidate.better += clearly_better(other, score);
   candidate.sum += other;
   if (turn + 1 < candidates_.size() || ++looks_ < kLooks) return std::nullopt;
+
+  // After the last look the size with the best mean score wins, if it was better in most frames.
   const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
   const std::optional<double> size = best->better >= kMost ? std::optional(best->size) : std::nullopt;
   candidates_.clear();

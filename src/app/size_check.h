@@ -9,18 +9,19 @@
 
 namespace barehand {
 
-/// Whether a profile whose bones are used as they are has the size of the hand that is tracked with it: on a few
-/// frames, would a smaller or a larger copy of the hand explain the data better?
+/// Checks whether a profile that is not fitted has the size of the tracked hand: on a few frames it compares how well
+/// smaller and larger copies of the hand explain the data.
 class SizeCheck {
  public:
-  /// `skin`: made for the profile. The copies are made at the first look: most trackers only search.
+  /// `skin`: the one that was built for the profile. The copies are made at the first call of look(), since most
+  /// trackers only search.
   SizeCheck(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
             std::shared_ptr<const Skin> skin)
       : params_(params), profile_(std::move(profile)), skin_(std::move(skin)) {}
 
-  /// Looks at a tracked frame at its refined pose, which explains it with `score`, with one of the copies in turn.
-  /// After enough looks, once: size of the hand in view by that of the profile, if another one explains most of them
-  /// clearly better.
+  /// Compares one of the copies, in turn, with the profile in a tracked frame. `pose`: the refined pose, which
+  /// explains the frame with `score` [m]. After enough frames it returns, once, the size of the hand in view relative
+  /// to the profile, provided that another size explains most of these frames clearly better.
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
@@ -30,7 +31,7 @@ class SizeCheck {
     double size;
     std::unique_ptr<Refinement> refinement;
     int better = 0;  // frames that it explains clearly better
-    double sum = 0;  // of its scores
+    double sum = 0;  // sum of its scores [m]
   };
   void make_candidates();
 
@@ -41,7 +42,7 @@ class SizeCheck {
   int frames_ = 0, looks_ = 0;
 };
 
-/// For people: a hand of `size` times the profile's is seen, and what to do.
+/// A message for the user: a hand of `size` times the profile's size is in view, and what to do about it.
 std::string other_size(double size, const HandProfile& profile);
 
 }  // namespace barehand

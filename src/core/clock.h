@@ -6,16 +6,18 @@
 
 namespace barehand {
 
-/// Microseconds, from whoever owns the run; stages never ask the machine for the time.
+/// Source of the time in microseconds. It is passed in by the owner of a run; stages never ask the operating system
+/// for the time.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Never goes back; for durations.
+  /// Monotonic time for durations.
   virtual std::int64_t steady_us() const = 0;
-  /// Since the epoch; comparable to capture times.
+  /// Time since the epoch, comparable to capture times.
   virtual std::int64_t utime() const = 0;
 };
 
+/// The clocks of the machine.
 class SystemClock : public Clock {
  public:
   std::int64_t steady_us() const override { return count(std::chrono::steady_clock::now().time_since_epoch()); }
@@ -28,7 +30,7 @@ class SystemClock : public Clock {
   }
 };
 
-/// Stands still until it is advanced: for tests and for runs that must not depend on time.
+/// A clock that stands still until it is advanced, for tests and for runs that must not depend on time.
 class ManualClock : public Clock {
  public:
   explicit ManualClock(std::int64_t now_us = 0) : now_us_(now_us) {}

@@ -4,7 +4,7 @@
 
 namespace barehand {
 
-/// "a, b, c" of strings or string views, for messages.
+/// Joins strings or string views to "a, b, c", for messages.
 template <class Names>
 std::string comma_list(const Names& names) {
   std::string text;

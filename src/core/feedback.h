@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// Hands results of a later stage back to an earlier one, frame by frame: whoever takes frame k's result waits until it
-/// is there, so what the earlier stage sees does not depend on how fast the threads run. Each result is taken once.
+/// Hands the results of a later stage back to an earlier one, frame by frame. Taking the result of frame k waits until
+/// it is there, so what the earlier stage gets does not depend on the speed of the threads. Each result is taken once.
 template <typename T>
 class Feedback {
  public:
@@ -27,7 +27,7 @@ class Feedback {
  private:
   std::mutex mutex_;
   std::condition_variable posted_;
-  std::map<std::int64_t, T> results_;  ///< as many as frames are in flight
+  std::map<std::int64_t, T> results_;  ///< at most one per frame in flight
 };
 
 }  // namespace barehand

@@ -4,7 +4,7 @@
 
 namespace barehand {
 
-/// What printf would print.
+/// The text that printf would print.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
 }  // namespace barehand

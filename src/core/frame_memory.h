@@ -7,9 +7,9 @@
 
 namespace barehand {
 
-/// Memory of a frame's results, which go from stage to stage, and of what is needed for them: what the last owner
-/// frees, on whatever thread, is used again for a later frame, so that a running stream takes nothing from the heap.
-/// Lives as long as the process.
+/// Memory for the results that frames carry from stage to stage. What the last owner frees, on whatever thread, is
+/// reused for a later frame, so that a running stream allocates nothing from the heap. It lives as long as the
+/// process.
 std::pmr::memory_resource& frame_memory();
 
 /// Allocator over frame_memory(). Throws std::bad_alloc.

@@ -6,7 +6,7 @@
 
 namespace barehand {
 
-/// Row-major image with contiguous pixels. Pixel (u, v): column u to the right, row v downwards.
+/// A row-major image with contiguous pixels. Pixel (u, v) is in column u (to the right) and row v (downwards).
 template <typename T>
 class Image {
  public:
@@ -30,7 +30,7 @@ class Image {
   const T& operator[](std::size_t i) const { return data_[i]; }
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * width_ + u; }
 
-  /// Keeps the allocation where it suffices; every pixel is set to `value`.
+  /// Changes the size and sets all pixels to `value`; the allocation is kept if it suffices.
   void reset(int width, int height, const T& value = T{}) {
     width_ = width;
     height_ = height;

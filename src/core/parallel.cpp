@@ -14,8 +14,8 @@
 namespace barehand {
 namespace {
 
-/// TBB orders everything that has to be ordered, but inside a library that the thread sanitizer cannot look into;
-/// these two atomics say the same where it can.
+/// TBB synchronises everything that must be ordered, but inside a library that the thread sanitizer does not see.
+/// These two atomics state the same order in code that it sees.
 template <typename Call>
 struct Job {
   const Call& fn;
@@ -44,13 +44,17 @@ Workers::Workers(int threads) : threads_(threads) {
 Workers::~Workers() = default;
 
 void Workers::run(int n, Call call) {
+  // Inline, without tasks.
   if (!arena_ || n <= 1) {
     for (int i = 0; i < n; ++i) call(i);
     return;
   }
+
+  // What the caller wrote happens before the tasks, and what they wrote before the return.
   Job<Call> job{call};
   job.started.store(true, std::memory_order_release);
   const auto settle = [&] { [[maybe_unused]] const int finished = job.finished.load(std::memory_order_acquire); };
+
   try {
     arena_->for_each_index(n, &Job<Call>::run, &job);
   } catch (...) {
@@ -61,7 +65,7 @@ void Workers::run(int n, Call call) {
 }
 
 void Workers::give_way() {
-  constexpr int kLast = 19;  // nice value, which Linux keeps for every thread
+  constexpr int kLast = 19;  // nice value; Linux keeps one per thread
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLast);
 }
 

@@ -6,18 +6,19 @@
 
 namespace barehand {
 
-/// Lends objects whose content is scratch, so that several threads may work at once and nothing is allocated once as
-/// many exist as are used at the same time. Outlives what it lends.
+/// Lends scratch objects of arbitrary content, so that several threads can work at once and nothing is allocated any
+/// more once as many objects exist as are in use at the same time. It must outlive what it lends.
 template <typename T>
 class Pool {
  public:
+  // Deleter that gives the object back.
   struct Return {
     Pool* pool;
     void operator()(T* used) const { pool->give_back(std::unique_ptr<T>(used)); }
   };
   using Lease = std::unique_ptr<T, Return>;
 
-  /// An object with arbitrary content; any thread.
+  /// Returns an object with arbitrary content. Any thread may call it.
   Lease take() {
     {
       const std::lock_guard lock(mutex_);

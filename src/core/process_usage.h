@@ -4,17 +4,18 @@
 
 namespace barehand {
 
-/// CPU seconds of all threads of this process so far, user and system.
+/// CPU time of all threads of this process so far, user and system [s].
 double cpu_seconds();
 
-/// Memory of this process that is in RAM [bytes]; 0 where the system does not say (no /proc).
+/// Resident memory of this process [bytes]; 0 where the system does not provide it (no /proc).
 struct MemoryUsage {
   std::int64_t resident = 0;
   std::int64_t peak = 0;  ///< largest `resident` since the start or the last reset_peak_memory()
 };
+/// The memory in use now.
 MemoryUsage memory_usage();
 
-/// Starts the peak anew from what is resident now; false where the system does not allow it.
+/// Sets the peak to the present resident memory; false if the system does not allow it.
 bool reset_peak_memory();
 
 }  // namespace barehand

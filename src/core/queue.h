@@ -14,13 +14,13 @@
 
 namespace barehand {
 
-/// What a full queue does with one more item.
+/// What happens when an item is pushed into a full queue.
 enum class Overflow {
-  block,        ///< the producer waits: nothing is ever dropped (replay)
-  drop_oldest,  ///< the oldest waiting item makes room and is counted (live: the newest wins)
+  block,        ///< the producer waits; nothing is dropped (replay)
+  drop_oldest,  ///< the oldest item is dropped and counted; the newest wins (live)
 };
 
-/// A bounded queue between two stages. Any number of threads; pushed = popped + dropped + depth at every moment.
+/// A bounded queue between two stages, for any number of threads. At every moment pushed = popped + dropped + depth.
 template <typename T>
 class BoundedQueue {
  public:
@@ -29,7 +29,7 @@ class BoundedQueue {
     assert(capacity > 0);
   }
 
-  /// False, and the item is neither kept nor counted, once the queue is closed.
+  /// Adds an item. Returns false, and neither keeps nor counts the item, if the queue is closed.
   bool push(T item) {
     std::unique_lock lock(mutex_);
     if (overflow_ == Overflow::block) space_.wait(lock, [&] { return items_.size() < capacity_ || closed_; });
@@ -44,33 +44,33 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for an item; none once the queue is closed and drained.
+  /// Waits for an item; none if the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     item_.wait(lock, [&] { return !items_.empty() || closed_; });
     return take();
   }
 
-  /// Waits for an item no longer than `patience`.
+  /// Waits for an item, but no longer than `patience`.
   std::optional<T> pop_within(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     item_.wait_for(lock, patience, [&] { return !items_.empty() || closed_; });
     return take();
   }
 
-  /// Closed, and nothing is left.
+  /// Whether the queue is closed and empty.
   bool drained() const {
     std::unique_lock lock(mutex_);
     return closed_ && items_.empty();
   }
 
-  /// An item if one is waiting.
+  /// Returns an item if one is waiting.
   std::optional<T> try_pop() {
     std::unique_lock lock(mutex_);
     return take();
   }
 
-  /// No more items will come: consumers drain what is waiting, blocked producers give up.
+  /// Declares that no more items will come: consumers take what is left, and blocked producers give up.
   void close() {
     std::unique_lock lock(mutex_);
     closed_ = true;
@@ -78,6 +78,7 @@ class BoundedQueue {
     space_.notify_all();
   }
 
+  /// Counts since the start of the run.
   QueueHealth health() const {
     std::unique_lock lock(mutex_);
     return {name_, capacity_, items_.size(), pushed_, popped_, dropped_, {}};

@@ -11,14 +11,14 @@
 
 namespace barehand {
 
-/// Keeps a repeated message from flooding the log: the first of a kind passes, then one per interval, and it says how
-/// many were kept back. Any thread.
+/// Prevents a repeated message from flooding the log: the first message of a kind passes, then at most one per
+/// interval, which reports how many were suppressed. For any number of threads.
 class RepeatFilter {
  public:
   RepeatFilter(const Clock& clock, std::int64_t interval_us) : clock_(clock), interval_us_(interval_us) {}
 
-  /// Number of messages of this kind kept back since the last that passed; none: keep this one back, too. Kinds are few
-  /// and fixed (a stage's name, not a message with a frame number in it).
+  /// Returns the number of messages of this kind suppressed since the last one that passed, or none if this one should
+  /// be suppressed, too. Kinds must be few and fixed, such as the name of a stage, not messages with frame numbers.
   std::optional<std::int64_t> admit(const std::string& kind);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace barehand {
 
-/// Hands a value from one thread to another; a newer one replaces one that was not taken yet.
+/// A mailbox for one value between two threads; a newer value replaces one that was not taken yet.
 template <typename T>
 class Slot {
  public:
@@ -14,7 +14,7 @@ class Slot {
     const std::lock_guard lock(mutex_);
     value_ = std::move(value);
   }
-  /// What was put since the last call.
+  /// The value put since the last call, if any.
   std::optional<T> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(value_, std::nullopt);

@@ -11,13 +11,13 @@
 
 namespace barehand {
 
-/// Stands around one stage: times every call, turns what it throws into an error and counts failures. One thread runs
-/// the stage; any thread may ask for its health.
+/// Wraps the calls of one stage: measures their time, turns exceptions into errors and counts failures. One thread
+/// runs the stage; any thread may ask for its health.
 class StageMonitor {
  public:
   StageMonitor(std::string name, const Clock& clock) : name_(std::move(name)), clock_(clock) {}
 
-  /// fn() -> Result<T>.
+  /// Runs fn() -> Result<T>, timed and counted.
   template <typename Fn>
   auto run(Fn&& fn) -> decltype(fn()) {
     const std::int64_t start = clock_.steady_us();
@@ -26,14 +26,14 @@ class StageMonitor {
     return result;
   }
 
-  /// Since the start of the run.
+  /// Times and failures since the start of the run.
   StageHealth health() const;
-  /// Times since the last call; failures since the start.
+  /// Times since the last call of this function; failures since the start of the run.
   StageHealth take_interval();
-  /// Failures since the last success.
+  /// Number of failures since the last success.
   int failures_in_a_row() const;
   const std::string& name() const { return name_; }
-  /// As run(), neither timed nor counted.
+  /// Like run(), but neither timed nor counted.
   template <typename Fn>
   auto guarded(Fn&& fn) const -> decltype(fn()) {
     try {

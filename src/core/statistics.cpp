@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-// Durations below 16 us have a bucket each; above, the top four bits after the leading one choose within the octave.
+// Durations below 16 us have a bucket each. Above, the leading bit selects the octave and the four bits after it the
+// bucket.
 int TimeHistogram::bucket_of(std::int64_t duration_us) {
   const auto value = static_cast<std::uint64_t>(duration_us);
   if (value < kSubBuckets) return static_cast<int>(value);
@@ -16,6 +17,7 @@ int TimeHistogram::bucket_of(std::int64_t duration_us) {
   return std::min(bucket, kSubBuckets * kOctaves - 1);
 }
 
+/// The duration in the middle of a bucket [us].
 double TimeHistogram::middle_of(int bucket) {
   if (bucket < kSubBuckets) return bucket;
   const int octave = bucket / kSubBuckets - 1;

@@ -5,7 +5,8 @@
 namespace barehand {
 namespace {
 
-// Upward pass: what is left of a segment after its children have been eliminated, and how it follows its parent.
+// Result of the pass towards the palm: the equations of each segment after its children were eliminated, and the
+// linear dependence of each segment on its parent.
 struct Elimination {
   std::array<Matrix6d, kSegmentCount> H;
   std::array<Vector6d, kSegmentCount> g;
@@ -13,6 +14,7 @@ struct Elimination {
   std::array<Matrix6d, kSegmentCount> gain;  // x_s = factor^-1 g - gain x_parent
 };
 
+/// The pass towards the palm; false if H is not positive definite.
 bool eliminate(const GaussianTree& tree, Elimination& e) {
   e.H = tree.H_self;
   e.g = tree.g;
@@ -41,6 +43,7 @@ void GaussianTree::set_zero() {
 bool GaussianTree::solve(std::array<Vector6d, kSegmentCount>& x) const {
   Elimination e;
   if (!eliminate(*this, e)) return false;
+  // The pass from the palm back to the fingertips.
   std::array<Vector6d, kSegmentCount> result;
   for (int s = 0; s < kSegmentCount; ++s) {
     result[s] = e.factor[s].solve(e.g[s]);
@@ -54,6 +57,7 @@ bool GaussianTree::solve(std::array<Vector6d, kSegmentCount>& x) const {
 bool GaussianTree::marginals(std::array<Matrix6d, kSegmentCount>& covariance) const {
   Elimination e;
   if (!eliminate(*this, e)) return false;
+  // The covariance of a segment is its own plus what it inherits from its parent.
   std::array<Matrix6d, kSegmentCount> result;
   for (int s = 0; s < kSegmentCount; ++s) {
     result[s] = e.factor[s].solve(Matrix6d::Identity());

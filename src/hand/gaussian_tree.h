@@ -7,16 +7,19 @@
 
 namespace barehand {
 
-/// Normal equations H x = g over the 96 unknowns of the hand, with blocks only on the segments and between a segment
-/// and its parent: a Gaussian on the hand's tree. Solving it is Gaussian belief propagation (paper Eq. 7, 8 with
-/// Gaussian messages): one pass from the fingertips to the palm, one pass back; cost linear in the segments.
+/// Normal equations H x = g over the 96 unknowns of the hand's pose. H has blocks only for segments and between a
+/// segment and its parent, so it is a Gaussian on the hand's tree. Solving it is Gaussian belief propagation (paper
+/// Eq. 7, 8 with Gaussian messages): one pass from the fingertips to the palm and one pass back, at a cost linear in
+/// the number of segments.
 struct GaussianTree {
   std::array<Matrix6d, kSegmentCount> H_self;    ///< symmetric, full
   std::array<Matrix6d, kSegmentCount> H_parent;  ///< rows: segment, columns: its parent; unused for the palm
   std::array<Vector6d, kSegmentCount> g;
 
+  /// Removes all residuals.
   void set_zero();
-  /// Adds residuals r with information W that depend on a segment, which is not the palm, and on its parent.
+  /// Adds residuals r with the information matrix W that depend on the segment `child`, which is not the palm, and on
+  /// its parent.
   template <int N>
   void add(int child, const Eigen::Matrix<double, N, 6>& J_child, const Eigen::Matrix<double, N, 6>& J_parent,
            const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& W) {
@@ -27,9 +30,9 @@ struct GaussianTree {
     g[child] -= J_child.transpose() * (W * r);
     g[parent] -= J_parent.transpose() * (W * r);
   }
-  /// false (and nothing written) if H is not positive definite or a result is not finite.
+  /// Computes x. Returns false, and writes nothing, if H is not positive definite or a result is not finite.
   bool solve(std::array<Vector6d, kSegmentCount>& x) const;
-  /// Diagonal 6x6 blocks of the inverse of H: the marginal covariances.
+  /// Computes the marginal covariances: the diagonal 6x6 blocks of the inverse of H. Fails like solve().
   bool marginals(std::array<Matrix6d, kSegmentCount>& covariance) const;
 };
 

@@ -10,31 +10,38 @@
 
 namespace barehand {
 
-/// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). Segments need not touch exactly.
+/// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). The ends of neighbouring segments need not
+/// meet exactly.
 using HandPose = std::array<SE3, kSegmentCount>;
 
-/// A segment whose ends are both within this of the truth [m] is where it is said to be: what confidence is about.
+/// A segment counts as correctly located if both of its ends are within this distance of the truth [m]; confidence is
+/// the probability of that.
 inline constexpr double kConfidenceRadius = 0.010;
 
+/// State of the track of one hand. searching: no hand was found yet, or it has been lost for long; tracking: the pose
+/// follows the data; holding: the hand is hardly seen, so its last pose is kept for a moment; lost: the data was
+/// missing or explained badly for too long, and the hand is searched, its last good pose being one of the starts.
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
-/// What is known of one segment in one frame. Camera frame, metres, radians.
+/// The estimate of one segment in one frame. Camera frame, metres, radians.
 struct SegmentState {
   SE3 T_camera_segment;
-  Vector6d velocity = Vector6d::Zero();        ///< per second: of the origin, then angular, camera frame
+  Vector6d velocity = Vector6d::Zero();        ///< per second: linear of the origin, then angular
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
-  double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius
-  double visible = 0;                          ///< fraction of its own projected pixels that are front-most
+  double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius of the truth
+  double visible = 0;                          ///< fraction of its projected pixels where it is front-most
   bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
 };
 
+/// The pose alone.
 inline HandPose pose_of(const std::array<SegmentState, kSegmentCount>& segments) {
   HandPose pose;
   for (int s = 0; s < kSegmentCount; ++s) pose[s] = segments[s].T_camera_segment;
   return pose;
 }
 
-/// Result of one frame: what the publish stage, result tables and overlays consume. Immutable once shared.
+/// The estimate of one hand in one frame: what the publish stage, result tables and overlays consume. Immutable once
+/// shared.
 struct HandEstimate {
   std::int64_t utime = 0;
   std::int64_t number = 0;  ///< RgbdFrame::number
@@ -43,15 +50,15 @@ struct HandEstimate {
   std::int32_t hand_id = 0;
   Handedness handedness = Handedness::right;
   std::array<SegmentState, kSegmentCount> segments;  ///< meaningless while searching
-  double score = 0;                                  ///< global mismatch of model and data [m], lower is better
+  double score = 0;      ///< global score: mean mismatch of model and data [m], lower is better
   double joint_gap = 0;  ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
   std::shared_ptr<const HandProfile> profile;
 
-  /// A pose that may be shown and published as tracked.
+  /// Whether there is a pose that may be displayed and published as tracked.
   bool has_pose() const { return status == TrackStatus::tracking || status == TrackStatus::holding; }
 };
 using HandEstimatePtr = std::shared_ptr<const HandEstimate>;
-/// One a hand that is looked for, always in the same order; of one frame.
+/// One estimate per hand that is looked for, always in the same order, all of one frame.
 using HandEstimates = FrameVector<HandEstimatePtr>;
 
 }  // namespace barehand

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Where the numbers of a shape lie.
+// Index of the first component of each kind in a HandShape.
 constexpr int kSize = 0, kPalmWidth = 1, kPalmLength = 2, kPalmThickness = 3, kFingerLength = 4,
               kBoneLength = kFingerLength + kFingerCount, kFingersThickness = kBoneLength + kSegmentCount - 1,
               kFlatness = kFingersThickness + 1, kFingerThickness = kFlatness + 1,
@@ -19,12 +19,15 @@ static_assert(kKnuckle + 3 * kFingerCount == kShapeCount);
 
 constexpr std::array<const char*, kFingerCount> kFingerNames = {"thumb", "index", "middle", "ring", "little"};
 
+/// Names and standard deviations of all components.
 std::array<ShapeParameter, kShapeCount> make_parameters() {
   std::array<ShapeParameter, kShapeCount> p;
   p[kSize] = {"size", 0.08};
   p[kPalmWidth] = {"palm_width", 0.06};
   p[kPalmLength] = {"palm_length", 0.06};
   p[kPalmThickness] = {"palm_thickness", 0.15};
+
+  // One component per finger.
   for (int f = 0; f < kFingerCount; ++f) {
     const std::string finger = kFingerNames[f];
     p[kFingerLength + f] = {finger + "_length", 0.05};
@@ -32,7 +35,11 @@ std::array<ShapeParameter, kShapeCount> make_parameters() {
     for (int axis = 0; axis < 3; ++axis)
       p[kKnuckle + 3 * f + axis] = {finger + "_knuckle_" + "xyz"[axis], f == 0 ? 0.004 : 0.002};
   }
+
+  // One component per bone.
   for (int s = 1; s < kSegmentCount; ++s) p[kBoneLength + s - 1] = {std::string(kSegmentNames[s]) + "_length", 0.05};
+
+  // Components that all fingers share.
   p[kFingersThickness] = {"fingers_thickness", 0.12};
   p[kFlatness] = {"fingers_flatness", 0.08};
   p[kRootThickness] = {"knuckle_thickness", 0.2};
@@ -43,11 +50,13 @@ std::array<ShapeParameter, kShapeCount> make_parameters() {
   return p;
 }
 
+/// Multiplies the values at both ends of a segment.
 void scale(std::array<double, 2>& at_ends, double proximal, double distal) {
   at_ends[0] *= proximal;
   at_ends[1] *= distal;
 }
 
+// Scales the sections of a segment's skin.
 void scale_section(SegmentProfile& s, double width, double thickness) {
   scale(s.half_width, width, width);
   scale(s.half_thickness, thickness, thickness);
@@ -65,13 +74,18 @@ void reshape_palm(SegmentProfile& palm, const HandShape& shape) {
 }
 
 void reshape_phalanx(SegmentProfile& bone, int segment, const HandShape& shape) {
+  // Length.
   const int finger = finger_of(segment);
   const double longer = std::exp(shape[kSize] + shape[kFingerLength + finger] + shape[kBoneLength + segment - 1]);
   bone.length *= longer;
   bone.distal *= longer;
+
+  // Thickness, and how far the flesh lies on the palm's side.
   const double wider = shape[kSize] + shape[kFingersThickness] + shape[kFingerThickness + finger];
   scale_section(bone, std::exp(wider), std::exp(wider + shape[kFlatness]));
   for (int end = 0; end < 2; ++end) bone.flesh_offset_y[end] += shape[kFlesh] * bone.half_thickness[end];
+
+  // The root of the thumb and the roots of the fingers have components of their own.
   if (segment == segment_of(0, 0)) {
     const double thenar = std::exp(shape[kThenarThickness]);
     scale_section(bone, thenar, thenar);
@@ -79,10 +93,11 @@ void reshape_phalanx(SegmentProfile& bone, int segment, const HandShape& shape) 
     const double root = std::exp(shape[kRootThickness]);
     for (auto* of : {&bone.half_width, &bone.half_thickness, &bone.radius, &bone.flesh_offset_y}) scale(*of, root, 1);
   }
+
   if (is_tip(segment)) bone.radius[1] *= std::exp(shape[kTip]);
 }
 
-// Where a segment's frame lies in its parent's.
+// The origin of a segment's frame in its parent's frame after the change of shape [m].
 Vector3d reshaped_joint(Vector3d joint, int segment, const HandShape& shape) {
   const int parent = parent_of(segment);
   if (parent != kPalm) {
@@ -117,29 +132,39 @@ HandProfile reshaped(const HandProfile& mean, const HandShape& shape) {
 }
 
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin) {
-  constexpr double kStep = 0.01;  // of one standard deviation: the change is small against the skin's curvature
+  constexpr double kStep = 0.01;  // in standard deviations: small against the curvature of the skin
   ShapeBasis basis;
   basis.outward.resize(static_cast<Eigen::Index>(skin.vertices.size()), Eigen::NoChange);
+
   const HandProfile hand = reshaped(mean, shape);
   const ImplicitHand surface(hand);
+
+  // Distance of a vertex from the surface of another shape.
   const auto distance_at = [&](const ImplicitHand& other, const SkinVertex& v) {
-    // Carried along by its bones, as a posed skin is.
+    // A vertex follows its segments like any posed skin.
     const Vector3d a = other.pose()[v.a] * v.in_a.cast<double>(), b = other.pose()[v.b] * v.in_b.cast<double>();
     return other.distance(a + v.weight_b * (b - a));
   };
+
+  // The unchanged skin: its distances, and the normals in the vertices' second segments.
   std::vector<double> before(skin.vertices.size());
   for (std::size_t i = 0; i < before.size(); ++i) before[i] = distance_at(surface, skin.vertices[i]);
   for (const SkinVertex& v : skin.vertices)
     basis.normal_in_b.push_back(
         (surface.pose()[v.b].R.transpose() * surface.pose()[v.a].R * v.normal_in_a.cast<double>()).cast<float>());
+
+  // Finite differences, one shape component after the other.
   basis.joint[kPalm].setZero();
   for (int k = 0; k < kShapeCount; ++k) {
+    // A slightly changed hand, and how its joints moved.
     const double step = kStep * shape_parameters()[k].deviation;
     HandShape changed = shape;
     changed[k] += step;
     const HandProfile other = reshaped(mean, changed);
     for (int s = 1; s < kSegmentCount; ++s)
       basis.joint[s].col(k) = (other.rest_relative(s).t - hand.rest_relative(s).t) / step;
+
+    // How far the surface moved outward from each vertex.
     const ImplicitHand grown(other);
     for (std::size_t i = 0; i < before.size(); ++i)
       basis.outward(static_cast<Eigen::Index>(i), k) =

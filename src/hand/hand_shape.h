@@ -10,32 +10,33 @@
 
 namespace barehand {
 
-/// How a person's hand differs from a mean hand: logarithms of size factors, and shifts of the knuckles. Zero is the
-/// mean hand itself.
+/// The shape of a person's hand relative to a mean hand: logarithms of size factors, and shifts of the knuckles [m].
+/// Zero is the mean hand.
 inline constexpr int kShapeCount = 51;
 using HandShape = Eigen::Matrix<double, kShapeCount, 1>;
 
-/// What one number of a HandShape means and how much people differ in it (standard deviation, same unit).
+/// Name of one component of a HandShape and its standard deviation between people, in the unit of the component.
 struct ShapeParameter {
   std::string name;
   double deviation = 0;
 };
+/// The meaning of all components, in the order of HandShape.
 const std::array<ShapeParameter, kShapeCount>& shape_parameters();
 
-/// The mean hand with a person's shape; rest rotations and joint limits stay.
+/// Applies a shape to the mean hand; rest rotations and joint limits stay.
 HandProfile reshaped(const HandProfile& mean, const HandShape& shape);
 
-/// First-order change of a hand with its shape.
+/// First-order change of a hand's skin and joints with its shape.
 struct ShapeBasis {
-  /// Skin vertices x shape parameters: outward motion of the skin [m per unit].
+  /// Rows: skin vertices; columns: shape components. Outward motion of the skin [m per unit].
   Eigen::Matrix<float, Eigen::Dynamic, kShapeCount, Eigen::RowMajor> outward;
-  /// 3 x shape parameters: motion of a segment's joint in its parent's frame [m per unit].
+  /// Columns: shape components. Motion of each segment's joint in its parent's frame [m per unit].
   std::array<Eigen::Matrix<double, 3, kShapeCount>, kSegmentCount> joint;
   std::vector<Eigen::Vector3f> normal_in_b;  ///< of every skin vertex, in the frame of its second segment
 };
-/// At `shape`; `skin` is the skin of reshaped(mean, shape).
+/// The derivative at `shape`; `skin` must be the skin of reshaped(mean, shape).
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin);
-/// The skin after a small change of the shape, by its basis: much faster than making it anew.
+/// The skin after the small change `change` of the shape, to first order: much faster than building it anew.
 Skin morphed(const Skin& skin, const ShapeBasis& basis, const HandShape& change);
 
 }  // namespace barehand

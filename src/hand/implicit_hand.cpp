@@ -10,52 +10,53 @@
 namespace barehand {
 namespace {
 
-// The shape of an average hand between the sections that a profile states, fitted to depth images of several hands at
-// known poses. Factors multiply the profile's own sections.
+// How an average hand deviates from straight lines between the sections that a profile states. The numbers were fitted
+// to depth images of several hands in known poses; factors multiply the profile's own sections.
 constexpr double kPalmBlend = 0.0072;     // m, between the metacarpals
 constexpr double kThenarBlend = 0.0158;   // m, between thumb and palm: the fold of skin
 constexpr double kFingerBlend = 0.00342;  // m, between fingers and palm: the webs
-constexpr double kWristSpread = 0.255;    // of the wrist's half width: where the outer metacarpals begin
-constexpr double kWristWidth = 0.603;     // of one metacarpal tube at the wrist
+constexpr double kWristSpread = 0.255;    // relative to the wrist's half width: where the outer metacarpals begin
+constexpr double kWristWidth = 0.603;     // width of one metacarpal tube relative to the wrist's
 constexpr double kWristThickness = 0.476;
 constexpr double kWristOffset = 0.182;
-constexpr double kWristShift = -0.0423;  // of the wrist's half width, towards the little finger
-// Slopes: what is added below the little finger and subtracted below the index finger.
+constexpr double kWristShift = -0.0423;  // relative to the wrist's half width, towards the little finger
+// Slopes are added below the little finger and subtracted below the index finger.
 constexpr double kWristThicknessSlope = -0.0794;
 constexpr double kWristOffsetSlope = -0.12;
 constexpr double kHeelThicknessSlope = 0.0268;
 constexpr double kHeelWidth = 1.03;
 constexpr double kHeelAt = 0.362;         // the heel of the hand, as a fraction of the metacarpals
-constexpr double kHeelThickness = 0.719;  // of the wrist's section, which includes the root of the thumb
+constexpr double kHeelThickness = 0.719;  // relative to the wrist's section, which includes the root of the thumb
 constexpr double kHeelOffset = 0.753;
 constexpr double kKnuckleThickness = 0.867;
 constexpr double kKnuckleOffset = 0.863;
-constexpr double kThenarTaper = 0.649;  // the thumb metacarpal's far section is mostly palm: towards the next bone's
-constexpr double kThenarRootShift = 0.0426;  // of its half width, away from the palm
-constexpr double kThenarCap = 0.367;         // of the rounding at its far end
+constexpr double kThenarTaper = 0.649;  // the far section is mostly palm: it moves this far towards the next bone's
+constexpr double kThenarRootShift = 0.0426;  // relative to its half width, away from the palm
+constexpr double kThenarCap = 0.367;         // relative to the rounding at its far end
 constexpr double kBorderThumb = 1.03;        // the palm's borders lie outside the outer knuckles' sections
 constexpr double kBorderLittle = 1.13;
 constexpr double kWebBlend = 0.00427;    // m, between a web and its fingers
-constexpr double kWebAt = 0.232;         // of the proximal phalanges: where the fold of skin between them lies
-constexpr double kWebHalfLength = 1.14;  // along the fingers, of their thickness at the next joint
+constexpr double kWebAt = 0.232;         // position of the fold of skin along the proximal phalanges
+constexpr double kWebHalfLength = 1.14;  // along the fingers, relative to their thickness at the next joint
 constexpr double kWebThickness = 0.94;
-constexpr double kWebOffset = 1.54;  // towards the palm, of the knuckles' flesh offset
+constexpr double kWebOffset = 1.54;  // towards the palm, relative to the knuckles' flesh offset
 
-constexpr double kThumbWebAlongThumb = 0.799;  // of its metacarpal: where the web of the thumb begins
-constexpr double kThumbWebAlongPalm = 0.661;   // from the wrist to the index knuckle: where it ends
-constexpr double kThumbWebThickness = 0.484;   // of the thumb's next joint
+constexpr double kThumbWebAlongThumb = 0.799;  // where the thumb's web begins, as a fraction of the metacarpal
+// Where it ends, as a fraction of the way from the wrist to the index knuckle.
+constexpr double kThumbWebAlongPalm = 0.661;
+constexpr double kThumbWebThickness = 0.484;  // relative to the thumb's next joint
 constexpr double kThumbWebHalfLength = 1.18;
 constexpr double kThumbWebOffset = -0.35;   // out of the back of the hand, at the palm's end
 constexpr double kThumbWebBlend = 0.00821;  // m
 
-// A section of a phalanx against what the profile states there, or mixes between its two ends.
+// A section of a phalanx relative to the profile's section at an end, or to a mixture of both ends.
 struct SectionShape {
-  double width = 1, thickness = 1;  // factors of the half axes
-  double rise = 0;                  // of the half thickness, towards the back of the hand
+  double width = 1, thickness = 1;  // factors on the half axes
+  double rise = 0;                  // shift towards the back of the hand, as a fraction of the half thickness
 };
 struct PhalanxShape {
-  double middle;                         // where the middle section lies, as a fraction of the length
-  double taper;                          // how far the profile's section has changed there from one end to the other
+  double middle;                         // position of the middle section, as a fraction of the length
+  double taper;                          // how far the section there has changed from the proximal to the distal one
   std::array<SectionShape, 3> sections;  // at the proximal end, in the middle, at the distal end
 };
 constexpr std::array<PhalanxShape, 3> kThumb = {{
@@ -69,23 +70,25 @@ constexpr std::array<PhalanxShape, 3> kFinger = {{
     {.middle = 0.594, .taper = 0.594, .sections = {{{1.02, 1}, {1, 1.01}, {0.954, 1, 0.113}}}},
 }};
 
-// Polynomial smooth minimum: differs from min only where |a - b| < k, by at most k / 4.
+// Polynomial smooth minimum. It differs from min(a, b) only where |a - b| < k, by at most k / 4.
 double smooth_min(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * k * 0.25;
 }
 
+/// Linear interpolation between two sections.
 EllipticSection mix(const EllipticSection& a, const EllipticSection& b, double u) {
   const auto lerp = [u](double x, double y) { return x + u * (y - x); };
   return {lerp(a.half_x, b.half_x), lerp(a.half_y, b.half_y), lerp(a.centre_x, b.centre_x),
           lerp(a.centre_y, b.centre_y)};
 }
 
+/// The section that a profile states at an end of a segment.
 EllipticSection section_at(const SegmentProfile& s, int end) {
   return {s.half_width[end], s.half_thickness[end], s.flesh_offset_x[end], s.flesh_offset_y[end]};
 }
 
-// Fingers fanned out, away from the middle one.
+// The hand's rest pose with the fingers fanned out away from the middle finger.
 HandPose spread_pose(const HandProfile& profile) {
   std::array<JointAngles, kSegmentCount> angles{};
   const double side = side_sign(profile.handedness);  // positive abduction turns a bone towards -x
@@ -95,7 +98,7 @@ HandPose spread_pose(const HandProfile& profile) {
   return forward_kinematics(profile, profile.segments[kPalm].T_hand_segment, angles);
 }
 
-// Frame at `start` with -z towards `end` and y near `up`.
+// A frame at `start` with -z towards `end` and +y close to `up`.
 SE3 frame_along(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const Eigen::Vector3d& up) {
   const Eigen::Vector3d z = (start - end).normalized();
   const Eigen::Vector3d x = up.cross(z).normalized();
@@ -104,19 +107,26 @@ SE3 frame_along(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const 
   return frame;
 }
 
+/// The tube of a phalanx or of the thumb's metacarpal.
 EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int segment) {
   const SegmentProfile& s = profile.segments[segment];
   const bool thumb = finger_of(segment) == 0;
   const PhalanxShape& shape = (thumb ? kThumb : kFinger)[(segment - 1) % 3];
+
+  // The frame of the tube.
   EllipticTube tube;
   tube.T_tube_hand = pose[segment].inverse();
   tube.length = s.length;
   tube.middle = shape.middle;
+
+  // The profile's sections at the ends, and one interpolated between them.
   const EllipticSection proximal = section_at(s, 0);
   EllipticSection distal = section_at(s, 1);
   if (segment == segment_of(0, 0))
     distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
   tube.sections = {proximal, mix(proximal, distal, shape.taper), distal};
+
+  // The fitted deviations from the profile.
   for (int i = 0; i < 3; ++i) {
     EllipticSection& section = tube.sections[i];
     const SectionShape& change = shape.sections[i];
@@ -124,9 +134,11 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
     section.half_x *= change.width;
     section.half_y *= change.thickness;
   }
-  // The tip's skin ends one distal radius beyond the tip joint; other ends only need to meet their neighbour.
+
+  // The skin of a fingertip ends one distal radius beyond its bone; other ends only need to meet their neighbour.
   tube.cap = {std::min(s.half_width[0], s.half_thickness[0]),
               is_tip(segment) ? s.radius[1] : std::min(distal.half_x, distal.half_y)};
+
   if (segment == segment_of(0, 0)) {
     tube.sections[0].centre_x += side_sign(profile.handedness) * kThenarRootShift * proximal.half_x;
     tube.cap[1] *= kThenarCap;
@@ -134,8 +146,9 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
   return tube;
 }
 
-// The palm under finger `finger` (1..4), from the wrist to the knuckle, in a frame whose -z runs along it. Its section
-// reaches from the outer border of the hand (or the neighbour's knuckle) across the neighbouring metacarpals.
+// The part of the palm that leads from the wrist to the knuckle of a finger (1 to 4), in a frame whose -z runs along
+// it. Its sections reach from the outer border of the hand, or from the neighbouring knuckle, across the neighbouring
+// metacarpals.
 EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, int finger) {
   const SE3& T_hand_palm = pose[kPalm];
   const SegmentProfile& palm = profile.segments[kPalm];
@@ -143,19 +156,21 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   const EllipticSection root = section_at(profile.segments[segment_of(finger, 0)], 0);
   const EllipticSection wrist = section_at(palm, 0);
 
-  const double side = side_sign(profile.handedness);  // of x at the little finger
-  // Towards a neighbour the tube runs on to that neighbour's bone: no groove between metacarpals.
+  const double side = side_sign(profile.handedness);  // sign of x at the little finger
+
+  // Towards a neighbour the tube reaches the neighbour's bone, which avoids grooves between the metacarpals.
   const double reach_little =
       finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorderLittle;
   const double reach_thumb =
       finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x * kBorderThumb;
 
-  // At the wrist the four tubes share the wrist's section.
-  const double across = (finger - 2.5) / 1.5;  // -1 below the index finger, 1 below the little one
+  // At the wrist, the four tubes share the wrist's section.
+  const double across = (finger - 2.5) / 1.5;  // -1 below the index finger, 1 below the little finger
   const double slot = (0.75 * across * kWristSpread + kWristShift) * wrist.half_x * side;
   const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
   const Eigen::Vector3d end = knuckle(finger);
 
+  // The sections at the wrist and at the knuckle.
   EllipticTube tube;
   tube.T_tube_hand = (T_hand_palm * frame_along(start, end, Eigen::Vector3d::UnitY())).inverse();
   tube.length = (end - start).norm();
@@ -164,6 +179,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
                       wrist.centre_y * (kWristOffset + kWristOffsetSlope * across)};
   tube.sections[2] = {0.5 * (reach_little + reach_thumb), root.half_y * kKnuckleThickness,
                       side * 0.5 * (reach_little - reach_thumb) + root.centre_x * 0.5, root.centre_y * kKnuckleOffset};
+
   // The heel of the hand is thicker than the wrist and than a straight line to the knuckles.
   tube.sections[1] = mix(tube.sections[0], tube.sections[2], tube.middle);
   tube.sections[1].half_x *= kHeelWidth;
@@ -173,7 +189,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   return tube;
 }
 
-// A tube of one section between two points of the hand.
+// A tube of constant section between two points of the hand.
 EllipticTube uniform_tube(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const Eigen::Vector3d& up,
                           const EllipticSection& section) {
   EllipticTube tube;
@@ -184,7 +200,7 @@ EllipticTube uniform_tube(const Eigen::Vector3d& start, const Eigen::Vector3d& e
   return tube;
 }
 
-// The fold of skin between finger `finger` and the next one.
+// The fold of skin between a finger and the next one.
 Web finger_web(const HandProfile& profile, const HandPose& pose, int finger) {
   const int a = segment_of(finger, 0), b = segment_of(finger + 1, 0);
   const auto anchor = [&](int s) {
@@ -212,11 +228,14 @@ Web thumb_web(const HandProfile& profile, const HandPose& pose) {
 }  // namespace
 
 double EllipticTube::distance(const Eigen::Vector3d& p_hand) const {
+  // The section at this position along the bone.
   const Eigen::Vector3d p = T_tube_hand * p_hand;
   const double along = -p.z();
   const double u = std::clamp(along / length, 0.0, 1.0);
   const EllipticSection e = u < middle ? mix(sections[0], sections[1], u / middle)
                                        : mix(sections[1], sections[2], (u - middle) / (1 - middle));
+
+  // The ellipsoidal norm of the point: 1 on the surface, where the caps shorten the distance beyond an end.
   const double beyond = along < 0 ? along / cap[0] : (along > length ? (along - length) / cap[1] : 0.0);
   const double cap_here = along < 0 ? cap[0] : cap[1];
   const Eigen::Vector3d q((p.x() - e.centre_x) / e.half_x, (p.y() - e.centre_y) / e.half_y, beyond);
@@ -242,6 +261,7 @@ double ImplicitHand::segment_distance(int segment, const Eigen::Vector3d& p) con
 }
 
 double ImplicitHand::distance(const Eigen::Vector3d& p) const {
+  // Fingers must not blend with each other, so they are combined by a sharp minimum.
   double d = segment_distance(kPalm, p);
   double fingers = std::numeric_limits<double>::max();
   for (int finger = 0; finger < kFingerCount; ++finger) {
@@ -252,6 +272,8 @@ double ImplicitHand::distance(const Eigen::Vector3d& p) const {
     else
       fingers = std::min(fingers, chain);
   }
+
+  // Blend the fingers and then the webs into the palm.
   d = smooth_min(d, fingers, kFingerBlend);
   for (const Web& web : webs_) d = smooth_min(d, web.tube.distance(p), web.blend);
   return d;

@@ -7,47 +7,47 @@
 
 namespace barehand {
 
-/// Elliptic section of a tube: half axes and centre along x and y [m].
+/// Elliptic cross-section of a tube: half axes and centre along x and y [m].
 struct EllipticSection {
   double half_x = 0, half_y = 0, centre_x = 0, centre_y = 0;
 };
 
-/// Tube of elliptic sections around a bone with rounded ends: the building block of the smooth skin.
-/// In its own frame the bone runs from the origin along -z over `length`.
+/// A tube of elliptic sections around a bone, with rounded ends: the building block of the smooth skin. In the tube's
+/// own frame, the bone runs from the origin along -z over `length` [m].
 struct EllipticTube {
   SE3 T_tube_hand;
   double length = 0;
-  double middle = 0.5;                      ///< where the second section lies, as a fraction of the length
-  std::array<EllipticSection, 3> sections;  ///< at 0, `middle` and 1; linear between
+  double middle = 0.5;                      ///< position of the second section, as a fraction of the length
+  std::array<EllipticSection, 3> sections;  ///< at 0, `middle` and 1; linear in between
   std::array<double, 2> cap{};              ///< how far the rounding reaches beyond each end [m]
 
-  /// Distance to the surface [m], first-order accurate near it; negative inside.
+  /// Distance of a point in the hand frame to the surface [m]; first-order accurate near it, negative inside.
   double distance(const Eigen::Vector3d& p_hand) const;
 };
 
-/// A fold of skin: a tube across two bones, and how softly it melts into them.
+/// A fold of skin between two bones: a tube across them and how smoothly it blends into them.
 struct Web {
   EllipticTube tube;
-  double blend = 0;  ///< [m], as in a polynomial smooth minimum
+  double blend = 0;  ///< [m], of a polynomial smooth minimum
 };
 
-/// The hand as an implicit surface in a pose with spread fingers, so that neighbouring fingers do not melt together.
-/// Phalanges follow the profile's sections; the palm is built from one tube per finger between wrist and knuckle,
-/// and a short tube across each pair of fingers is the web between them.
+/// The hand as an implicit surface. It is built in a pose with spread fingers, so that neighbouring fingers do not
+/// blend into each other. Phalanges follow the profile's sections; the palm consists of one tube per finger between
+/// wrist and knuckle; a short tube across each pair of neighbouring fingers is the web between them.
 class ImplicitHand {
  public:
   explicit ImplicitHand(const HandProfile& profile);
 
-  /// Signed distance [m] of a point in the hand frame; smooth where palm, thenar and fingers meet.
+  /// Signed distance of a point in the hand frame [m]; smooth where palm, thumb and fingers meet.
   double distance(const Eigen::Vector3d& p) const;
-  /// Distance to the nearest tube of one segment alone.
+  /// Signed distance to the nearest tube of one segment alone [m].
   double segment_distance(int segment, const Eigen::Vector3d& p) const;
   /// The pose (T_hand_segment) in which the surface is built.
   const HandPose& pose() const { return pose_; }
 
  private:
   HandPose pose_;
-  std::vector<EllipticTube> tubes_;  // all of the palm first, then segments 1..15
+  std::vector<EllipticTube> tubes_;  // those of the palm first, then segments 1 to 15
   int palm_tubes_ = 0;
   std::vector<Web> webs_;
 };

@@ -6,8 +6,8 @@
 namespace barehand {
 
 JointAngles joint_angles(const Eigen::Matrix3d& R) {
-  // R = Ry(a) Rz(t) Rx(-f): its first column is (cos a cos t, sin t, -sin a cos t), its second row
-  // (sin t, cos t cos f, cos t sin f).
+  // R = Ry(a) Rz(t) Rx(-f) has the first column (cos a cos t, sin t, -sin a cos t) and the second row (sin t, cos t
+  // cos f, cos t sin f).
   JointAngles angles;
   angles.twist = std::asin(std::clamp(R(1, 0), -1.0, 1.0));
   angles.abduction = std::atan2(-R(2, 0), R(0, 0));
@@ -33,7 +33,8 @@ std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile
   std::array<JointLimits, kSegmentCount> limits{};
   for (int s = 0; s < kSegmentCount; ++s) {
     for (const JointDof& dof : profile.segments[s].dofs) {
-      // A dof about -x counts flexion, about +y abduction; an opposite axis swaps and negates the range.
+      // A profile may count an angle about the opposite axis, which swaps and negates the range. Flexion is about -x,
+      // abduction about +y.
       const bool flexion = std::abs(dof.axis.x()) > std::abs(dof.axis.y());
       const bool flipped = flexion ? dof.axis.x() > 0 : dof.axis.y() < 0;
       const double lo = (flipped ? -dof.upper : dof.lower) - widening;

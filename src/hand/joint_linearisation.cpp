@@ -13,6 +13,8 @@ JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& p
 
 JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment) {
   const SE3& parent = pose[parent_of(segment)];
+
+  // The joint as seen from the parent.
   JointLinearisation joint;
   joint.lever = parent.R * rest.t;
   joint.gap = parent.t + joint.lever - pose[segment].t;
@@ -20,7 +22,8 @@ JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int se
   joint.R_joint_segment = joint.R_camera_joint.transpose() * pose[segment].R;
   joint.angles = joint_angles(joint.R_joint_segment);
 
-  // R = Ry(a) Rz(t) Rx(-f): angular velocity d = e_y a' + Ry e_z t' - Ry Rz e_x f', inverted in closed form.
+  // R = Ry(a) Rz(t) Rx(-f) has the angular velocity e_y a' + Ry e_z t' - Ry Rz e_x f', which is inverted in closed
+  // form.
   const double ca = std::cos(joint.angles.abduction), sa = std::sin(joint.angles.abduction);
   const double st = std::sin(joint.angles.twist);
   const double ct = std::copysign(std::max(std::abs(std::cos(joint.angles.twist)), 1e-3), std::cos(joint.angles.twist));

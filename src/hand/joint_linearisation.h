@@ -4,35 +4,35 @@
 
 namespace barehand {
 
-/// First-order change of a quantity of a joint: child * twist of the segment + parent * twist of its parent, boxplus
-/// twists (v, w).
+/// Jacobians of a quantity of a joint with respect to the boxplus twists (v, w) of the joint's segment and of its
+/// parent.
 struct JointJacobians {
   Eigen::Matrix<double, 3, 6> child, parent;
 };
 
-/// What a joint's limits do not allow (Eq. 6): flexion and abduction beyond them, and all twist.
+/// How far a joint is outside its limits (Eq. 6): flexion and abduction beyond them, and all twist.
 struct AngleExcess {
   Eigen::Vector3d angles;  ///< flexion, abduction, twist [rad]
-  Eigen::Vector3d counts;  ///< 1 of what is held back, 0 of an angle within its limits
+  Eigen::Vector3d counts;  ///< 1 for an angle outside its limits, 0 for one within them
 };
 
-/// State of one joint and its first-order change.
+/// The state of one joint and its linearisation.
 struct JointLinearisation {
-  Eigen::Vector3d gap;              ///< joint in the parent minus proximal end, camera frame [m] (Eq. 5)
-  Eigen::Vector3d lever;            ///< joint in the parent minus the parent's origin, camera frame [m]
-  Eigen::Matrix3d R_camera_joint;   ///< the joint's frame: where the segment would be at zero angles
-  Eigen::Matrix3d R_joint_segment;  ///< the joint's rotation away from rest
-  JointAngles angles;               ///< of R_joint_segment (Eq. 6)
-  Eigen::Matrix3d d_angles;         ///< of a turn in the joint's frame; rows: flexion, abduction, twist
+  Eigen::Vector3d gap;              ///< joint according to the parent minus proximal end, camera frame [m] (Eq. 5)
+  Eigen::Vector3d lever;            ///< joint according to the parent minus the parent's origin, camera frame [m]
+  Eigen::Matrix3d R_camera_joint;   ///< orientation that the segment would have at zero angles
+  Eigen::Matrix3d R_joint_segment;  ///< rotation of the joint away from rest
+  JointAngles angles;               ///< of R_joint_segment
+  Eigen::Matrix3d d_angles;         ///< derivative by a rotation in the joint's frame; rows: flexion, abduction, twist
 
-  JointJacobians of_gap() const;     ///< v_parent + w_parent x lever - v_segment
-  JointJacobians of_turn() const;    ///< of R_joint_segment, a turn in the joint's frame
-  JointJacobians of_angles() const;  ///< of flexion, abduction, twist
-  AngleExcess excess(const JointLimits& limits) const;
+  JointJacobians of_gap() const;                        ///< of the gap: v_parent + w_parent x lever - v_segment
+  JointJacobians of_turn() const;                       ///< of a rotation of R_joint_segment, in the joint's frame
+  JointJacobians of_angles() const;                     ///< of flexion, abduction, twist
+  AngleExcess excess(const JointLimits& limits) const;  ///< how far the angles exceed `limits`
 };
-/// At the joint between `segment`, which is not the palm, and its parent.
+/// Linearises the joint between `segment`, which is not the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);
-/// The same with `rest`: T_parent_segment at rest.
+/// The same with a given rest pose `rest` (T_parent_segment).
 JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment);
 
 }  // namespace barehand

@@ -19,12 +19,12 @@ HandProfile mirrored(const HandProfile& profile) {
   HandProfile other = profile;
   other.handedness = profile.handedness == Handedness::right ? Handedness::left : Handedness::right;
   for (SegmentProfile& segment : other.segments) {
-    // M R M with M = diag(flip) keeps the frame right-handed, -z along the bone and +y dorsal.
+    // M R M with M = diag(flip) keeps a frame right-handed, with -z along the bone and +y dorsal.
     segment.T_hand_segment.R = flip.asDiagonal() * segment.T_hand_segment.R * flip.asDiagonal();
     segment.T_hand_segment.t = segment.T_hand_segment.t.cwiseProduct(flip);
     segment.distal = segment.distal.cwiseProduct(flip);
     for (double& x : segment.flesh_offset_x) x = -x;
-    // M R(a, angle) M = R(-M a, angle): a rotation axis is a pseudovector.
+    // M R(a, angle) M = R(-M a, angle), since a rotation axis is a pseudovector.
     for (JointDof& dof : segment.dofs) dof.axis = -dof.axis.cwiseProduct(flip);
   }
   if (profile.scanned_skin) other.scanned_skin = std::make_shared<const Skin>(mirrored(*profile.scanned_skin));

@@ -10,49 +10,51 @@
 
 namespace barehand {
 
-/// One degree of freedom of a joint, as a hand profile states it.
+/// One rotational degree of freedom of a joint, as a hand profile states it.
 struct JointDof {
   std::string name;                                  ///< for example "index_mcp_flex"
   Eigen::Vector3d axis = -Eigen::Vector3d::UnitX();  ///< unit vector in the segment frame
-  double lower = 0, upper = 0;                       ///< [rad]
+  double lower = 0, upper = 0;                       ///< joint limits [rad]
 };
 
-/// Size, shape and rest pose of one segment. End 0 is proximal, end 1 distal.
+/// Size, shape, rest pose and joint of one segment. End 0 is proximal, end 1 distal.
 struct SegmentProfile {
-  SE3 T_hand_segment;                                        ///< at rest (open flat hand)
-  double length = 0;                                         ///< [m]
-  Eigen::Vector3d distal = Eigen::Vector3d::Zero();          ///< distal end in the segment frame [m]
-  std::array<double, 2> radius{};                            ///< tapered round skin around the bone [m]
-  std::array<double, 2> half_width{}, half_thickness{};      ///< elliptic skin along x and y [m]; = radius if absent
+  SE3 T_hand_segment;                                    ///< at rest (open, flat hand)
+  double length = 0;                                     ///< [m]
+  Eigen::Vector3d distal = Eigen::Vector3d::Zero();      ///< distal end in the segment frame [m]
+  std::array<double, 2> radius{};                        ///< of the round, tapered skin around the bone [m]
+  std::array<double, 2> half_width{}, half_thickness{};  ///< elliptic skin along x and y [m]; equal to radius if absent
   std::array<double, 2> flesh_offset_x{}, flesh_offset_y{};  ///< skin centre relative to the bone [m]
-  std::vector<JointDof> dofs;                                ///< in the order applied; empty for the palm
+  std::vector<JointDof> dofs;  ///< in the order in which they are applied; empty for the palm
 };
 
-/// How well a profile knows the person's hand: the person was measured, or it is an average of many people, or such an
-/// average fitted to the skin that the tracker saw, within which the joints keep to the average.
+/// Where a profile comes from. measured: this person was measured or scanned; mean: the average of many people;
+/// fitted: a mean hand adapted to the skin that the tracker saw, whose joints within that skin are still those of the
+/// mean hand.
 enum class ProfileOrigin { measured, mean, fitted };
 
 struct Skin;
 
-/// A person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of the hand.
-/// Posed frame = parent frame * rest_relative * R(dof 1) * R(dof 2). File form: hand.json.
+/// The model of a person's hand. Hand frame: origin at the wrist joint, -z towards the fingers, +y out of the back of
+/// the hand. The frame of a posed segment is parent frame * rest_relative * R(dof 1) * R(dof 2). It is stored as
+/// hand.json.
 struct HandProfile {
   Handedness handedness = Handedness::right;
   ProfileOrigin origin = ProfileOrigin::measured;
   std::array<SegmentProfile, kSegmentCount> segments;
-  std::shared_ptr<const Skin> scanned_skin;  ///< of a scan; null: the sections of the segments say it
+  std::shared_ptr<const Skin> scanned_skin;  ///< from a scan; null: the skin follows from the segments' sections
 
-  /// inverse(parent rest) * rest: where the child's frame sits in its parent at zero joint angles.
+  /// inverse(parent rest) * rest: the segment's frame in that of its parent at zero joint angles.
   SE3 rest_relative(int segment) const;
-  /// Wrist to middle fingertip at rest [m].
+  /// Distance from the wrist to the tip of the middle finger at rest [m].
   double hand_length() const;
 };
 
-/// The same person's other hand: everything reflected in the plane x = 0 of the hand frame. Joint limits keep their
+/// The same person's other hand: everything mirrored in the plane x = 0 of the hand frame. Joint limits keep their
 /// meaning (flexion towards the palm, abduction away from the middle finger).
 HandProfile mirrored(const HandProfile& profile);
 
-/// The hand of somebody who is `size` times as large.
+/// The same hand with all lengths multiplied by `size`.
 HandProfile scaled(const HandProfile& profile, double size);
 
 }  // namespace barehand

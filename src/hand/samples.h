@@ -7,26 +7,26 @@
 
 namespace barehand {
 
-/// Uniform box around a pose, in the segment's own axes: offsets (x, y, z) [m] and rotations
-/// (about x: flexion, about y: abduction, about z: twist) [rad] within +-half_width.
+/// A uniform distribution in a box around a pose. The box lies along the segment's own axes: offsets (x, y, z) [m] and
+/// rotations (about x: flexion, y: abduction, z: twist) [rad] within +-half_width.
 struct Kernel {
   SE3 T_camera_segment;
   Vector6d half_width = Vector6d::Zero();
 };
-/// Where each local tracker draws its samples: the predicted pose at level 0, the S' best samples afterwards
-/// (Sec. 4.4).
+/// The distributions from which each local tracker draws its samples: one around the predicted pose at level 0, then
+/// one around each of the best samples of the level before (Sec. 4.4).
 using Proposals = std::array<std::vector<Kernel>, kSegmentCount>;
 
-/// Discretised local pdf of every segment at one level: samples and their log-likelihoods (Eq. 3).
+/// Samples of the pose of every segment at one level and their log-likelihoods (Eq. 3): a discretised local pdf.
 struct SegmentSamples {
   std::array<std::vector<SE3>, kSegmentCount> poses;
-  std::array<std::vector<double>, kSegmentCount> log_likelihood;  ///< 0 for a segment that is not observed
-  std::array<double, kSegmentCount> unoccluded{};                 ///< alpha of Eq. 3 at the prediction
+  std::array<std::vector<double>, kSegmentCount> log_likelihood;  ///< all zeros for a segment without observation
+  std::array<double, kSegmentCount> unoccluded{};                 ///< alpha of Eq. 3, computed at the prediction
 };
 
-/// Marginal posterior over the samples of every segment (Eq. 8).
+/// Marginal posterior of every segment over its samples (Eq. 8).
 struct HandBelief {
-  std::array<std::vector<double>, kSegmentCount> log_belief;  ///< normalised: exp sums to 1
+  std::array<std::vector<double>, kSegmentCount> log_belief;  ///< normalised: the exponentials sum to 1
 };
 
 }  // namespace barehand

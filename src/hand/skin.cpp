@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kWristCut = 0.012;  // skin ends this far behind the wrist joint [m]
+constexpr double kWristCut = 0.012;  // m, the skin ends this far behind the wrist joint
 
 HandPose rest_pose(const HandProfile& profile) {
   HandPose rest;
@@ -27,19 +27,25 @@ double smoothstep(double x) {
   return x * x * (3 - 2 * x);
 }
 
+/// Segments and weight of a vertex.
 struct Binding {
   int a, b;
   double weight_b;
 };
 
-// Share of the distal segment across a joint, from the position along the distal bone. At a knuckle the blend is wide,
-// and the palm's skin reaches farther along the finger's palm side than along its back.
+// Weight of the distal segment `distal` for a skin point near its joint, from the position along the distal bone. The
+// blend is wider at a knuckle, and there the palm's skin reaches farther along the palm side of the finger than along
+// its back.
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
-  constexpr double kReach = 0.82, kKnuckleReach = 1.79;           // of the joint's size, to either side
-  constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;  // of the joint's size, towards the tip; at the skin
+  constexpr double kReach = 0.82, kKnuckleReach = 1.79;  // relative to the joint's size, to either side
+
+  // Relative to the joint's size: mean shift towards the tip, and its change from the palm side to the back.
+  constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;
   const Vector3d q = pose[distal].inverse() * p;
   const SegmentProfile& s = profile.segments[distal];
   const double size = std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
+
+  // The blend is centred on the joint, except at the knuckles of fingers.
   double along = -q.z(), reach = kReach * size;
   if (parent_of(distal) == kPalm && finger_of(distal) != 0) {
     const double towards_back = std::clamp((q.y() - s.flesh_offset_y[0]) / s.half_thickness[0], -1.2, 1.2);
@@ -49,13 +55,14 @@ double share_across_joint(const HandProfile& profile, const HandPose& pose, int 
   return smoothstep(0.5 + along / (2 * reach));
 }
 
+/// The binding with the segment of the larger weight first.
 Binding blended(int parent, int child, double share_child) {
   if (share_child <= 0) return {parent, parent, 0};
   if (share_child >= 1) return {child, child, 0};
   return share_child < 0.5 ? Binding{parent, child, share_child} : Binding{child, parent, 1 - share_child};
 }
 
-// Thumb and palm melt over a wide fold: bind by the relative depth inside both.
+// Thumb and palm blend over a wide fold, so a point there is bound by how deep it lies in one relative to the other.
 Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
   constexpr double kRange = 0.0104;
   const int thumb = segment_of(0, 0);
@@ -63,15 +70,18 @@ Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
   return blended(kPalm, thumb, smoothstep(0.5 + difference / (2 * kRange)));
 }
 
+/// Chooses the segments and the weight of a skin point in the hand frame, in the pose of the implicit hand.
 Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3d& p) {
+  // The segment whose surface is nearest.
   int nearest = kPalm;
   double best = hand.segment_distance(kPalm, p);
   for (int s = 1; s < kSegmentCount; ++s) {
     const double d = hand.segment_distance(s, p);
     if (d < best) best = d, nearest = s;
   }
+
+  // Skin of the palm: the nearest knuckle decides whether a finger already carries the point.
   if (nearest == kPalm) {
-    // The nearest knuckle decides whether a finger already carries this point.
     int finger = 0;
     double nearest_finger = hand.segment_distance(segment_of(0, 0), p);
     for (int f = 1; f < kFingerCount; ++f) {
@@ -82,10 +92,14 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
     const int child = segment_of(finger, 0);
     return blended(kPalm, child, std::min(0.5, share_across_joint(profile, hand.pose(), child, p)));
   }
+
+  // Skin of the thumb's metacarpal blends into the next phalanx or into the palm.
   if (nearest == segment_of(0, 0)) {
     const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
     return share_next > 0 ? blended(nearest, nearest + 1, share_next) : bind_thenar(hand, p);
   }
+
+  // Skin of any other segment blends into its child or its parent.
   if (!is_tip(nearest)) {
     const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
     if (share_next > 0) return blended(nearest, nearest + 1, share_next);
@@ -98,6 +112,8 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 Skin make_blended_skin(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
+
+  // A box around all bones with a margin for the flesh.
   Vector3d lower = hand.pose()[kPalm].t, upper = lower;
   for (int s = 0; s < kSegmentCount; ++s) {
     for (const Vector3d& end : {proximal_end(hand.pose(), s), distal_end(profile, hand.pose(), s)}) {
@@ -108,6 +124,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
   const Vector3d margin = Vector3d::Constant(0.045);
   const TriangleMesh mesh = extract_surface(distance, lower - margin, upper + margin, cell);
 
+  // Bind every vertex to its segments.
   Skin skin;
   skin.vertices.reserve(mesh.vertices.size());
   std::vector<bool> beyond_wrist;
@@ -118,12 +135,16 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
     v.a = static_cast<std::int16_t>(binding.a);
     v.b = static_cast<std::int16_t>(binding.b);
     v.weight_b = static_cast<float>(binding.weight_b);
+    // The vertex in the frames of its segments.
     v.in_a = (hand.pose()[binding.a].inverse() * p).cast<float>();
     v.in_b = (hand.pose()[binding.b].inverse() * p).cast<float>();
     v.normal_in_a = (hand.pose()[binding.a].R.transpose() * surface_normal(distance, p)).cast<float>();
     skin.vertices.push_back(v);
+
     beyond_wrist.push_back((T_palm_hand * p).z() > kWristCut);
   }
+
+  // Leave out the triangles on the forearm's side.
   for (const auto& t : mesh.triangles)
     if (!(beyond_wrist[t[0]] && beyond_wrist[t[1]] && beyond_wrist[t[2]])) skin.triangles.push_back({t[0], t[1], t[2]});
   return skin;
@@ -136,11 +157,15 @@ Skin make_skin(const HandProfile& profile, double cell) {
 void compute_normals(const HandProfile& profile, Skin& skin) {
   std::vector<Vector3f> posed;
   pose_skin(skin, rest_pose(profile), posed);
+
+  // Average the normals of the triangles around each vertex.
   std::vector<Vector3f> normals(posed.size(), Vector3f::Zero());
   for (const auto& t : skin.triangles) {
-    const Vector3f normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]);  // as long as the area
+    // Its length is twice the area, the weight.
+    const Vector3f normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]);
     for (int corner : t) normals[corner] += normal;
   }
+
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Eigen::Matrix3f R = profile.segments[skin.vertices[i].a].T_hand_segment.R.cast<float>();
     if (normals[i] != Vector3f::Zero()) skin.vertices[i].normal_in_a = R.transpose() * normals[i].stableNormalized();
@@ -165,12 +190,14 @@ Skin scaled(const Skin& skin, double size) {
 }
 
 void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& posed) {
+  // Rotations and translations in single precision.
   std::array<Eigen::Matrix3f, kSegmentCount> R;
   std::array<Vector3f, kSegmentCount> t;
   for (int s = 0; s < kSegmentCount; ++s) {
     R[s] = pose[s].R.cast<float>();
     t[s] = pose[s].t.cast<float>();
   }
+
   posed.resize(skin.vertices.size());
   for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
     const SkinVertex& v = skin.vertices[i];
@@ -180,13 +207,15 @@ void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& po
 }
 
 Skin coarsened(const Skin& skin, double cell) {
-  using Cell = std::array<int, 4>;  // segment and cube in its frame
+  using Cell = std::array<int, 4>;  // segment, and cube in its frame
   const float per_metre = static_cast<float>(1 / cell);
   struct Cluster {
     Vector3f sum = Vector3f::Zero();
     int count = 0, vertex = -1;
     float distance = 0;  // of that vertex from the mean
   };
+
+  // Assign every vertex to the cluster of its cube.
   std::map<Cell, int> numbers;
   std::vector<Cluster> clusters;
   std::vector<int> cluster_of;
@@ -200,6 +229,8 @@ Skin coarsened(const Skin& skin, double cell) {
     clusters[known->second].sum += v.in_a;
     ++clusters[known->second].count;
   }
+
+  // Represent each cluster by its vertex nearest to the mean.
   for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
     Cluster& cluster = clusters[cluster_of[i]];
     const float distance = (skin.vertices[i].in_a - cluster.sum / static_cast<float>(cluster.count)).norm();
@@ -207,6 +238,8 @@ Skin coarsened(const Skin& skin, double cell) {
     cluster.vertex = static_cast<int>(i);
     cluster.distance = distance;
   }
+
+  // Build the coarse skin; only triangles with their corners in three different clusters remain.
   Skin coarse;
   coarse.vertices.reserve(clusters.size());
   for (const Cluster& cluster : clusters) coarse.vertices.push_back(skin.vertices[cluster.vertex]);
@@ -219,7 +252,7 @@ Skin coarsened(const Skin& skin, double cell) {
 }
 
 HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment) {
-  // A vertex stands for a third of each triangle around it.
+  // The area of a vertex is a third of every triangle around it.
   std::vector<Vector3f> posed;
   pose_skin(skin, rest_pose(profile), posed);
   std::vector<float> area(skin.vertices.size(), 0);
@@ -227,6 +260,7 @@ HandSurface surface_points(const Skin& skin, const HandProfile& profile, int poi
     const float third = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]).norm() / 6;
     for (int corner : t) area[corner] += third;
   }
+
   std::array<std::vector<int>, kSegmentCount> members;
   for (std::size_t i = 0; i < skin.vertices.size(); ++i)
     if (area[i] > 0) members[skin.vertices[i].a].push_back(static_cast<int>(i));
@@ -239,7 +273,7 @@ HandSurface surface_points(const Skin& skin, const HandProfile& profile, int poi
     for (int i : members[s]) total += area[i];
     SegmentSurface& out = surface[s];
     for (int k = 0; k < kept; ++k) {
-      // Vertices come in grid order, so equal steps through them spread evenly over the surface.
+      // Vertices are in grid order, so equal steps through them are spread evenly over the surface.
       const int i = members[s][static_cast<std::size_t>(k) * count / kept];
       const SkinVertex& v = skin.vertices[i];
       out.x.push_back(v.in_a.x()), out.y.push_back(v.in_a.y()), out.z.push_back(v.in_a.z());
@@ -247,6 +281,8 @@ HandSurface surface_points(const Skin& skin, const HandProfile& profile, int poi
       out.area.push_back(area[i]);
       kept_area += area[i];
     }
+
+    // The kept points stand for the area of all.
     for (float& a : out.area) a *= total / kept_area;
   }
   return surface;

@@ -8,13 +8,13 @@
 
 namespace barehand {
 
-/// "searching", for messages and pictures.
+/// Name of a state, such as "searching", for messages and images.
 constexpr std::string_view to_string(TrackStatus status) {
   constexpr std::array<std::string_view, 4> kNames = {"searching", "tracking", "holding", "lost"};
   return kNames[static_cast<std::size_t>(status)];
 }
 
-/// "tracking, lost": of every hand.
+/// The states of all hands, such as "tracking, lost".
 inline std::string status_list(const HandEstimates& hands) {
   std::string list;
   for (const HandEstimatePtr& hand : hands) list.append(list.empty() ? "" : ", ").append(to_string(hand->status));

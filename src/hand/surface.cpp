@@ -8,9 +8,10 @@
 namespace barehand {
 namespace {
 
-constexpr double kGoldenRatio = 0.6180339887498949;  // successive multiples modulo 1 fill an interval evenly
+constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 fill an interval evenly
 
-/// Surface between two ellipses of equal axes directions e1, e2: P(t, a) = c(t) + r1(t) cos(a) e1 + r2(t) sin(a) e2.
+/// The surface between two ellipses with the common axis directions e1 and e2: P(t, a) = c(t) + r1(t) cos(a) e1 +
+/// r2(t) sin(a) e2.
 struct Loft {
   std::array<Eigen::Vector3d, 2> centre;
   std::array<double, 2> r1, r2;
@@ -20,7 +21,7 @@ struct Loft {
   Eigen::Vector3d point(double t, double a) const {
     return centre[0] + t * (centre[1] - centre[0]) + mix(r1, t) * std::cos(a) * e1 + mix(r2, t) * std::sin(a) * e2;
   }
-  /// Outward normal whose length is the area element per unit of t and a.
+  /// Outward normal; its length is the area per unit of t and a.
   Eigen::Vector3d normal_area(double t, double a) const {
     const Eigen::Vector3d along =
         centre[1] - centre[0] + (r1[1] - r1[0]) * std::cos(a) * e1 + (r2[1] - r2[0]) * std::sin(a) * e2;
@@ -29,7 +30,7 @@ struct Loft {
   }
 };
 
-/// Piecewise linear inverse of a distribution function over equal cells of [0, 1].
+/// Inverse of a cumulative distribution over equal cells of [0, 1], linear within each cell.
 class InverseCdf {
  public:
   explicit InverseCdf(std::vector<double> mass) : cumulative_(std::move(mass)) {
@@ -47,7 +48,7 @@ class InverseCdf {
   std::vector<double> cumulative_;
 };
 
-/// Area-uniform map from the unit square to a loft.
+/// Maps the unit square to a loft such that equal areas get equal shares.
 class LoftSampler {
  public:
   explicit LoftSampler(const Loft& loft) : loft_(loft) {
@@ -76,6 +77,7 @@ class LoftSampler {
   std::vector<InverseCdf> around_, along_;
 };
 
+// Appends one point.
 void add_point(SegmentSurface& skin, const Eigen::Vector3d& p, const Eigen::Vector3d& n, double area) {
   skin.x.push_back(static_cast<float>(p.x()));
   skin.y.push_back(static_cast<float>(p.y()));
@@ -86,6 +88,7 @@ void add_point(SegmentSurface& skin, const Eigen::Vector3d& p, const Eigen::Vect
   skin.area.push_back(static_cast<float>(area));
 }
 
+// Spreads points evenly over a loft.
 void add_loft(SegmentSurface& skin, const LoftSampler& sampler, int points) {
   for (int i = 0; i < points; ++i) {
     const auto [p, n] = sampler.point_and_normal((i + 0.5) / points, std::fmod(i * kGoldenRatio, 1.0));
@@ -93,7 +96,8 @@ void add_loft(SegmentSurface& skin, const LoftSampler& sampler, int points) {
   }
 }
 
-/// Hemisphere on the distal end; equal steps along its axis have equal areas (Archimedes).
+/// Spreads points evenly over a hemisphere on the distal end; equal steps along its axis have equal areas
+/// (Archimedes).
 void add_cap(SegmentSurface& skin, const Loft& loft, const Eigen::Vector3d& axis, int points) {
   const double radius = loft.r1[1];
   for (int i = 0; i < points; ++i) {
@@ -105,12 +109,14 @@ void add_cap(SegmentSurface& skin, const Loft& loft, const Eigen::Vector3d& axis
   }
 }
 
+// The round, tapered skin of a phalanx.
 Loft phalanx_loft(const SegmentProfile& s) {
   const Eigen::Vector3d axis = s.distal.normalized();
   const Eigen::Vector3d e1 = Eigen::Vector3d::UnitY().cross(-axis).normalized();
   return {{Eigen::Vector3d::Zero(), s.distal}, s.radius, s.radius, e1, e1.cross(axis)};
 }
 
+// The elliptic slab of the palm.
 Loft palm_loft(const SegmentProfile& s) {
   const auto offset = [&](int end) { return Eigen::Vector3d(s.flesh_offset_x[end], s.flesh_offset_y[end], 0); };
   return {{offset(0), s.distal + offset(1)},
@@ -124,6 +130,7 @@ SegmentSurface segment_surface(const SegmentProfile& s, int segment, int points)
   assert(s.distal.norm() > 0 && "a segment without length has no skin");
   const Loft loft = segment == kPalm ? palm_loft(s) : phalanx_loft(s);
   const LoftSampler sampler(loft);
+  // A fingertip's cap gets its share of the points by area.
   const double cap_area = is_tip(segment) ? 2 * std::numbers::pi * s.radius[1] * s.radius[1] : 0;
   const int cap_points = static_cast<int>(std::lround(points * cap_area / (cap_area + sampler.area())));
   SegmentSurface skin;

@@ -9,8 +9,9 @@ using Distance = std::function<double(const Eigen::Vector3d&)>;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr double kStep = 1e-4;  // of the finite differences [m]
+constexpr double kStep = 1e-4;  // m, of the finite differences
 
+/// Signed distances at the nodes of a regular grid.
 class Grid {
  public:
   Grid(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell)
@@ -28,16 +29,21 @@ class Grid {
   const Vector3i& nodes() const { return nodes_; }
   std::size_t size() const { return value_.size(); }
 
-  // Mean of the edge crossings of the cell at `n`; false if the surface does not pass through it.
+  // Computes the mean of the points where the surface crosses the edges of the cell at `n`; false if it does not cross
+  // the cell.
   bool cell_vertex(const Vector3i& n, Vector3d& vertex) const {
+    // Find the sign changes along the twelve edges.
     Vector3d sum = Vector3d::Zero();
     int crossings = 0;
     for (int corner = 0; corner < 8; ++corner) {
+      // Visit every edge of the cell once, from its lower corner.
       const Vector3i a = n + Vector3i(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
       for (int axis = 0; axis < 3; ++axis) {
         if (corner & (1 << axis)) continue;
         const Vector3i b = a + Vector3i::Unit(axis);
         const double va = value(a), vb = value(b);
+
+        // A change of sign is a crossing, placed by linear interpolation.
         if ((va < 0) == (vb < 0)) continue;
         sum += position(a) + va / (va - vb) * (position(b) - position(a));
         ++crossings;
@@ -54,6 +60,7 @@ class Grid {
   std::vector<double> value_;
 };
 
+// Adds a quadrilateral as two triangles, with reversed orientation if `flip`.
 void add_quad(TriangleMesh& mesh, const std::array<int, 4>& quad, bool flip) {
   const auto [a, b, c, d] = quad;
   if (flip) {
@@ -78,6 +85,8 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
   const Grid grid(distance, lower, upper, cell);
   const Vector3i cells = grid.nodes().array() - 1;
   TriangleMesh mesh;
+
+  // Every cell that the surface crosses gets one vertex.
   std::vector<int> vertex_of(grid.size(), -1);
   const auto for_each_cell = [&](auto&& visit) {
     for (int z = 0; z < cells.z(); ++z)
@@ -91,11 +100,15 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
     for (int i = 0; i < 3; ++i) vertex -= distance(vertex) * surface_normal(distance, vertex);
     mesh.vertices.push_back(vertex);
   });
-  // Each grid edge that crosses the surface joins the four cells around it.
+
+  // Every grid edge that crosses the surface joins the vertices of the four cells around it.
   for_each_cell([&](const Vector3i& n) {
     for (int axis = 0; axis < 3; ++axis) {
+      // An edge at the lower border has no four cells around it.
       const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
       if (n[(axis + 1) % 3] == 0 || n[(axis + 2) % 3] == 0) continue;
+
+      // The orientation follows from the side that is inside.
       const bool inside = grid.value(n) < 0;
       if (inside == (grid.value(n + Vector3i::Unit(axis)) < 0)) continue;
       const std::array<int, 4> quad = {vertex_of[grid.index(n - u - v)], vertex_of[grid.index(n - v)],

@@ -8,17 +8,19 @@
 
 namespace barehand {
 
+/// A triangle mesh in the frame of the signed distance [m].
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// Zero level set of a signed distance (negative inside) within a box, by naive surface nets (Gibson 1998) on a grid
-/// of the given cell size, its vertices moved onto the surface along the gradient.
+/// Extracts the zero level set of a signed distance (negative inside) within a box by naive surface nets (Gibson 1998)
+/// on a grid with the given cell size. All lengths are in metres. Vertices are then moved onto the surface along the
+/// gradient.
 TriangleMesh extract_surface(const std::function<double(const Eigen::Vector3d&)>& distance,
                              const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell);
 
-/// Unit outward normal of a signed distance by central differences.
+/// Unit outward normal of a signed distance at `p`, by central differences.
 Eigen::Vector3d surface_normal(const std::function<double(const Eigen::Vector3d&)>& distance, const Eigen::Vector3d& p);
 
 }  // namespace barehand

@@ -8,8 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kGroupWidth = 0.7;  // of the space of one category
+constexpr double kGroupWidth = 0.7;  // of the width of one category
 
+/// Draws one box with its whiskers; `half_width` in units of x.
 void draw_box(ChartCanvas& canvas, double x, double half_width, const Distribution& d, const cv::Scalar& colour) {
   const cv::Scalar red(30, 30, 220);
   canvas.line(canvas.at(x, d.min), canvas.at(x, d.max), colour);
@@ -29,10 +30,13 @@ std::vector<std::string> names_of(const std::vector<Series>& series) {
 }  // namespace
 
 Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
+  // Find the range.
   double top = 0;
   for (const auto& series : chart.series)
     for (const Distribution& box : series.boxes)
       if (box.count > 0) top = std::max(top, box.max);
+
+  // Every category gets the same width, which its series share.
   const auto categories = static_cast<double>(chart.categories.size());
   ChartCanvas canvas(chart.text, -0.6, categories - 0.4, top, chart.categories);
   const double room = kGroupWidth / static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));
@@ -47,6 +51,7 @@ Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
 }
 
 Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
+  // Find the range.
   double top = 0, x_lo = INFINITY, x_hi = -INFINITY;
   for (const auto& series : chart.series)
     for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -54,7 +59,10 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
       x_hi = std::max(x_hi, series.x[i]);
       if (std::isfinite(series.y[i])) top = std::max(top, series.y[i]);
     }
+
   if (x_lo > x_hi) x_lo = 0, x_hi = 1;
+
+  // Draw line by line; a point without neighbours becomes a dot.
   ChartCanvas canvas(chart.text, x_lo, x_hi, top);
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const auto& [name, x, y] = chart.series[s];

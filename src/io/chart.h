@@ -8,25 +8,26 @@
 
 namespace barehand {
 
-/// What stands beside a chart.
+/// Title and axis labels of a chart.
 struct ChartText {
   std::string title, x_label, y_label;
 };
 
-/// Boxes as in the paper's Fig. 7: median (red), quartiles (box), whole range (whiskers). One group of boxes per
-/// category, one box per series in it; the legend names the series if there are several.
+/// Box plots as in the paper's Fig. 7: median (red), quartiles (box) and whole range (whiskers). There is one group of
+/// boxes per category with one box per series. The legend names the series if there are several.
 struct BoxChart {
   ChartText text;
   std::vector<std::string> categories;
   struct Series {
     std::string name;
-    std::vector<Distribution> boxes;  ///< one per category; nothing is drawn where the count is 0
+    std::vector<Distribution> boxes;  ///< one per category; a box with a count of 0 is not drawn
   };
   std::vector<Series> series;
 };
+/// Draws the chart into a PNG file. Errors: a file that cannot be written.
 Result<void> write_chart(const BoxChart& chart, const std::string& png_path);
 
-/// Lines over x; NaN interrupts a line.
+/// Lines over x; a NaN in y interrupts a line.
 struct LineChart {
   ChartText text;
   struct Series {
@@ -35,6 +36,7 @@ struct LineChart {
   };
   std::vector<Series> series;
 };
+/// Draws the chart into a PNG file. Errors: a file that cannot be written.
 Result<void> write_chart(const LineChart& chart, const std::string& png_path);
 
 }  // namespace barehand

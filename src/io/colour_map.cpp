@@ -30,7 +30,7 @@ Rgb darkened(const Rgb& c) {
 
 DepthRange typical_range(const RgbdFrame& frame) {
   std::vector<std::uint16_t> counts;
-  for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel is plenty
+  for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel suffices
     if (frame.depth[i] > 0) counts.push_back(frame.depth[i]);
   if (counts.empty()) return {};
   const auto at = [&](double fraction) {

@@ -5,14 +5,15 @@
 
 namespace barehand {
 
-/// Distances shown in colours [m].
+/// Range of depths that is shown in colours [m].
 struct DepthRange {
   double near = 0, far = 1;
 };
-/// The range that holds the middle 96 % of a frame's measurements; all of it for a frame without any.
+/// The range of the middle 96 % of a frame's measurements; the default range if there are none.
 DepthRange typical_range(const RgbdFrame& frame);
 
-/// Depth in rainbow colours (Turbo): near is red, far is blue; outside the range darkened, no measurement black.
+/// Depth in the colours of the Turbo map: near is red, far is blue, values out of range are darkened, and missing
+/// depth is black.
 Image<Rgb> depth_colours(const RgbdFrame& frame, const DepthRange& range);
 
 }  // namespace barehand

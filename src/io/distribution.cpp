@@ -17,10 +17,13 @@ double quantile(const std::vector<double>& sorted, double fraction) {
 }
 
 Distribution summarise(std::vector<double> values) {
+  // Without values there are no statistics.
   if (values.empty()) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     return {0, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
   }
+
+  // Moments.
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
   Distribution d;
@@ -29,6 +32,8 @@ Distribution summarise(std::vector<double> values) {
   double squares = 0;
   for (double value : values) squares += (value - d.mean) * (value - d.mean);
   d.deviation = std::sqrt(squares / count);
+
+  // Order statistics.
   d.min = values.front();
   d.quartile1 = quantile(values, 0.25);
   d.median = quantile(values, 0.5);

@@ -5,17 +5,19 @@
 
 namespace barehand {
 
-/// What a set of errors looks like, in the unit of its values. NaN where there are none.
+/// Summary statistics of a set of values, in their unit. NaN if there are no values.
 struct Distribution {
   std::size_t count = 0;
-  double mean = 0, deviation = 0;  ///< deviation with n in the denominator
+  double mean = 0, deviation = 0;  ///< standard deviation, with n in the denominator
   double min = 0, quartile1 = 0, median = 0, quartile3 = 0, p90 = 0, p95 = 0, max = 0;
 };
+/// Summarises values in any order.
 Distribution summarise(std::vector<double> values);
-/// The same in another unit: all values times `scale`.
+/// The same in another unit: all statistics multiplied by `scale`.
 Distribution scaled(Distribution d, double scale);
 
-/// Linear between the two nearest of the sorted, non-empty values; fraction in [0, 1].
+/// A quantile by linear interpolation between the two nearest values; `sorted` must not be empty, `fraction` in
+/// [0, 1].
 double quantile(const std::vector<double>& sorted, double fraction);
 
 }  // namespace barehand

@@ -28,13 +28,18 @@ FrameErrors frame_errors(const TableFrame& truth, const TableFrame& result) {
   return errors;
 }
 
+/// The frames of the truth that the run was meant to track.
 std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const ExpectedFrames& expected) {
   std::vector<const TableFrame*> frames;
   if (truth.frames.empty()) return frames;
+
+  // Without a start the run begins at the first or the last frame.
   const auto [first, last] =
       std::minmax_element(truth.frames.begin(), truth.frames.end(),
                           [](const TableFrame& a, const TableFrame& b) { return a.number < b.number; });
   const std::int64_t start = expected.start.value_or(expected.step > 0 ? first->number : last->number);
+
+  // Keep every step-th frame from there on.
   for (const TableFrame& frame : truth.frames) {
     const std::int64_t from_start = frame.number - start;
     if (from_start % expected.step == 0 && from_start / expected.step >= 0) frames.push_back(&frame);
@@ -42,7 +47,7 @@ std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const E
   return frames;
 }
 
-/// Values of one evaluation before they are summarised.
+/// All single values of an evaluation before they are summarised.
 struct Collected {
   std::vector<double> frame, without_palm, all, seen, hidden, gap;
   std::array<std::vector<double>, kSegmentCount> segment;
@@ -55,7 +60,7 @@ struct Collected {
       segment[s].push_back(errors.segments[s]);
       if (truth.rows[s].visible > kSeen) seen.push_back(errors.segments[s]);
       if (truth.rows[s].visible < kHidden) hidden.push_back(errors.segments[s]);
-      // The palm's distal end is the middle finger's knuckle; the other knuckles are no end of any bone.
+      // The palm's distal end is the knuckle of the middle finger; the other knuckles are no end of a bone.
       if (s != kPalm && parent_of(s) != kPalm)
         gap.push_back((result.rows[parent_of(s)].distal - result.rows[s].proximal).norm());
     }
@@ -77,16 +82,19 @@ bool half_in_view(const TableFrame& truth) {
   return visible >= 0.5;
 }
 
-/// `truths` and `frames` in step, every `step`-th frame of the recording where there is a hand; played from the last
-/// one if `step` is negative.
+/// Finds the returns of the hand into view. `truths` and `frames` correspond: every `step`-th frame of the recording
+/// in which there is a hand, played backwards if `step` is negative.
 std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, const std::vector<FrameErrors>& frames,
                                  std::int64_t step) {
+  // The truth has no rows while the hand is out of view, which shows as a gap in the numbers.
   std::vector<Return> returns;
   bool away = false, waiting = false;
   const auto played = [&](std::size_t i) { return step > 0 ? i : frames.size() - 1 - i; };
   for (std::size_t i = 1; i < frames.size(); ++i) {
     const FrameErrors& frame = frames[played(i)];
     if (frame.number - frames[played(i - 1)].number != step) away = true, waiting = false;
+
+    // The return begins when half of the hand is visible, and ends when it is tracked.
     if (away && half_in_view(*truths[played(i)])) {
       returns.push_back({frame.number, std::nullopt});
       away = false;
@@ -99,7 +107,7 @@ std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, c
   return returns;
 }
 
-/// Frames of the result between the truth's first and last that the truth does not have.
+/// Frames of the result, between the truth's first and last frame, for which the truth has no rows.
 std::vector<std::int64_t> find_phantoms(const ResultTable& truth, const ResultTable& result) {
   const FramesByNumber truths = by_number(truth);
   std::vector<std::int64_t> phantoms;
@@ -116,6 +124,7 @@ double segment_error(const TableRow& truth, const TableRow& result) {
 }
 
 Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result, const ExpectedFrames& expected) {
+  // Compare frame by frame.
   assert(expected.step != 0);
   const FramesByNumber results = by_number(result);
   Evaluation evaluation;
@@ -123,6 +132,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
   const std::vector<const TableFrame*> truths = expected_frames(truth, expected);
   for (const TableFrame* frame_of_truth : truths) {
     const TableFrame& frame = *frame_of_truth;
+    // A frame without rows in the result stays untracked.
     FrameErrors errors{frame.number, frame.timestamp, false, {}, 0, 0};
     if (const auto found = results.find(frame.number); found != results.end()) {
       if (std::abs(found->second->timestamp - frame.timestamp) > 0.001)
@@ -133,12 +143,17 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     } else {
       ++evaluation.untracked;
     }
+
     if (errors.lost()) evaluation.lost.push_back(frame.number);
     evaluation.frames.push_back(errors);
   }
+
+  // Tables that do not belong together are an error.
   if (collected.frame.empty() && !result.frames.empty())
     return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
   if (evaluation.frames.empty()) return fail("the truth has none of the frames asked for", {}, "check start and step");
+
+  // Summarise.
   collected.summarise_into(evaluation);
   evaluation.returns = find_returns(truths, evaluation.frames, expected.step);
   evaluation.phantoms = find_phantoms(truth, result);

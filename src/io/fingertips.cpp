@@ -10,15 +10,20 @@
 namespace barehand {
 namespace {
 
+/// Parses one line of the table; false if it is malformed.
 bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
+  // Split the line.
   std::istringstream line(text);
   std::string field[5];
   for (std::string& f : field)
     if (!std::getline(line, f, ',')) return false;
+
   const auto number = [](const std::string& f, auto& value) {
     const auto [end, error] = std::from_chars(f.data(), f.data() + f.size(), value);
     return error == std::errc{} && end == f.data() + f.size();
   };
+
+  // The finger is named; everything else is a number.
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
   label.finger = static_cast<int>(finger - kFingerNames.begin());
@@ -26,7 +31,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
   const bool good = number(field[0], label.frame) && number(field[2], label.pixel.x()) &&
                     number(field[3], label.pixel.y()) && number(field[4], shown);
   visible = shown != 0;
-  constexpr double kFarthest = 1e6;  // px; also false for NaN
+  constexpr double kFarthest = 1e6;  // px; the comparison is false for NaN, too
   return good && (label.pixel.array().abs() <= kFarthest).all();
 }
 
@@ -40,9 +45,12 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
   std::getline(file, text);
   if (text.rfind("frame,finger,u,v,visible", 0) != 0)
     return fail("line 1 is no fingertip table's", path, "it must be \"frame,finger,u,v,visible\"");
+
+  // Read line by line.
   std::vector<FingertipLabel> labels;
   for (int number = 2; std::getline(file, text); ++number) {
     if (text.empty()) continue;
+    // A malformed line is an error.
     FingertipLabel label;
     bool visible = false;
     if (!parse_label(text, label, visible))
@@ -62,18 +70,23 @@ Eigen::Vector3d fingertip(const TableFrame& frame, const HandProfile& profile, i
 FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& labels,
                                         const std::vector<ResultTable>& results, const HandProfile& profile,
                                         const Intrinsics& camera) {
+  // The tracked frames of all runs.
   std::map<std::int64_t, const TableFrame*> tracked;
   for (const ResultTable& result : results)
     for (const TableFrame& frame : result.frames) tracked.try_emplace(frame.number, &frame);
+
+  // Compare every label with the projected fingertip.
   FingertipEvaluation evaluation;
   evaluation.labels = labels.size();
   std::vector<double> all;
   std::array<std::vector<double>, kFingerCount> fingers;
   for (const FingertipLabel& label : labels) {
+    // The fingertip in the frame of the label.
     const auto found = tracked.find(label.frame);
     const Eigen::Vector3d tip =
         found == tracked.end() ? Eigen::Vector3d::Zero() : fingertip(*found->second, profile, label.finger);
-    if (tip.z() <= 0) {  // no hand there, or one behind the camera, which has no image
+
+    if (tip.z() <= 0) {  // no hand was tracked, or the fingertip is behind the camera and has no image
       ++evaluation.missing;
       continue;
     }
@@ -81,6 +94,8 @@ FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& label
     all.push_back(distance);
     fingers[label.finger].push_back(distance);
   }
+
+  // Summarise.
   evaluation.all = summarise(all);
   for (int f = 0; f < kFingerCount; ++f) evaluation.per_finger[f] = summarise(fingers[f]);
   return evaluation;

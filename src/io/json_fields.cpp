@@ -56,10 +56,13 @@ Result<double> Object::number_or(const char* key, double fallback, double lo, do
 }
 
 Result<std::vector<double>> Object::numbers(const char* key, std::size_t count, double lo, double hi) const {
+  // The shape of the list.
   const std::string wanted = "a list of " + std::to_string(count) + " numbers";
   if (!has(key)) return bad(*this, key, "is missing", wanted);
   const Json& list = json.at(key);
   if (!list.is_array() || list.size() != count) return bad(*this, key, "has the wrong shape", wanted);
+
+  // Its values.
   std::vector<double> values;
   for (const Json& element : list) {
     const auto value = checked(*this, key, element, lo, hi);
@@ -77,9 +80,13 @@ Result<std::string> Object::text(const char* key) const {
 
 Result<SE3> Object::transform(const char* key) const {
   const char* wanted = "a 4x4 rigid transform, row by row, in metres";
+
+  // The shape of the matrix.
   if (!has(key)) return bad(*this, key, "is missing", wanted);
   const Json& rows = json.at(key);
   if (!rows.is_array() || rows.size() != 4) return bad(*this, key, "does not have 4 rows", wanted);
+
+  // Its numbers.
   Eigen::Matrix4d m;
   for (int r = 0; r < 4; ++r) {
     if (!rows[r].is_array() || rows[r].size() != 4) return bad(*this, key, "has a row without 4 numbers", wanted);
@@ -89,6 +96,8 @@ Result<SE3> Object::transform(const char* key) const {
       m(r, c) = *value;
     }
   }
+
+  // Only a rigid motion is accepted.
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   const bool rotation = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3 && R.determinant() > 0;
   if (!rotation) return bad(*this, key, "holds no right-handed rotation", wanted);
@@ -99,7 +108,7 @@ Result<SE3> Object::transform(const char* key) const {
 
 double rounded(double value) {
   const double r = std::round(value * 1e9) / 1e9;
-  return r == 0 ? 0.0 : r;  // no "-0.0" in files
+  return r == 0 ? 0.0 : r;  // avoids "-0.0" in files
 }
 
 Json to_json(const SE3& T) {

@@ -10,18 +10,19 @@ namespace barehand::json_fields {
 
 using Json = nlohmann::json;
 
-/// Reads and parses a file; a missing file and a syntax error (with its line) become errors.
+/// Reads and parses a file. Errors: a missing file, or a syntax error with its line.
 Result<Json> read_json(const std::string& path);
-/// `where`: what the text comes from, for messages.
+/// `where`: origin of the text, for messages.
 Result<Json> parse_json(const std::string& text, const std::string& where);
 /// Writes `json` to a file, replacing one that is there; a directory that does not exist or a full disk is an error.
 Result<void> write_json(const std::string& path, const Json& json);
 
-/// One JSON object and where it stands, so that every message names file, object and key.
+/// A JSON object together with its place, so that every message names file, object and key.
 struct Object {
   const Json& json;
-  std::string where;  ///< "hand.json: segment index_distal"
+  std::string where;  ///< for example "hand.json: segment index_distal"
 
+  /// Members by key, checked for type and range; a missing or wrong one is an error, except with a `fallback`.
   Result<double> number(const char* key, double lo, double hi) const;
   Result<double> number_or(const char* key, double fallback, double lo, double hi) const;
   Result<std::vector<double>> numbers(const char* key, std::size_t count, double lo, double hi) const;
@@ -30,9 +31,9 @@ struct Object {
   bool has(const char* key) const { return json.contains(key); }
 };
 
-/// 4x4 row-major, rounded to 1e-9: what `Object::transform` reads.
+/// The matrix 4x4, row by row, rounded to 1e-9; Object::transform() reads this form.
 Json to_json(const SE3& T);
-/// Short decimal form of a quantity: rounded to 1e-9.
+/// A quantity rounded to 1e-9, which has a short decimal form.
 double rounded(double value);
 
 }  // namespace barehand::json_fields

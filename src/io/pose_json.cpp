@@ -10,6 +10,7 @@ namespace {
 using json_fields::Json;
 using json_fields::Object;
 
+/// The segment rotated from its rest pose by the angles of a JSON object.
 Result<SE3> posed_by_angles(const Object& object, const SE3& rest) {
   const auto flexion = object.number_or("flexion_deg", 0, -180, 180);
   if (!flexion) return tl::unexpected(flexion.error());
@@ -32,6 +33,7 @@ Result<void> check_names(const Json& segments, const std::string& path) {
 }  // namespace
 
 Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) {
+  // Check the structure of the file.
   const auto json = json_fields::read_json(path);
   if (!json) return tl::unexpected(json.error());
   if (!json->is_object() || !json->contains("segments") || !json->at("segments").is_object())
@@ -40,6 +42,8 @@ Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) 
   if (const auto names = check_names(segments, path); !names) return tl::unexpected(names.error());
 
   HandPose pose;
+
+  // The parent comes before its child.
   const Json none = Json::object();
   for (int s = 0; s < kSegmentCount; ++s) {
     const std::string name(kSegmentNames[s]);

@@ -7,10 +7,11 @@
 
 namespace barehand {
 
-/// Reads an initial pose (docs/formats.md): the palm's T_camera_segment, and for any other segment either its
-/// T_camera_segment or joint angles `flexion_deg`, `abduction_deg` from rest. What is not named stays at rest.
+/// Reads an initial pose (docs/formats.md). It must name T_camera_segment of the palm; any other segment has either
+/// its T_camera_segment or joint angles `flexion_deg` and `abduction_deg` from rest. Segments that are not named stay
+/// at rest.
 Result<HandPose> load_pose(const std::string& path, const HandProfile& profile);
-/// Writes the transforms of all segments.
+/// Writes T_camera_segment of all segments.
 Result<void> save_pose(const HandPose& pose, const std::string& path);
 
 }  // namespace barehand

@@ -9,11 +9,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kNinetyPercent = 1.6449;  // deviations, both sides
+constexpr double kNinetyPercent = 1.6449;  // standard deviations to either side of a 90 % interval
 constexpr int kConfidenceBins = 10;
-constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;  // [m]; half octaves
+// First bin's lower bound [m]; each bin is half an octave wide.
+constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;
 constexpr int kErrorBins = 14;
 
+/// Accumulates the coverage of one group of segments.
 class CoverageSum {
  public:
   void add(const Vector3d& error, const Matrix3d& covariance) {
@@ -34,6 +36,7 @@ class CoverageSum {
   double stated_ = 0, actual_ = 0;
 };
 
+/// Accumulates everything over all sequences.
 class Judge {
  public:
   void add(const TableRow& truth, const StatedSegment& stated) {
@@ -59,6 +62,7 @@ class Judge {
   }
 
  private:
+  // Adds the error of one end.
   void add(const Vector3d& error, const Matrix3d& covariance, bool seen) {
     all_.add(error, covariance);
     (seen ? seen_ : inferred_).add(error, covariance);
@@ -78,6 +82,7 @@ class Judge {
 }  // namespace
 
 Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences) {
+  // Add up the frames that both tables contain.
   Judge judge;
   for (const auto& [truth, stated] : sequences)
     for (const TableFrame& frame : truth.frames) {
@@ -86,6 +91,8 @@ Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, S
       judge.add_frame();
       for (int s = 0; s < kSegmentCount; ++s) judge.add(frame.rows[s], said->second[s]);
     }
+
+  // Nothing in common is an error.
   Reliability result = judge.result();
   if (result.frames == 0)
     return fail("have no frame with a pose in common with the truth", "the states",

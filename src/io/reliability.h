@@ -8,39 +8,41 @@
 
 namespace barehand {
 
-/// Where an estimate put one segment, and how sure it said to be. Camera frame, metres.
+/// The pose of one segment as an estimate states it, with its uncertainty. Camera frame, metres.
 struct StatedSegment {
   Eigen::Vector3d proximal, distal;
   Eigen::Matrix3d proximal_covariance, distal_covariance;  ///< of the two ends [m^2]
   double confidence = 0;                                   ///< SegmentState::confidence
-  bool seen = false;                                       ///< estimated from data, or inferred
+  bool seen = false;                                       ///< estimated from data; false: inferred
 };
-/// By frame number.
+/// The stated poses of all segments, by frame number.
 using StatedPoses = std::map<std::int64_t, std::array<StatedSegment, kSegmentCount>>;
 
-/// How often the truth lies where a 90 % interval along one camera axis says.
+/// How often the truth lies within the stated 90 % interval along one axis of the camera.
 struct Coverage {
-  std::size_t intervals = 0;  ///< three of each end of each segment
-  double covered = 0;         ///< fraction of them
-  double stated = 0;          ///< root mean square of the stated error of an end [m]
-  double actual = 0;          ///< of its actual error [m]
+  std::size_t intervals = 0;  ///< three for each end of each segment
+  double covered = 0;         ///< fraction of the intervals that contain the truth
+  double stated = 0;          ///< root mean square of the stated errors of an end [m]
+  double actual = 0;          ///< root mean square of its actual errors [m]
 };
 
-/// Said against found, for everything whose statement falls into one bin.
+/// Stated against actual values of everything whose stated value falls into one bin.
 struct ReliabilityBin {
   std::size_t count = 0;
   double stated = 0, actual = 0;
 };
 
-/// Whether estimates know how far they are off.
+/// How well the stated uncertainty of estimates agrees with their actual errors.
 struct Reliability {
   std::size_t frames = 0;
   Coverage all, seen, inferred;
-  std::vector<ReliabilityBin> errors;       ///< root mean squares of errors of an end [m], by the stated one
-  std::vector<ReliabilityBin> confidences;  ///< mean confidence; fraction with both ends within kConfidenceRadius
+  std::vector<ReliabilityBin> errors;  ///< root mean square errors of an end [m], binned by the stated error
+  /// Mean confidence, and fraction of segments with both ends within kConfidenceRadius.
+  std::vector<ReliabilityBin> confidences;
 };
 
-/// Of several sequences, each truth with its statements: over the frames that both have. Error: there is none.
+/// Evaluates several sequences, each the truth and the stated poses, over the frames that both contain. Error: there
+/// is no such frame.
 Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences);
 
 }  // namespace barehand

@@ -10,8 +10,9 @@ namespace {
 using json_fields::Json;
 
 constexpr std::size_t kMostEntries = 200'000;
-constexpr double kFarthest = 0.5;  // m from a segment's origin
+constexpr double kFarthest = 0.5;  // m, from the origin of a segment
 
+/// Rounds a coordinate to micrometres.
 double micrometres(float metres) { return std::round(metres * 1e6) / 1e6; }
 
 tl::unexpected<Error> bad(const std::string& where, const char* key, std::size_t i, const std::string& wanted) {
@@ -27,17 +28,22 @@ bool all_numbers(const Json& row) {
 
 bool is_segment(double x) { return x >= 0 && x < kSegmentCount && x == std::floor(x); }
 
-// [segment, x, y, z] or [segment, x, y, z, second segment, its share, x, y, z]
+// A vertex is [segment, x, y, z] or [segment, x, y, z, second segment, its weight, x, y, z].
 bool read_vertex(const Json& row, SkinVertex& v) {
+  // Check the shape of the row.
   if (!row.is_array() || (row.size() != 4 && row.size() != 9) || !all_numbers(row)) return false;
   const auto number = [&](std::size_t i) { return row[i].get<double>(); };
   const auto point = [&](std::size_t i) { return Eigen::Vector3d(number(i), number(i + 1), number(i + 2)); };
   const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthest; };  // false for NaN, too
+
+  // The first segment.
   if (!is_segment(number(0)) || !near(point(1))) return false;
   v.a = v.b = static_cast<std::int16_t>(number(0));
   v.in_a = v.in_b = point(1).cast<float>();
   v.normal_in_a.setZero();
   if (row.size() == 4) return true;
+
+  // The second segment, which must be a neighbour of the first.
   if (!is_segment(number(4)) || !(number(5) > 0 && number(5) <= 0.5) || !near(point(6))) return false;
   v.b = static_cast<std::int16_t>(number(4));
   v.weight_b = static_cast<float>(number(5));

@@ -4,8 +4,8 @@
 
 namespace barehand {
 
-/// Pinhole camera without distortion. Camera frame: x right, y down, z forward (OpenCV, ROS `_optical`); metres.
-/// Pixel centres lie at integer coordinates.
+/// A pinhole camera without distortion. Camera frame: x right, y down, z forward (as in OpenCV and ROS `_optical`), in
+/// metres. Pixel centres have integer coordinates.
 struct Intrinsics {
   int width = 0;
   int height = 0;
@@ -14,9 +14,9 @@ struct Intrinsics {
   bool valid() const { return width > 0 && height > 0 && fx > 0 && fy > 0; }
   bool operator==(const Intrinsics&) const = default;
 
-  /// Pixel (u, v) of a camera-frame point with z > 0.
+  /// Projects a point in the camera frame with z > 0 to pixel coordinates (u, v).
   Eigen::Vector2d project(const Eigen::Vector3d& p) const { return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy}; }
-  /// Camera-frame point at depth z [m] (along the optical axis, not the ray).
+  /// The point in the camera frame at the depth z [m], measured along the optical axis, not along the ray.
   Eigen::Vector3d unproject(double u, double v, double z) const { return {(u - cx) / fx * z, (v - cy) / fy * z, z}; }
 };
 

@@ -9,20 +9,21 @@
 
 namespace barehand {
 
+/// An 8-bit colour.
 struct Rgb {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Rgb&) const = default;
 };
 
-/// One measurement of a depth camera. Immutable once shared.
+/// One RGB-D frame of a depth camera. Immutable once shared.
 struct RgbdFrame {
-  std::int64_t utime = 0;      ///< capture time of the depth image, microseconds since the epoch
+  std::int64_t utime = 0;      ///< capture time of the depth image [us since the epoch]
   std::int64_t number = 0;     ///< frame number in the recording, or the sensor's sequence number
-  std::string sensor;          ///< name of the sensor, "" where there is only one
-  Intrinsics camera;           ///< of depth and colour alike: colour is registered to depth
+  std::string sensor;          ///< name of the sensor; "" if there is only one
+  Intrinsics camera;           ///< of both images, since colour is registered to depth
   double depth_unit = 0.001;   ///< metres per depth count
   Image<std::uint16_t> depth;  ///< counts; 0 = no measurement
-  Image<Rgb> colour;           ///< empty: no colour. Pure black = no colour at this pixel.
+  Image<Rgb> colour;           ///< empty if there is none; pure black: no colour at this pixel
 };
 using FramePtr = std::shared_ptr<const RgbdFrame>;
 

@@ -7,11 +7,12 @@
 
 namespace barehand {
 
-/// Counter-based random numbers (Philox 4x32-10, Salmon et al., SC 2011): the value depends on key and counter only,
-/// so results do not depend on the number of threads or the order of draws.
+/// Counter-based random numbers (Philox 4x32-10, Salmon et al., SC 2011). A value depends on key and counter only, so
+/// results depend neither on the number of threads nor on the order of draws.
 class Philox {
  public:
-  /// `seed` is the run's; the counter words say what is drawn for: frame, segment, level, sample.
+  /// `seed` is that of the run; the words of the counter state what the numbers are for: frame, segment, level,
+  /// sample.
   static std::array<std::uint32_t, 4> block(std::uint64_t seed, std::array<std::uint32_t, 4> counter) {
     std::uint32_t k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
     for (int round = 0; round < 10; ++round) {
@@ -24,11 +25,12 @@ class Philox {
     }
     return counter;
   }
-  /// [0, 1) from 32 random bits.
+  /// Maps 32 random bits to [0, 1).
   static double uniform(std::uint32_t bits) { return bits * (1.0 / 4294967296.0); }
 };
 
-/// A stream of draws for one keyed purpose; cheap to construct where it is needed.
+/// A stream of random numbers for one purpose, which the key words a, b and c name. It is cheap to construct on
+/// demand.
 class KeyedRandom {
  public:
   KeyedRandom(std::uint64_t seed, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0)

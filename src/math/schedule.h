@@ -4,8 +4,8 @@
 
 namespace barehand {
 
-/// Geometric passage from `start` (step 0) to `end` (step steps - 1) for positive values; `start` where there is one
-/// step.
+/// Value of a geometric progression of positive values from `start` (at step 0) to `end` (at step steps - 1). With one
+/// step it is `start`.
 inline double geometric(double start, double end, int step, int steps) {
   return steps < 2 ? start : start * std::pow(end / start, static_cast<double>(step) / (steps - 1));
 }

@@ -12,7 +12,8 @@ using Eigen::Vector3f;
 
 using Triangle = std::array<std::int32_t, 3>;
 
-// Neighbouring cells of a row, drawn together (a vector type of the compiler: any width works everywhere).
+// The renderer draws this many neighbouring cells of a row at once. (The compiler's vector type works at any width on
+// every processor.)
 constexpr int kLanes = 8;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
@@ -20,6 +21,7 @@ constexpr Lanes kSteps{0, 1, 2, 3, 4, 5, 6, 7};
 
 constexpr float kNear = 0.05f;  // nothing is drawn closer to the camera [m]
 
+/// Vertex normals as the area-weighted mean of the normals of the triangles around each vertex.
 void pose_normals(const Skin& skin, RenderedHand& out) {
   out.normal.assign(skin.vertices.size(), Vector3f::Zero());
   for (const auto& t : skin.triangles) {
@@ -33,6 +35,7 @@ void pose_normals(const Skin& skin, RenderedHand& out) {
   }
 }
 
+/// Draws triangles into the z-buffer of a RenderedHand.
 class Rasteriser {
   using Vertex = Eigen::Array4f;  // (i, j, 1/z, z)
 
@@ -51,12 +54,16 @@ class Rasteriser {
     }
   }
 
+  // Draws one triangle if it faces the camera.
   void draw(const Triangle& t) {
     const Vertex &a = out_.in_grid[t[0]], &b = out_.in_grid[t[1]], &c = out_.in_grid[t[2]];
-    // Image v points down, so a triangle counter-clockwise from outside has negative area here when it faces us.
+    // The image's v axis points down, so a triangle that is counter-clockwise from outside has a negative area here
+    // when it faces the camera.
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     const Vertex low = a.min(b).min(c), high = a.max(b).max(c);
     if (!(area < 0) || low.w() < kNear) return;
+
+    // Draw the cells within its bounding box, one strip of columns after the other.
     const Eigen::Array4i first = low.ceil().cast<int>(), last = high.floor().cast<int>();
     const Box box{std::max(0, first.x()), std::min(out_.grid.width - 1, last.x()), std::max(0, first.y()),
                   std::min(out_.grid.height - 1, last.y())};
@@ -64,21 +71,25 @@ class Rasteriser {
   }
 
  private:
+  // First and last column (i) and row (j) of a triangle's bounding box.
   struct Box {
     int i0, i1, j0, j1;
   };
 
-  // The columns from `i` on, as many as there are lanes, of all rows. No branch depends on a cell: triangles are a few
-  // cells large, so a processor would guess most of them wrong.
+  // Draws the kLanes columns from `i` on in all rows of the box. No branch depends on a cell: triangles cover only a
+  // few cells, so most of such branches would be mispredicted.
   void shade(const Triangle& t, float inverse_area, const Box& box, int i) {
     const Vertex &a = out_.in_grid[t[0]], &b = out_.in_grid[t[1]], &c = out_.in_grid[t[2]];
-    // Barycentric weights and 1/z are linear in the image.
+
+    // Barycentric weights and 1/z are linear in the image, so going down a row adds a constant.
     const Lanes x = static_cast<float>(i) + kSteps;
     const float y = static_cast<float>(box.j0);
     Lanes wa = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) * inverse_area;
     Lanes wb = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) * inverse_area;
     const float wa_down = (c.x() - b.x()) * inverse_area, wb_down = (a.x() - c.x()) * inverse_area;
     const IntLanes columns = x <= static_cast<float>(box.i1);
+
+    // Every covered cell is carried by the vertex with the largest barycentric weight.
     IntLanes covered_a{}, covered_b{}, covered_c{};
     for (int j = box.j0; j <= box.j1; ++j, wa += wa_down, wb += wb_down) {
       const Lanes wc = 1.0f - wa - wb;
@@ -87,13 +98,16 @@ class Rasteriser {
       covered_a -= inside & nearest_a;
       covered_b -= inside & nearest_b;
       covered_c -= inside & ~nearest_a & ~nearest_b;
+
       const Lanes inverse_z = wa * a.z() + wb * b.z() + wc * c.z();
       const IntLanes carrier = nearest_a ? IntLanes{} + t[0] : (nearest_b ? IntLanes{} + t[1] : IntLanes{} + t[2]);
       put(i, j, inside, inverse_z, carrier);
     }
+
+    // Add the covered cells to the count of each vertex's segment.
     const int segment_a = skin_.vertices[t[0]].a, segment_b = skin_.vertices[t[1]].a,
               segment_c = skin_.vertices[t[2]].a;
-    if (segment_a == segment_b && segment_b == segment_c) {  // nearly always
+    if (segment_a == segment_b && segment_b == segment_c) {  // true for nearly all triangles
       out_.projected[segment_a] += sum(covered_a + covered_b + covered_c);
       return;
     }
@@ -102,6 +116,7 @@ class Rasteriser {
     out_.projected[segment_c] += sum(covered_c);
   }
 
+  // Sum of all lanes.
   static int sum(const IntLanes& lanes) {
     using Half = std::int32_t __attribute__((vector_size(2 * kLanes)));
     std::array<Half, 2> halves;
@@ -110,14 +125,19 @@ class Rasteriser {
     return (two[0] + two[1]) + (two[2] + two[3]);
   }
 
+  // Writes one row of lanes where they are inside the triangle and in front of what was drawn before.
   void put(int i, int j, const IntLanes& inside, const Lanes& inverse_z, const IntLanes& carrier) {
     float* depth = &out_.depth.at(i, j);
     std::int32_t* vertex = &out_.vertex.at(i, j);
-    // Lanes beyond the row's end hold the begin of the next row and stay as they are; the last row has no next one.
+
+    // Lanes beyond the end of the row belong to the next row, and `inside` leaves them as they are. The last row has
+    // no next one, so only the bytes that are left may be touched.
     const std::size_t left = out_.depth.size() - out_.depth.index(i, j);
     const std::size_t bytes = sizeof(float) * std::min<std::size_t>(left, kLanes);
     Lanes old_depth{};
     IntLanes old_vertex{};
+
+    // Load the old cells, replace those that are hidden now, and store them.
     const auto blend = [&](std::size_t size) {
       std::memcpy(&old_depth, depth, size);
       std::memcpy(&old_vertex, vertex, size);
@@ -127,24 +147,29 @@ class Rasteriser {
       std::memcpy(depth, &old_depth, size);
       std::memcpy(vertex, &old_vertex, size);
     };
-    bytes == sizeof(Lanes) ? blend(sizeof(Lanes)) : blend(bytes);  // a constant size makes it one instruction each
+    bytes == sizeof(Lanes) ? blend(sizeof(Lanes)) : blend(bytes);  // a constant size compiles to a single instruction
   }
 
   const Skin& skin_;
-  RenderedHand& out_;  // depth: its inverse while drawing, 0 where there is nothing yet
+  RenderedHand& out_;  // depth holds 1/z while drawing; 0 where nothing was drawn yet
 };
 
 }  // namespace
 
 void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camera, const CellGrid& grid,
                  RenderedHand& out, Normals normals) {
+  // Reset the buffers.
   out.grid = grid;
   out.depth.reset(grid.width, grid.height, 0.0f);
   out.vertex.reset(grid.width, grid.height, -1);
   out.projected.fill(0);
+
+  // Pose the skin.
   pose_skin(skin, pose, out.position);
   out.normal.clear();
   if (normals == Normals::computed) pose_normals(skin, out);
+
+  // Draw all triangles, then turn the inverse depth into depth.
   Rasteriser rasteriser(skin, camera, out);
   for (const auto& t : skin.triangles) rasteriser.draw(t);
   for (std::size_t i = 0; i < out.depth.size(); ++i) out.depth[i] = out.depth[i] > 0 ? 1.0f / out.depth[i] : 0.0f;

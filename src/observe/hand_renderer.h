@@ -15,20 +15,21 @@ struct CellGrid {
   int u0 = 0, v0 = 0, stride = 1, width = 0, height = 0;
 };
 
-/// A posed skin seen by the camera at the cells of a grid. Buffers keep their allocation from render to render.
+/// A posed skin as the camera sees it at the cells of a grid. The buffers keep their allocation from call to call.
 struct RenderedHand {
   CellGrid grid;
   Image<float> depth;                             ///< z of the front-most skin [m]; 0 = no skin
-  Image<std::int32_t> vertex;                     ///< skin vertex that carries the cell; -1 = no skin
+  Image<std::int32_t> vertex;                     ///< skin vertex with the largest weight in the cell; -1 = no skin
   std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]; normals may be left out
   std::vector<Eigen::Array4f> in_grid;            ///< of every skin vertex: cell i, j, 1/z [1/m], z [m]
-  std::array<int, kSegmentCount> projected{};     ///< cells that a segment's camera-facing skin covers, hidden or not
+  std::array<int, kSegmentCount> projected{};     ///< cells covered by the segment's camera-facing skin, hidden or not
 };
 
-/// A mere score needs no normals of the skin.
+/// Whether render_hand() computes the normals, which a mere score does not need.
 enum class Normals { computed, left_out };
 
-/// Z-buffer rendering of the skin triangles that face the camera (paper Sec. 4.1 "rendered into a depth image").
+/// Renders the triangles of `skin` that face the camera into a z-buffer (paper Sec. 4.1, "rendered into a depth
+/// image").
 void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camera, const CellGrid& grid,
                  RenderedHand& out, Normals normals = Normals::computed);
 

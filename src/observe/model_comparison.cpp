@@ -10,13 +10,15 @@ using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 
 constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
-constexpr float kStandsOut = 0.005f;    // skin this far out of what it should be behind may go back into it [m]
+constexpr float kStandsOut = 0.005f;    // skin that stands out of an occluder by less than this may move behind it [m]
 
+/// Classifies every cell of the grid and collects the correspondences.
 class Comparer {
  public:
   Comparer(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
            const ComparisonParams& params, ModelComparison& out)
       : obs_(observation), skin_(skin), rendered_(rendered), params_(params), out_(out) {
+    // The wrist plane in camera coordinates, and the area of a cell at a depth of 1 m.
     const SE3 T_palm_camera = pose[kPalm].inverse();
     wrist_axis_ = T_palm_camera.R.row(2).cast<float>();
     wrist_offset_ = static_cast<float>(T_palm_camera.t.z());
@@ -26,11 +28,14 @@ class Comparer {
   }
 
   void run() {
+    // Forget the previous frame's results.
     out_.correspondences.clear();
     out_.visible.fill(0);
     out_.matched.fill(0);
     out_.rays.reset(obs_.frame->camera, obs_.u0, obs_.v0, obs_.depth.width(), obs_.depth.height());
     out_.nearest_model.index(rendered_.vertex);
+
+    // Every cell that shows model or hand data is one piece of evidence.
     const CellGrid& g = rendered_.grid;
     for (int j = 0; j < g.height; ++j)
       for (int i = 0; i < g.width; ++i) {
@@ -40,6 +45,8 @@ class Comparer {
         else if (obs_.label.at(u, v) == PixelLabel::hand)
           judge_unexplained(i, j, u, v);
       }
+
+    // The score is the weighted mean.
     out_.score = total_weight_ > 0 ? total_ / total_weight_ : params_.distance_cap;
   }
 
@@ -49,6 +56,7 @@ class Comparer {
   }
   Vector3f data_point(int u, int v) const { return out_.rays.point(u, v, obs_.depth.at(u, v)); }
 
+  // Adds the correspondence of cell (i, j) and its share of the score. `cost_distance`: uncapped distance [m].
   void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
     const int vertex = rendered_.vertex.at(i, j);
     const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
@@ -59,27 +67,35 @@ class Comparer {
     total_weight_ += weight;
   }
 
+  /// Classifies a cell that shows the model; (u, v): its pixel in the region of interest.
   void judge_model(int i, int j, int u, int v) {
     const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
     const PixelLabel label = obs_.label.at(u, v);
+
+    // Missing depth is no evidence.
     if (label == PixelLabel::unknown || z_data <= 0) {
       ++out_.visible[segment];  // a hole in the data does not hide the segment
       return;
     }
+
+    // Both are hand: a surface correspondence.
     if (label == PixelLabel::hand) {
       ++out_.visible[segment];
       if (std::abs(z_data - z_model) < params_.self_occlusion) ++out_.matched[segment];
       add(Kind::surface, i, j, data_point(u, v), std::abs(z_data - z_model));
       return;
     }
-    // What is not hand and in front of the model hides it; behind the model it contradicts it.
+
+    // Anything else in front of the model hides it; behind the model it contradicts the model.
     const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
     if (z_data < z_model + tolerance) return;
     ++out_.visible[segment];
     const std::int32_t hand = obs_.nearest_hand.at(u, v);
     if (hand < 0) return;
-    // Skin that shows no data would be explained nearest aside, or hidden behind what it hardly stands out of (Eq. 1).
+
+    // The model should not be visible here. It moves to whichever explanation is nearer: aside, onto the hand's data
+    // (Eq. 1), or back behind the measured surface if it stands out of it by little.
     const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
     const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
     if (back < std::min(kStandsOut, distance_aside))
@@ -88,7 +104,8 @@ class Comparer {
       add(Kind::outside, i, j, aside, distance_aside);
   }
 
-  // On the hand's data at the pixel `hand`, or hidden at its own depth, there or behind the nearest object.
+  // The nearest place beside the cell that would explain the model: the hand data at the pixel `hand`, or, where data
+  // there or the nearest object is in front of the model, the point hidden behind it at the model's own depth.
   Vector3f nearest_aside(int u, int v, std::int32_t hand, const Vector3f& model) const {
     const auto behind = [&](std::int32_t pixel) {
       const int row = out_.rays.row_of(pixel);
@@ -102,9 +119,10 @@ class Comparer {
     return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
   }
 
+  /// Classifies a cell that shows hand data but no model.
   void judge_unexplained(int i, int j, int u, int v) {
     const Vector3f data = data_point(u, v);
-    if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // forearm
+    if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // the forearm is not part of the model
     const std::int32_t nearest = out_.nearest_model.find(i, j);
     if (nearest < 0) return;
     const int mi = nearest % rendered_.grid.width, mj = nearest / rendered_.grid.width;

@@ -10,9 +10,11 @@
 
 namespace barehand {
 
-/// Skin that a correspondence of weight 1 stands for [m^2]: 2 pixels at 0.6 m and 525 px.
+/// The area of skin that a correspondence of weight 1 stands for [m^2]: a cell of 2 x 2 pixels at 0.6 m with a focal
+/// length of 525 px.
 inline constexpr float kReferenceArea = 5e-6f;
 
+/// Settings of the comparison of model and data.
 struct ComparisonParams {
   int stride = 2;                      ///< compare every n-th pixel of the region of interest
   double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
@@ -31,10 +33,11 @@ void visit(V& v, ComparisonParams& p) {
     "m, hand data this far in front of the model is another part (Sec. 4.2)");
 }
 
-/// One piece of evidence: where the model's skin should move to.
+/// One piece of evidence: a point of the model and the point of the data that it should move to.
 struct Correspondence {
-  /// surface: both are hand; outside: skin that shows no data would be nearest beside where it is; behind: nearest
-  /// just behind what is seen there; unexplained: hand data that no model pixel covers.
+  /// surface: model and data are both hand. outside: there is model but no hand data, and the nearest explanation is
+  /// beside it in the image. behind: the same, but the nearest explanation is just behind the surface that is measured
+  /// there. unexplained: there is hand data but no model.
   enum class Kind { surface, outside, behind, unexplained };
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
@@ -42,21 +45,22 @@ struct Correspondence {
   float weight;                         ///< skin area of the cell relative to kReferenceArea
 };
 
-/// Evidence of a whole rendered hand against an observation, in both directions: model explained by data (surface,
-/// outside, behind) and data explained by model (unexplained). Missing depth is no evidence.
+/// All correspondences of a rendered hand and an observation, in both directions: model explained by data (surface,
+/// outside, behind) and data explained by the model (unexplained). Missing depth is no evidence.
 struct ModelComparison {
   std::vector<Correspondence> correspondences;
-  double score = 0;  ///< mean capped distance over all evidence [m]; lower is better; the cap if there is none
-  std::array<int, kSegmentCount> visible{};  ///< cells in which a segment is front-most and not behind an object
-  std::array<int, kSegmentCount> matched{};  ///< of these, cells with hand data near the model
-  NearestCell nearest_model;                 ///< scratch: where the rendered hand is
-  PixelRays rays;                            ///< scratch
+  double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence
+  std::array<int, kSegmentCount> visible{};  ///< cells where a segment is front-most and not hidden by an object
+  std::array<int, kSegmentCount> matched{};  ///< those of them with hand data near the model
+  NearestCell nearest_model;                 ///< scratch: look-up of the nearest cell of the rendered hand
+  PixelRays rays;                            ///< scratch: points of the observed pixels
 };
 
-/// Cells of the whole region of interest.
+/// The cells that cover the whole region of interest with this stride.
 CellGrid grid_of(const HandObservation& observation, int stride);
 
-/// Cell by cell of `rendered`, whose grid says how finely; the parameters' stride does not count here.
+/// Compares the observation with the rendered `skin` cell by cell. The grid of `rendered` sets the spacing; the stride
+/// of `params` is not used here.
 void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
              const ComparisonParams& params, ModelComparison& out);
 

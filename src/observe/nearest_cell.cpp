@@ -12,13 +12,16 @@ constexpr std::int16_t kNone = -1;
 void NearestCell::index(const Image<std::int32_t>& occupied) {
   const int width = occupied.width(), height = occupied.height();
   row_.reset(width, height, kNone);
-  // Down, then up all columns at once: whole rows vectorise.
+
+  // Sweep down: the nearest occupied row at or above each cell. Working on whole rows lets the compiler vectorise.
   for (int v = 0; v < height; ++v) {
     const std::int32_t* set = occupied.row(v);
     std::int16_t* own = row_.row(v);
     const std::int16_t* above = v > 0 ? row_.row(v - 1) : own;
     for (int u = 0; u < width; ++u) own[u] = set[u] >= 0 ? static_cast<std::int16_t>(v) : above[u];
   }
+
+  // Sweep up: take the nearest row below where it is closer.
   for (int v = height - 2; v >= 0; --v) {
     std::int16_t* own = row_.row(v);
     const std::int16_t* below = row_.row(v + 1);
@@ -30,6 +33,7 @@ void NearestCell::index(const Image<std::int32_t>& occupied) {
 }
 
 std::int32_t NearestCell::find(int u, int v) const {
+  // Takes the nearest occupied cell of a column if it is nearer than the best so far.
   const int width = row_.width();
   const std::int16_t* row = row_.row(v);
   int best_sq = std::numeric_limits<int>::max();
@@ -37,10 +41,13 @@ std::int32_t NearestCell::find(int u, int v) const {
   const auto try_column = [&](int x) {
     if (row[x] == kNone) return;
     const int dv = row[x] - v, distance_sq = (x - u) * (x - u) + dv * dv;
+
     if (distance_sq >= best_sq) return;
     best_sq = distance_sq;
     nearest = row[x] * width + x;
   };
+
+  // Search the columns outwards until no column can contain a nearer cell.
   try_column(u);
   for (int step = 1; step < width && step * step < best_sq; ++step) {
     if (u >= step) try_column(u - step);

@@ -6,18 +6,18 @@
 
 namespace barehand {
 
-/// Nearest occupied cells of a picture for a few of its cells: one cheap pass over all of them, then each question
-/// costs as many steps as the answer is cells away.
+/// Finds the nearest occupied cell of an image for a few query cells. index() is one cheap pass over all cells; each
+/// query then takes as many steps as the answer is cells away.
 class NearestCell {
  public:
-  /// Cells with `occupied[i] >= 0`. At most 2^15 rows. Keeps its allocation from picture to picture.
+  /// Indexes the cells with `occupied[i] >= 0`; at most 2^15 rows. The buffer keeps its allocation from call to call.
   void index(const Image<std::int32_t>& occupied);
-  /// Index of the occupied cell that is nearest to cell (u, v), exactly; of equally near ones always the same. -1 if
-  /// none is occupied.
+  /// Index of the occupied cell nearest to cell (u, v), exact; of several at the same distance always the same one. -1
+  /// if no cell is occupied.
   std::int32_t find(int u, int v) const;
 
  private:
-  Image<std::int16_t> row_;  // per cell: nearest occupied row of its column; kNone if the column is empty
+  Image<std::int16_t> row_;  // per cell: the nearest occupied row in its column; kNone if the column is empty
 };
 
 }  // namespace barehand

@@ -9,25 +9,27 @@
 
 namespace barehand {
 
-/// What a pixel of the region of interest is. Missing depth is unknown, not background.
+/// What a pixel of the region of interest shows. Missing depth is unknown, not background.
 enum class PixelLabel : std::uint8_t { unknown = 0, background = 1, hand = 2, object = 3 };
 
-/// A frame made ready for the trackers: everything within the region of interest around the hand. Pixel (u, v) of the
-/// maps is pixel (u + u0, v + v0) of the frame. Camera frame, metres. Immutable once shared.
+/// A preprocessed frame, the input of the trackers: labelled depth and derived maps within the region of interest
+/// around one hand. Pixel (u, v) of the maps is pixel (u + u0, v + v0) of the frame. Camera frame, metres. Immutable
+/// once shared.
 struct HandObservation {
   FramePtr frame;
   bool hand_present = false;  ///< false: no hand-like data in this frame; the maps may be empty
-  bool followed = false;      ///< found where the tracker's estimate said; false: any hand-like thing
-  int u0 = 0, v0 = 0;         ///< top-left corner of the region of interest in the frame
-  Image<float> depth;         ///< z [m]; 0 = no measurement
+  bool followed = false;  ///< the hand was found where the tracker predicted it; false: any hand-like region was taken
+  int u0 = 0, v0 = 0;     ///< top-left corner of the region of interest in the frame
+  Image<float> depth;     ///< z [m]; 0 = no measurement
   Image<PixelLabel> label;
-  Image<Eigen::Vector3f> normal;     ///< unit, towards the camera, of hand pixels; zero where undefined
+  Image<Eigen::Vector3f> normal;     ///< unit normals of hand pixels, towards the camera; zero where undefined
   Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
-  Image<std::int32_t> nearest_object;     ///< the same of the nearest object pixel
+  Image<std::int32_t> nearest_object;     ///< the same for the nearest object pixel
   std::vector<std::int32_t> hand_pixels;  ///< indices of the hand pixels
   std::vector<Eigen::Vector3f> cloud;     ///< evenly thinned hand points for ICP
   double noise = 0.001;                   ///< 1-sigma axial noise of this sensor at the hand's distance [m]
 
+  /// The 3D point of pixel (u, v), or of the pixel with index i, in the camera frame [m]; zero without measurement.
   Eigen::Vector3f point(int u, int v) const {
     const Intrinsics& c = frame->camera;
     const float z = depth.at(u, v);
@@ -36,7 +38,7 @@ struct HandObservation {
   Eigen::Vector3f point(std::int32_t i) const { return point(i % depth.width(), i / depth.width()); }
 };
 using HandObservationPtr = std::shared_ptr<const HandObservation>;
-/// One a hand that is looked for, always in the same order.
+/// One observation per hand that is looked for, always in the same order.
 using HandObservations = FrameVector<HandObservationPtr>;
 
 }  // namespace barehand

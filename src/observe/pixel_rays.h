@@ -8,11 +8,11 @@
 
 namespace barehand {
 
-/// Points of a region of interest without a division per pixel: HandObservation::point() from tables, bit by bit the
-/// same. Keeps its allocations.
+/// Back-projects pixels of a region of interest by table look-up instead of a division per pixel. The results equal
+/// those of HandObservation::point() bit by bit. The tables keep their allocation from call to call.
 class PixelRays {
  public:
-  /// The region's pixel (0, 0) is pixel (u0, v0) of the camera.
+  /// Computes the tables for a region whose pixel (0, 0) is pixel (u0, v0) of the camera image.
   void reset(const Intrinsics& camera, int u0, int v0, int width, int height) {
     width_ = width;
     inverse_width_ = 1.0 / width;
@@ -22,14 +22,14 @@ class PixelRays {
     for (int v = 0; v < height; ++v) y_[v] = static_cast<float>((v + v0 - camera.cy) / camera.fy);
   }
 
-  /// Camera frame [m], of a pixel of the region at depth z [m].
+  /// The point of pixel (u, v) of the region at the depth z [m], in the camera frame [m].
   Eigen::Vector3f point(int u, int v, float z) const { return {x_[u] * z, y_[v] * z, z}; }
-  /// Of the pixel with this index, at the depth measured there.
+  /// The point of the pixel with this index at its measured depth, in the camera frame [m].
   Eigen::Vector3f point(std::int32_t pixel, const Image<float>& depth) const {
     const int v = row_of(pixel);
     return point(pixel - v * width_, v, depth[pixel]);
   }
-  /// pixel / width, exactly: pixel and width fit many times into a double's 53 bits.
+  /// Exactly pixel / width: both are far smaller than the 53 bits of a double's mantissa.
   int row_of(std::int32_t pixel) const { return static_cast<int>((pixel + 0.5) * inverse_width_); }
 
  private:

@@ -13,7 +13,7 @@ namespace {
 using Log = std::vector<double>;
 constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// Offsets cancel in Eq. 8; the best state at 0 keeps single precision sharp where it matters.
+/// Constant offsets cancel in Eq. 8, so the best state is set to 0, where single precision is finest.
 void relative_to_best(const Log& h, std::vector<float>& relative) {
   const double best = *std::max_element(h.begin(), h.end());
   relative.resize(h.size());
@@ -47,7 +47,8 @@ BeliefPropagation::BeliefPropagation(std::span<const int> parent)
   }
 }
 
-/// phi and all incoming messages except those from child `without` and, if !with_parent, from the parent.
+/// Sums phi and all incoming messages, except the one from the child `without` and, unless `with_parent`, the one from
+/// the parent.
 void BeliefPropagation::gather(const Input& input, int node, int without, bool with_parent, Log& evidence) const {
   evidence = input.log_phi[node];
   for (const int k : children_[node])
@@ -55,12 +56,15 @@ void BeliefPropagation::gather(const Input& input, int node, int without, bool w
   if (with_parent && parent_[node] >= 0) add(evidence, down_[node].log);
 }
 
-/// Eq. 7 from a child to its parent.
+/// The message of Eq. 7 from a child to its parent.
 void BeliefPropagation::send_up(const Input& input, int node) {
+  // What the child knows without its parent.
   Message& m = up_[node];
   const EdgeEnergy& e = input.energy[node];
   gather(input, node, -1, false, m.evidence);
   relative_to_best(m.evidence, m.relative);
+
+  // For each sample of the parent, the best sample of the child (max-product).
   m.best.assign(e.parents, kLowest);
   const float* from = m.relative.data();
   float* best = m.best.data();
@@ -71,8 +75,11 @@ void BeliefPropagation::send_up(const Input& input, int node) {
       best[p] = best[p] > x ? best[p] : x;
     }
   }
+
   m.log.assign(m.best.begin(), m.best.end());
   if (input.marginals == Marginals::max) return;
+
+  // Sum-product: the sum over the child's samples, scaled by the largest term.
   m.sum.assign(e.parents, 0.0f);
   float* sum = m.sum.data();
   for (std::size_t c = 0; c < e.children; ++c) {
@@ -83,12 +90,15 @@ void BeliefPropagation::send_up(const Input& input, int node) {
   for (std::size_t p = 0; p < e.parents; ++p) m.log[p] += std::log(static_cast<double>(sum[p]));
 }
 
-/// Eq. 7 from a parent to its child.
+/// The message of Eq. 7 from a parent to its child.
 void BeliefPropagation::send_down(const Input& input, int node) {
+  // What the parent knows without this child.
   Message& m = down_[node];
   const EdgeEnergy& e = input.energy[node];
   gather(input, parent_[node], node, true, m.evidence);
   relative_to_best(m.evidence, m.relative);
+
+  // For each sample of the child, the maximum or the sum over the parent's samples.
   m.log.resize(e.children);
   const float* from = m.relative.data();
   for (std::size_t c = 0; c < e.children; ++c) {
@@ -99,8 +109,11 @@ void BeliefPropagation::send_down(const Input& input, int node) {
       const float x = from[p] - row[p];
       best = best > x ? best : x;
     }
+
+    // The sum is scaled by its largest term.
     m.log[c] = best;
     if (input.marginals == Marginals::max) continue;
+
     float sum = 0;
 #pragma omp simd reduction(+ : sum)
     for (std::size_t p = 0; p < e.parents; ++p) sum += fast_exp(from[p] - row[p] - best);
@@ -110,13 +123,16 @@ void BeliefPropagation::send_down(const Input& input, int node) {
 
 void BeliefPropagation::run(std::span<const Log> log_phi, std::span<const EdgeEnergy> energy, Marginals marginals,
                             Workers& workers, std::span<Log> log_beliefs) {
+  // Messages run from the fingertips to the palm and back, layer by layer.
   const Input input{log_phi, energy, marginals};
   for (std::size_t d = layers_.size() - 1; d > 0; --d)
     workers.for_each_index(static_cast<int>(layers_[d].size()), [&](int k) { send_up(input, layers_[d][k]); });
   for (std::size_t d = 1; d < layers_.size(); ++d)
     workers.for_each_index(static_cast<int>(layers_[d].size()), [&](int k) { send_down(input, layers_[d][k]); });
+
+  // Eq. 8.
   for (std::size_t i = 0; i < parent_.size(); ++i) {
-    gather(input, static_cast<int>(i), -1, true, log_beliefs[i]);  // Eq. 8
+    gather(input, static_cast<int>(i), -1, true, log_beliefs[i]);
     normalise(log_beliefs[i]);
   }
 }

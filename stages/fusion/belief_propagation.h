@@ -8,36 +8,38 @@
 
 namespace barehand {
 
-/// -log psi (Eq. 4) of every pair of samples of a child and its parent; >= 0.
+/// -log psi (Eq. 4), >= 0, of all pairs of a child's and its parent's samples.
 struct EdgeEnergy {
-  std::size_t parents = 0, children = 0;  ///< number of samples
+  std::size_t parents = 0, children = 0;  ///< numbers of samples
   std::vector<float> value;               ///< row-major: one row per child sample, contiguous over parent samples
   const float* row(std::size_t child) const { return value.data() + child * parents; }
 };
 
-/// Sum-product gives posterior marginals, max-product max-marginals (its best states form the best configuration).
+/// Sum-product yields the posterior marginals, max-product the max-marginals, whose best states form the most likely
+/// configuration.
 enum class Marginals { sum, max };
 
-/// Exact belief propagation on a tree (Eq. 7, 8) in the log domain, so that nothing under- or overflows. Keeps its
-/// memory from call to call, and nothing else.
+/// Exact belief propagation on a tree (Eq. 7, 8), in the log domain to avoid underflow and overflow. An object keeps
+/// its buffers between calls but no other state.
 class BeliefPropagation {
  public:
-  /// parent[i] < i is node i's parent, -1 for node 0.
+  /// parent[i] < i is the parent of node i; parent[0] = -1.
   explicit BeliefPropagation(std::span<const int> parent);
 
-  /// log_phi[i][k]: log observation of node i's sample k, finite. energy[i]: of the edge from i to its parent;
-  /// energy[0] is unused. At least one sample per node. `log_beliefs`, one a node, are normalised so that their
-  /// exponentials sum to 1. Same result for any number of workers.
+  /// Computes the belief of every node. log_phi[i][k]: finite log observation of sample k of node i, at least one
+  /// sample per node. energy[i]: the edge from i to its parent; energy[0] is unused. `log_beliefs`: one list per node,
+  /// normalised so that the exponentials sum to 1. The result does not depend on the number of workers.
   void run(std::span<const std::vector<double>> log_phi, std::span<const EdgeEnergy> energy, Marginals marginals,
            Workers& workers, std::span<std::vector<double>> log_beliefs);
 
  private:
+  // The arguments of run().
   struct Input {
     std::span<const std::vector<double>> log_phi;
     std::span<const EdgeEnergy> energy;
     Marginals marginals;
   };
-  /// Of one edge in one direction, with what it takes to compute it.
+  /// A message along an edge in one direction, and the buffers to compute it.
   struct Message {
     std::vector<double> log, evidence;
     std::vector<float> relative, best, sum;
@@ -47,8 +49,9 @@ class BeliefPropagation {
   void send_down(const Input& input, int node);
 
   std::vector<int> parent_;
-  std::vector<std::vector<int>> children_, layers_;  ///< layers: nodes of equal depth, independent of each other
-  std::vector<Message> up_, down_;                   ///< from node i to its parent, and from its parent to node i
+  /// layers: nodes of equal depth, which do not depend on each other
+  std::vector<std::vector<int>> children_, layers_;
+  std::vector<Message> up_, down_;  ///< from node i to its parent, and from its parent to node i
 };
 
 }  // namespace barehand

@@ -66,14 +66,16 @@ const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const Han
 
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {
   FusedPose fused;
+
+  // The pose.
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& poses = samples.poses[s];
     const auto& log_belief = belief.log_belief[s];
-    // The mean over the best sample alone is the best sample itself.
+    // With a radius of 0 only the best sample is averaged, so the result is the best sample itself.
     const bool mean = params_.read_out == "mean";
     fused.pose[s] = mode_mean(poses, log_belief, mean ? params_.mode_radius : 0, params_.mode_angle_deg * kDegree);
 
-    // n samples fill a 6D box with a spacing of n^(-1/6) of its width.
+    // The covariance. n samples fill a box in six dimensions with a spacing of n^(-1/6) of its width.
     const double per_kernel = std::max(1.0, static_cast<double>(poses.size()) / params_.kernels);
     const Vector6d spacing = half_width(s, params_.levels - 1, interval_factor) * std::pow(per_kernel, -1.0 / 6);
     Matrix6d axes = Matrix6d::Zero();

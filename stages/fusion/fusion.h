@@ -12,36 +12,40 @@
 
 namespace barehand {
 
-/// Final estimate of one frame from the last level's belief.
+/// The final estimate of one frame, read from the belief of the last level.
 struct FusedPose {
-  HandPose pose;                                   ///< segments need not touch exactly (Sec. 3.1)
-  std::array<Matrix6d, kSegmentCount> covariance;  ///< of the belief around `pose`, boxplus twist, camera frame
+  HandPose pose;                                   ///< neighbouring segments need not meet exactly (Sec. 3.1)
+  std::array<Matrix6d, kSegmentCount> covariance;  ///< of the belief around `pose`; boxplus twist, camera frame
 };
 
-/// Combines the local trackers through the hand's structure (paper Sec. 4.3) and narrows the search level by level
-/// (Sec. 4.4). Results depend on the arguments alone, and those that are references are valid until the same kind of
-/// result is asked for again: their memory is kept. Every segment of `samples` needs at least one sample.
+/// Combines the local trackers through the structure of the hand (paper Sec. 4.3) and narrows the search level by
+/// level (Sec. 4.4). Results depend on the arguments only. A returned reference is valid until the same function is
+/// called again, because its memory is reused. Every segment of `samples` needs at least one sample.
 class Fusion {
  public:
+  /// `workers` must outlive this object.
   Fusion(const FusionParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers);
 
   const FusionParams& params() const { return params_; }
 
-  /// One box per segment around the prediction: the proposals of level 0. `interval_factor` scales every range of the
-  /// frame: time since the last frame over the nominal interval (a dropped frame doubles it).
+  /// The proposals of level 0: one box per segment around the prediction. `interval_factor` scales all search ranges
+  /// of the frame: the time since the last frame relative to the nominal interval (2 after a dropped frame).
   const Proposals& first_proposals(const HandPose& predicted, double interval_factor = 1);
-  /// Marginal posterior of every segment over its samples, exact on the tree (Eq. 4-8). `level` from 0.
+  /// Marginal posterior of every segment over its samples, exact on the tree (Eq. 4-8). Levels count from 0.
   const HandBelief& fuse(const SegmentSamples& samples, int level);
-  /// Bytes that fuse holds for `samples` per segment: the energies of all pairs along the 15 joints.
+  /// Memory that fuse() needs for this number of samples per segment: the energies of all pairs of samples at the 15
+  /// joints [bytes].
   static std::int64_t memory(std::int64_t samples);
-  /// The S' best distinct samples of `level` as boxes of level + 1, best first; fewer where they are not distinct.
+  /// The proposals of level + 1: boxes around the best distinct samples of `level`, best first, at most S' of them.
   const Proposals& next_proposals(const SegmentSamples& samples, const HandBelief& belief, int level,
                                   double interval_factor = 1);
-  /// Pose and covariance from the last level. The covariance is that of all samples under the belief, plus the
-  /// variance of the last level's box between two samples: sampling cannot know better than its own spacing.
+  /// Pose and covariance after the last level. The covariance is that of all samples under the belief, plus the
+  /// variance of the box between two samples of the last level, since sampling cannot be more accurate than the
+  /// spacing of the samples.
   FusedPose read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor = 1) const;
 
  private:
+  // Half widths of a segment's box at a level: translation [m], rotation [rad].
   Vector6d half_width(int segment, int level, double interval_factor) const;
 
   FusionParams params_;

@@ -4,8 +4,9 @@
 
 namespace barehand {
 
-/// Soft constraints, message passing and hierarchy of the fusion stage (paper Sec. 4.3, 4.4). "start" and "end" are the
-/// values at the first and last level, geometric in between; the paper keeps its sigmas constant.
+/// Settings of the soft constraints, the message passing and the hierarchy of levels (paper Sec. 4.3, 4.4). "start"
+/// and "end" are the values at the first and the last level, with a geometric progression in between; the paper keeps
+/// its sigmas constant.
 struct FusionParams {
   int levels = 4;
   int kernels = 5;

@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-/// Largest offset of b against a on any axis of a's own frame, in half widths.
+/// Largest offset of b relative to a on any axis of a's frame, in half widths.
 double box_distance(const SE3& a, const SE3& b, const Vector6d& half_width) {
   Vector6d offset;
   offset.head<3>() = a.R.transpose() * (b.t - a.t);
@@ -20,11 +20,14 @@ double box_distance(const SE3& a, const SE3& b, const Vector6d& half_width) {
 const std::vector<std::size_t>& DistinctChoice::best(const std::vector<SE3>& poses,
                                                      const std::vector<double>& log_belief, int count,
                                                      const Vector6d& half_width, double separation) {
+  // Sort by belief.
   order_.resize(poses.size());
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
     return log_belief[a] > log_belief[b] || (log_belief[a] == log_belief[b] && a < b);
   });
+
+  // Take samples that are far enough from all earlier ones.
   chosen_.clear();
   for (const std::size_t i : order_) {
     if (static_cast<int>(chosen_.size()) == count) break;

@@ -6,11 +6,13 @@
 
 namespace barehand {
 
-/// Chooses samples that are good and apart. Keeps its memory from call to call, and nothing else.
+/// Selects samples that are good and differ from each other. An object keeps its buffers between calls but no other
+/// state.
 class DistinctChoice {
  public:
-  /// Indices of at most `count` samples by falling belief (equal beliefs: lower index first); none lies closer to an
-  /// earlier choice than `separation` half widths on every axis of that choice's frame. Valid until the next call.
+  /// Indices of at most `count` samples in the order of falling belief; of equal beliefs the lower index comes first.
+  /// A sample is left out if it lies within `separation` half widths of an earlier choice on every axis of that
+  /// choice's frame. Valid until the next call.
   const std::vector<std::size_t>& best(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
                                        const Vector6d& half_width, double separation);
 

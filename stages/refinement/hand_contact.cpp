@@ -9,11 +9,11 @@ namespace {
 using Eigen::Vector3d;
 using Axis = std::array<Vector3d, 2>;
 
-constexpr double kCarpus = 0.3;     // where a finger's rod in the palm begins, between wrist and knuckle
-constexpr double kTiny = 1e-12;     // m^2
-constexpr double kPalmShare = 0.9;  // radius of a rod in the palm, relative to the finger's root
+constexpr double kCarpus = 0.3;     // a finger's rod in the palm begins this far from the wrist to the knuckle
+constexpr double kTiny = 1e-12;     // m^2; squared lengths below this count as zero
+constexpr double kPalmShare = 0.9;  // radius of a rod in the palm, relative to the root of its finger
 
-/// The closest points of two line segments of some length (Ericson, Real-Time Collision Detection, 5.1.9).
+/// The closest points of two line segments of non-zero length (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Vector3d, 2> closest_points(const Axis& a, const Axis& b) {
   const Vector3d d_a = a[1] - a[0], d_b = b[1] - b[0], r = a[0] - b[0];
   const double aa = d_a.squaredNorm(), bb = d_b.squaredNorm(), ab = d_a.dot(d_b);
@@ -28,6 +28,7 @@ double least_radius(const SegmentProfile& s) {
   return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});
 }
 
+// Segments of one finger, and the proximal phalanges of neighbouring fingers (joined by the web), overlap in any hand.
 bool may_overlap_by_nature(int a, int b) {
   const bool roots = a == segment_of(finger_of(a), 0) && b == segment_of(finger_of(b), 0);
   return finger_of(a) == finger_of(b) || (roots && std::abs(finger_of(a) - finger_of(b)) == 1);
@@ -36,7 +37,7 @@ bool may_overlap_by_nature(int a, int b) {
 }  // namespace
 
 HandContact::HandContact(const HandProfile& profile) {
-  // The first segment of the thumb lies within the palm's flesh.
+  // One rod per phalanx. The thumb's metacarpal has none, since it lies within the flesh of the palm.
   for (int s = segment_of(0, 1); s < kSegmentCount; ++s) {
     const SegmentProfile& phalanx = profile.segments[s];
     Rod rod{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
@@ -44,6 +45,8 @@ HandContact::HandContact(const HandProfile& profile) {
       rod.ends[end] += Vector3d(phalanx.flesh_offset_x[end], phalanx.flesh_offset_y[end], 0);
     rods_.push_back(rod);
   }
+
+  // One rod in the palm for each finger but the thumb, from the carpus to the knuckle.
   const int phalanges = static_cast<int>(rods_.size());
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const int root = segment_of(finger, 0);
@@ -51,6 +54,8 @@ HandContact::HandContact(const HandProfile& profile) {
     const Vector3d knuckle = profile.rest_relative(root).t;
     rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, kPalmShare * std::min(s.half_width[0], s.half_thickness[0])});
   }
+
+  // Pairs to test: phalanges against phalanges, and all but the proximal phalanges against the palm.
   const int rods = static_cast<int>(rods_.size());
   for (int a = 0; a < phalanges; ++a) {
     const int s = rods_[a].segment;
@@ -64,9 +69,12 @@ HandContact::HandContact(const HandProfile& profile) {
 template <class Use>
 void HandContact::for_each_overlap(const HandPose& pose, const Use& use) const {
   constexpr int kMostRods = 2 * kSegmentCount;
+  // Pose the axes of all rods in the camera frame.
   std::array<Axis, kMostRods> axes;
   for (std::size_t i = 0; i < rods_.size(); ++i)
     for (int end = 0; end < 2; ++end) axes[i][end] = pose[rods_[i].segment] * rods_[i].ends[end];
+
+  // Report the pairs whose axes come closer than the sum of their radii.
   for (const auto& [a, b] : pairs_) {
     const auto [p_a, p_b] = closest_points(axes[a], axes[b]);
     const double reach = rods_[a].radius + rods_[b].radius;
@@ -79,8 +87,11 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
   double total = 0;
   for_each_overlap(pose, [&](const Rod& a, const Rod& b, const Vector3d& p_a, const Vector3d& p_b, double overlap) {
     total += information * overlap * overlap;
+
     const Vector3d between = p_a - p_b;
-    if (between.squaredNorm() < kTiny) return;  // axes that meet: no side to move to
+    if (between.squaredNorm() < kTiny) return;  // the axes intersect, so the direction of the push is undefined
+
+    // Push both segments apart along the line between the closest points; see add_terms() for the factor 2.
     const Vector3d away = between.normalized();
     const auto push = [&](int s, const Vector3d& p, const Vector3d& direction) {
       const Vector6d row = -(point_jacobian(p - pose[s].t).transpose() * direction);

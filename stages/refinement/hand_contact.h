@@ -8,32 +8,34 @@
 
 namespace barehand {
 
-/// What keeps fingers and palm from passing through one another: a round rod within the skin of every phalanx and of
-/// every finger's part of the palm. Rods of different fingers may touch, not overlap; what the web joins is left out.
+/// Keeps fingers and palm from passing through one another. Every phalanx, and the part of the palm that leads to each
+/// finger, carries a capsule ("rod") within its skin. Rods of different fingers may touch but not overlap; pairs that
+/// overlap in every real hand, such as neighbouring proximal phalanges joined by the web, are left out.
 class HandContact {
  public:
   explicit HandContact(const HandProfile& profile);
 
-  /// Overlaps as least squares with the standard deviation `sigma` [m]; returns the energy. Two segments of different
-  /// fingers have no block in the tree: each is moved as if the other stayed, with twice the information, which bounds
-  /// the energy from above (|a - b|^2 <= 2 |a|^2 + 2 |b|^2), so that both together do not overshoot.
+  /// Adds every overlap as a least-squares residual with the standard deviation `sigma` [m] to `tree`; returns the
+  /// energy. The tree has no block for two segments of different fingers, so each of the two is moved as if the other
+  /// stayed. The doubled information bounds the energy from above (|a - b|^2 <= 2 |a|^2 + 2 |b|^2) and keeps the two
+  /// moves together from overshooting.
   double add_terms(const HandPose& pose, double sigma, GaussianTree& tree) const;
-  /// The deepest overlap [m]; 0 if there is none.
+  /// The deepest overlap of two rods [m]; 0 if no rods overlap.
   double deepest(const HandPose& pose) const;
 
  private:
   struct Rod {
     int segment = 0;
-    std::array<Eigen::Vector3d, 2> ends;  // of its axis, in the segment frame [m]
+    std::array<Eigen::Vector3d, 2> ends;  // ends of the rod's axis, in the segment frame [m]
     double radius = 0;                    // [m]
   };
-  /// Calls `use(a, b, p_a, p_b, overlap)` for every two rods that overlap: the closest points of their axes in the
-  /// camera frame.
+  /// Calls `use(rod_a, rod_b, p_a, p_b, overlap)` for every pair of rods that overlap. p_a and p_b are the closest
+  /// points of the two axes in the camera frame [m]; `overlap` is the depth of the overlap [m].
   template <class Use>
   void for_each_overlap(const HandPose& pose, const Use& use) const;
 
   std::vector<Rod> rods_;
-  std::vector<std::array<int, 2>> pairs_;  // of rods_
+  std::vector<std::array<int, 2>> pairs_;  // indices into rods_ of the pairs that are tested
 };
 
 }  // namespace barehand

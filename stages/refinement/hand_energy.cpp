@@ -19,6 +19,7 @@ using Kind = Correspondence::Kind;
 double sq(double x) { return x * x; }
 float sq(float x) { return x * x; }
 
+/// Turns a correspondence into weighted residuals along up to four directions.
 class DataTerm {
  public:
   DataTerm(const EnergyParams& p, const DataWeighting& w)
@@ -30,8 +31,8 @@ class DataTerm {
         folds_(static_cast<float>(w.folds)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
-  /// Calls `use(direction, residual, information)` with the residual model - data in every direction that counts, up to
-  /// four of them; returns the energy, 0 if it is gated out.
+  /// Calls `use(direction, residual, information)` with the residual model - data [m] along every direction that
+  /// counts, up to four of them. Returns the energy; 0 if the correspondence is beyond the gate.
   template <class Use>
   double add(const Correspondence& c, const SkinVertex& v, const Use& use) const {
     const Vector3f r = c.model - c.data;
@@ -58,7 +59,7 @@ class DataTerm {
     return share * robust.energy(distance_sq);
   }
 
-  // The silhouette says nothing about depth.
+  // Model outside the data is pulled in the image plane only, since the silhouette says nothing about depth.
   template <class Use>
   double add_outside(const Vector3f& r, float share, const Use& use) const {
     const float distance_sq = r.head<2>().squaredNorm();
@@ -68,8 +69,9 @@ class DataTerm {
     return share * outside_.energy(distance_sq);
   }
 
-  // The data is a point of the skin. Most of it lies beside a silhouette, where the surface turns away, millimetres
-  // deeper than the model's last cell however well that fits: there the pull along the surface misleads.
+  // Unexplained data is a point of the skin that the model must reach. Most of it lies beside the silhouette, where
+  // the surface turns away and is millimetres deeper than the model's nearest cell even if the model fits well: there
+  // the pull along the surface would mislead.
   template <class Use>
   double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
     if (r.squaredNorm() > unexplained_.gate_sq) return 0;
@@ -82,6 +84,7 @@ class DataTerm {
     return share * unexplained_.energy(distance_sq);
   }
 
+  // The skin of palm and thumb root differs most from person to person, so it counts less.
   float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
   float trust(const SkinVertex& v) const {
     const float of_segments = (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b);
@@ -93,11 +96,12 @@ class DataTerm {
   }
 
   Robust surface_, outside_, unexplained_;
-  float tangential_;  // share of the pull along the surface
-  float folds_;
+  float tangential_;  // share of the pull of unexplained data along the surface
+  float folds_;       // see fold_penalty()
   float palm_trust_;
 };
 
+/// The skinning weight of the vertex's second segment after hidden segments lost theirs (DataWeighting::hidden).
 float shown_weight_b(const SkinVertex& v, const std::array<double, kSegmentCount>& hidden) {
   const double a = (1 - v.weight_b) * (1 - hidden[v.a]), b = v.weight_b * (1 - hidden[v.b]);
   return a + b > 0 ? static_cast<float>(b / (a + b)) : v.weight_b;
@@ -112,6 +116,7 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
   ResidualMoments sums(pose);
   double total = 0;
   for (const Correspondence& c : comparison.correspondences) {
+    // The pose sees the shifted skinning weights, the shape the true ones.
     const SkinVertex& v = skin.vertices[c.vertex];
     SkinVertex moved = v;
     moved.weight_b = shown_weight_b(v, weighting.hidden);
@@ -128,12 +133,14 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree) {
   double total = 0;
   for (int s = 1; s < kSegmentCount; ++s) {
+    // The joint gap (Eq. 5).
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
     tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
+    // Angles beyond the limits and twist (Eq. 6).
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / sq(params.sigma_angle_deg * kDegree);
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W_angle);
@@ -145,6 +152,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
 double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
                        const std::array<double, kSegmentCount>& seen, const HandPose& pose, const EnergyParams& params,
                        GaussianTree& tree) {
+  // The palm is pulled to its predicted pose in the camera frame.
   Vector6d information;
   information << Vector3d::Constant(1 / sq(params.prior_translation)),
       Vector3d::Constant(1 / sq(params.prior_rotation_deg * kDegree));
@@ -154,10 +162,12 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
   double total = r.cwiseProduct(information).dot(r);
 
   for (int s = 1; s < kSegmentCount; ++s) {
+    // An unseen joint is held more firmly than a seen one.
     const double unseen_information = 1 / sq(params.prior_unseen_deg * kDegree);
     const double seen_information = 1 / sq(params.prior_rotation_deg * kDegree);
     const double w = seen[s] * seen_information + (1 - seen[s]) * unseen_information;
     const JointLinearisation joint = linearise_joint(profile, pose, s);
+    // The rotation by which the joint has left its prediction.
     const JointLinearisation aim = linearise_joint(profile, predicted, s);
     const Vector3d turn = log_so3(joint.R_joint_segment * aim.R_joint_segment.transpose());
     const JointJacobians J = joint.of_turn();

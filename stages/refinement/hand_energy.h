@@ -10,10 +10,10 @@ namespace barehand {
 
 class ShapeMoments;
 
-/// Weights of the continuous energy: the negative logarithm of the paper's likelihood (Eq. 3) and constraints
-/// (Eq. 4-6), made robust and taken over all segments at once.
+/// Weights of the continuous energy that refinement minimises: the negative logarithm of the paper's likelihood
+/// (Eq. 3) and constraints (Eq. 4-6), made robust and summed over all segments at once.
 struct EnergyParams {
-  double sigma_depth = 0.002;        ///< m, of a surface distance
+  double sigma_depth = 0.002;        ///< m, standard deviation of a surface distance
   double robust_scale = 0.004;       ///< m, Geman-McClure scale of surface distances
   double gate = 0.015;               ///< m, larger surface distances are ignored
   double silhouette_scale = 0.008;   ///< m, Geman-McClure scale of silhouette distances
@@ -52,30 +52,34 @@ void visit(V& v, EnergyParams& p) {
   v("prior_unseen_deg", p.prior_unseen_deg, 0.1, 3600.0, "degrees, pull of unseen joints to their prediction");
 }
 
-/// How the data counts in one step.
+/// How the data term is weighted in one Gauss-Newton step.
 struct DataWeighting {
-  double widening = 1;    ///< gates and scales are so many times as wide
-  double tangential = 0;  ///< 0 to 1, of the pull of unexplained data along the surface
-  /// 0 to 1: so much less of the pull at skin between two segments moves this one, and more the other. The normal
-  /// equations are those of the energy where all are 0.
+  double widening = 1;    ///< factor on all gates and robust scales
+  double tangential = 0;  ///< 0 to 1: share of the pull of unexplained data that also acts along the surface
+  /// Per segment, 0 (visible) to 1 (hidden): w' = w (1 - hidden) replaces each of the two skinning weights w of a
+  /// vertex, which are then normalised. So skin that blends into a hidden segment moves its visible neighbour instead.
+  /// The normal equations are exactly those of the energy where all values are 0.
   std::array<double, kSegmentCount> hidden{};
-  double folds = 0;  ///< by which skin between two segments counts less: fold_penalty()
+  double folds = 0;  ///< down-weights skin that blends two segments: see fold_penalty()
 };
 
-/// Gauss-Newton normal equations of the data term at `pose` (Geman-McClure by iterated reweighting): a surface
-/// correspondence pulls along the model's normal, model outside the data in the image plane, model that should be
-/// behind it along the optical axis, unexplained data along the normal and in part along the surface. Needs the
-/// comparison's normals. Adds to `tree`, and what the residuals say about the shape to `shape`; returns the robust
-/// energy.
+/// Gauss-Newton normal equations of the data term at `pose`, with Geman-McClure weights (iteratively reweighted least
+/// squares). A surface correspondence pulls along the model's normal; model outside the data pulls in the image plane;
+/// model that should be behind the data pulls along the optical axis; unexplained data pulls along the normal and, in
+/// part, along the surface. `comparison` must contain normals. Adds to `tree` and, if given, the shape's share to
+/// `shape`; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);
 
-/// Soft joints (Eq. 4-6) as least squares: gap, flexion and abduction beyond their limits, twist. Returns the energy.
+/// Soft joints (Eq. 4-6) as least squares: the joint gap, flexion and abduction beyond `limits` [rad], and twist. Adds
+/// to `tree`; returns the energy.
 double add_joint_terms(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree);
 
-/// Pull to the predicted pose: the palm in the camera frame, every joint relative to its parent; `seen[s]` in [0, 1].
+/// Weak pull to the predicted pose: the palm in the camera frame, every joint relative to its parent. `seen[s]` in
+/// [0, 1] blends the information of joint s from that of an unseen (0) to that of a seen joint (1). Adds to `tree`;
+/// returns the energy.
 double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
                        const std::array<double, kSegmentCount>& seen, const HandPose& pose, const EnergyParams& params,
                        GaussianTree& tree);

@@ -14,12 +14,13 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
-constexpr double kRangeDeviation = 0.2887;  // of a uniform distribution over a range of 1
-constexpr double kAnywhere = 1.0;           // m and rad: the palm without data
+constexpr double kRangeDeviation = 0.2887;  // standard deviation of a uniform distribution over a range of 1
+constexpr double kAnywhere = 1.0;           // m and rad: deviation of a palm without data
 
 double sq(double x) { return x * x; }
 
-// Deviations of flexion, abduction and twist about their estimates [rad].
+// Standard deviations of flexion, abduction and twist about their estimates [rad]; `hidden_for`: time without data
+// [s].
 Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const JointLimits& limits, double hidden_for) {
   const double twist = energy.sigma_angle_deg * kDegree;
   const double moved = std::hypot(p.just_hidden_deg, p.growth_deg * std::sqrt(hidden_for)) * kDegree;
@@ -29,7 +30,8 @@ Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const Jo
   return {std::max(flexion, twist), std::max(abduction, twist), twist};
 }
 
-// The joint's ends meet, and its angles are as estimated to within `deviation`.
+// Adds the constraints that the joint's ends meet (within `sigma_gap` [m]) and that its angles are as estimated to
+// within `deviation` [rad].
 void hold_joint(const JointLinearisation& joint, int s, const Vector3d& deviation, double sigma_gap,
                 GaussianTree& tree) {
   const Vector3d zero = Vector3d::Zero();
@@ -50,9 +52,12 @@ void PoseUncertainty::restart() { hidden_for_.fill(kNeverSeen); }
 std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfile& profile, const RefinedPose& refined,
                                                                 const std::array<bool, kSegmentCount>& hidden,
                                                                 double dt) {
+  // The skin's deviation depends on how well the profile knows the person.
   const double factor = (profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor) *
                         (profile.scanned_skin ? params_.scanned_factor : 1.0);
-  // A patch counts once, with the deviation of the skin instead of that of a pixel.
+
+  // Within a patch of skin the model's error is common to all pixels, so a patch counts as one measurement with the
+  // deviation of the skin instead of that of a pixel.
   const double scale =
       kReferenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);
   GaussianTree tree = refined.evidence;
@@ -60,15 +65,19 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
     tree.H_self[s] *= scale;
     tree.H_parent[s] *= scale;
   }
+
+  // The palm without data may be anywhere; every other segment hangs on its joint.
   tree.H_self[kPalm].diagonal().array() += 1 / sq(kAnywhere);
   const auto limits = widened_limits(profile, energy_.limit_widening_deg * kDegree);
   for (int s = 1; s < kSegmentCount; ++s) {
     hidden_for_[s] = hidden[s] ? hidden_for_[s] + dt : 0;
-    // What is seen is held by its data; its joint might be anywhere.
+    // A visible segment is held by its data alone, so its joint is left free over its range.
     const Vector3d deviation = spread(params_, energy_, limits[s], hidden[s] ? hidden_for_[s] : kNeverSeen);
     const JointLinearisation joint = linearise_joint(profile, refined.pose, s);
     hold_joint(joint, s, deviation, energy_.sigma_gap, tree);
   }
+
+  // The marginal covariances, to which the unknown place of the joint within the skin is added.
   std::array<Matrix6d, kSegmentCount> covariance;
   if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * sq(kAnywhere));
   for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += sq(factor * params_.joint_deviation);

@@ -4,7 +4,8 @@
 
 namespace barehand {
 
-/// What keeps a pose from the truth although the energy is at its minimum.
+/// Why an estimated pose differs from the true one although the energy is at its minimum: errors of the model and
+/// joints that were not seen. Standard deviations and factors of these.
 struct UncertaintyParams {
   double skin_deviation = 0.0007;   ///< m, of the person's skin from the model's, common to a patch
   double skin_patch = 0.010;        ///< m, side of such a patch: more pixels within it say no more
@@ -30,28 +31,31 @@ void visit(V& v, UncertaintyParams& p) {
   v("growth_deg", p.growth_deg, 0.1, 3600.0, "degrees after a second, growth of it with the square root of the time");
 }
 
-/// Covariance of every segment of a refined pose: marginals, on the hand's tree, of what the frame says (every patch of
-/// skin once), of the joints that hold the segments together, and of how long a hidden joint has had to move.
-/// Follows one hand from frame to frame.
+/// Estimates the covariance of every segment of a refined pose, as marginals of a Gaussian on the hand's tree. The
+/// Gaussian combines the evidence of the frame (every patch of skin counts once), the joints that hold the segments
+/// together, and the time that a hidden joint has had to move. One object follows one hand from frame to frame.
 class PoseUncertainty {
  public:
+  /// `energy`: the parameters with which the poses are refined.
   PoseUncertainty(const UncertaintyParams& params, const EnergyParams& energy);
 
-  /// Another hand, or one found anew: nothing is known of joints that are not seen.
+  /// Call when another hand is tracked or the track starts anew: the joints that are not seen may then be anywhere.
   void restart();
-  /// Once a frame. `hidden[s]`: the segment's pose comes from structure and motion; `dt`: since the frame before [s].
-  /// Covariances of the boxplus twist (translation, rotation), camera frame.
+  /// Call once a frame. `hidden[s]`: the pose of segment s was inferred from structure and motion, not from data;
+  /// `dt`: time since the previous frame [s]. Returns the covariances of the boxplus twist (translation [m], rotation
+  /// [rad]) in the camera frame.
   std::array<Matrix6d, kSegmentCount> covariance(const HandProfile& profile, const RefinedPose& refined,
                                                  const std::array<bool, kSegmentCount>& hidden, double dt);
 
  private:
   UncertaintyParams params_;
   EnergyParams energy_;
-  std::array<double, kSegmentCount> hidden_for_;  // [s]
+  std::array<double, kSegmentCount> hidden_for_;  // time since the segment was seen last [s]
 };
 
-/// Probability that a point whose error has this covariance [m^2] is within `radius` [m] of the truth: a weighted sum
-/// of three squared normals, taken as a gamma distribution of the same mean and variance (Satterthwaite 1946).
+/// Probability that a point whose error has the covariance `covariance` [m^2] is within `radius` [m] of the truth. The
+/// squared error is a weighted sum of three squared normals, approximated by a gamma distribution of the same mean and
+/// variance (Satterthwaite 1946).
 double probability_within(double radius, const Eigen::Matrix3d& covariance);
 
 }  // namespace barehand

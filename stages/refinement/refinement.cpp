@@ -8,21 +8,21 @@
 namespace barehand {
 namespace {
 
-// A palm whose own shape is being fitted deserves more trust than one that stays wrong.
+// While the shape is fitted, the palm's skin is being corrected, so it deserves more trust than in tracking.
 constexpr double kShapePalmTrust = 0.3;
-// m. Where a mean hand's skin is far off it must change most, so that is no outlier.
+// m. The skin of a mean hand must change most where it is farthest off, so large distances are no outliers there.
 constexpr double kShapeRobustScale = 0.012;
 
-// Far from the goal a coarse comparison leads as well.
+// Far from the optimum a coarse comparison leads the same way at a lower cost.
 constexpr int kFineSteps = 3;
-constexpr double kCoarseCell = 0.006;       // m, of its skin
-constexpr std::size_t kManyPixels = 10000;  // of a hand: every other cell is enough of them
+constexpr double kCoarseCell = 0.006;       // m, cell of the coarse skin
+constexpr std::size_t kManyPixels = 10000;  // of a hand; with more, every other cell suffices
 
-constexpr double kFree = 0.4;   // of a segment's skin agrees with data: it may leave its prediction freely
-constexpr double kShown = 0.1;  // of it agrees: skin at its joints may turn it
-constexpr double kFolds = 4;    // DataWeighting::folds of a guess
+constexpr double kFree = 0.4;   // fraction of matched skin from which a segment may freely leave its prediction
+constexpr double kShown = 0.1;  // fraction of matched skin from which skin at a segment's joints may rotate it
+constexpr double kFolds = 4;    // DataWeighting::folds for skin that was not scanned
 
-// How far each segment's fraction that agrees with data is on the way to `enough`, 0 to 1.
+// The matched fraction of each segment relative to `enough`, clamped to [0, 1].
 std::array<double, kSegmentCount> towards(double enough, const RefinedPose& pose) {
   std::array<double, kSegmentCount> share;
   for (int s = 0; s < kSegmentCount; ++s) share[s] = std::clamp(pose.matched[s] / enough, 0.0, 1.0);
@@ -65,8 +65,12 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen,
                       const DataWeighting& weighting, const Skin& skin, Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
+
+  // The evidence of the data is kept apart, since the covariance is computed from it.
   refined.evidence.set_zero();
   add_data_terms(skin, pose, work.comparison, params_.energy, weighting, refined.evidence);
+
+  // Add the joints, the contact between fingers, the prior and the damping.
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
@@ -75,9 +79,10 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
     tree.H_self[s].diagonal() *= 1 + params_.damping;
     tree.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
   }
+
+  // Solve. All segments share one step scale, so that a long step that is shortened keeps the joints closed.
   std::array<Vector6d, kSegmentCount> x;
   if (!tree.solve(x)) return false;
-  // One scale for the whole hand, so that a long step keeps the joints closed.
   double scale = 1;
   for (const Vector6d& twist : x) {
     scale = std::min(scale, params_.max_translation / std::max(twist.head<3>().norm(), 1e-12));
@@ -108,13 +113,17 @@ RefinedPose Refinement::refine(const HandObservation& observation, const HandPos
 RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                                     const HandPose& predicted, int iterations) const {
   const auto is_fine = [&](int i) { return i + kFineSteps >= iterations; };
-  // What step i sees; the score after the last one is a fine one.
+
+  // Only the first steps compare coarsely; the last ones and the score after them compare finely.
   const auto detail = [&](int i) { return is_fine(i) ? fine() : coarse(observation); };
+
+  // Take the start that explains the frame best.
   auto work = workspaces_.take();
   RefinedPose result;
   result.pose = starts[0];
   result.evidence.set_zero();
   compare_at(observation, starts[0], detail(0), Normals::computed, *work);
+
   for (const HandPose& start : starts.subspan(1)) {
     auto other = workspaces_.take();
     compare_at(observation, start, detail(0), Normals::computed, *other);
@@ -123,23 +132,31 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     result.pose = start;
   }
   summarise(*work, result);
+
+  // How freely each segment may leave its prediction depends on how much of it is seen there.
   const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
+
   const bool measured = profile_->origin == ProfileOrigin::measured;
-  // How skin folds at joints is a guess until it is scanned: frame after frame it would turn a hidden finger.
+
+  // How skin folds at joints is only guessed until it is scanned, and would slowly rotate a hidden finger.
   const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;
   if (!folds_known)
     for (int s = 0; s < kSegmentCount; ++s) weighting.hidden[s] = 1 - shown[s];
+
+  // Take Gauss-Newton steps with gates and robust scales that shrink from step to step.
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
-    // A mean hand's silhouette is off by more than the surface turns away beside it: its pull stays whole.
+    // A mean hand's silhouette errs by more than its surface turns away there, so it keeps its full pull.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
-    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // from afar they lead as well
+    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // only a fine step suffers from wrong folds
+
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);
   }
+
   summarise(*work, result);
   return result;
 }
@@ -148,6 +165,8 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
                                  ShapeEquations& equations) const {
   const auto work = workspaces_.take();
   compare_at(observation, pose, fine(), Normals::computed, *work);
+
+  // Weight the data for fitting the shape instead of tracking.
   RefinedPose judged;
   summarise(*work, judged);
   equations.set_zero();
@@ -155,6 +174,8 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   EnergyParams energy = params_.energy;
   energy.palm_trust = kShapePalmTrust;
   energy.robust_scale = kShapeRobustScale;
+
+  // Sum up the data and everything else that holds the pose.
   ShapeMoments moments;
   moments.reset(pose, skin_->vertices.size());
   add_data_terms(*skin_, pose, work->comparison, energy, {}, tree, &moments);
@@ -162,6 +183,8 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   contact_.add_terms(pose, energy.sigma_overlap, tree);
   add_prior_terms(*profile_, pose, towards(kFree, judged), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
+
+  // Couple the pose with the shape.
   moments.add_to(*skin_, basis, equations);
   add_joint_shape(*profile_, pose, basis, energy.sigma_gap, equations);
 }

@@ -10,13 +10,14 @@
 
 namespace barehand {
 
+// Settings of the continuous refinement.
 struct RefinementParams {
   bool enabled = true;
-  int iterations = 5;             ///< Gauss-Newton steps from the best hypothesis
-  double damping = 1e-3;          ///< relative Levenberg damping
-  double first_widening = 2;      ///< gates and robust scales start this much wider and shrink to 1
-  double max_translation = 0.02;  ///< m, longest step of a segment
-  double max_rotation_deg = 25;   ///< largest turn of a segment in one step
+  int iterations = 5;             ///< Gauss-Newton steps from the best start
+  double damping = 1e-3;          ///< Levenberg-Marquardt damping, relative to the diagonal
+  double first_widening = 2;      ///< gates and robust scales start this many times as wide and shrink to 1
+  double max_translation = 0.02;  ///< m, longest translation of a segment in one step
+  double max_rotation_deg = 25;   ///< largest rotation of a segment in one step
   ComparisonParams comparison;
   EnergyParams energy;
   bool operator==(const RefinementParams&) const = default;
@@ -34,59 +35,64 @@ void visit(V& v, RefinementParams& p) {
   v("energy", p.energy, "weights of the energy");
 }
 
-/// A pose, how well it explains the frame, and what was seen of each segment there.
+/// A refined pose, its score, and how much of each segment was seen.
 struct RefinedPose {
   HandPose pose;
   double score = 0;                             ///< ModelComparison::score [m]
   std::array<double, kSegmentCount> visible{};  ///< fraction of the projected skin that is front-most
   std::array<double, kSegmentCount> matched{};  ///< fraction of the projected skin that agrees with hand data
-  GaussianTree evidence;  ///< what the data alone says about the last step; none if no step was taken
+  GaussianTree evidence;  ///< normal equations of the data alone at the last step; zero if no step was taken
 };
 
-/// Robust Gauss-Newton on all 96 numbers with the paper's soft joints: one model with the sampler, since the energy is
-/// the negative log of Eq. 3 and Eq. 4-6. Both functions may be called from several threads at once.
+/// Robust Gauss-Newton on all 96 numbers of the pose with the paper's soft joints. It optimises the same model as the
+/// sampler: the energy is the negative logarithm of Eq. 3 and Eq. 4-6. All const functions may be called from several
+/// threads at once.
 class Refinement {
  public:
   Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
              std::shared_ptr<const Skin> skin);
 
-  /// Moves `start` to a nearby optimum. `predicted` is the weak prior: a segment may leave it the more freely, the more
-  /// of its skin agrees with data at `start`.
+  /// Moves `start` to a nearby optimum. `predicted` is the weak prior: the more of a segment's skin agrees with data
+  /// at `start`, the more freely it may leave its prediction. `iterations`: number of Gauss-Newton steps.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                      int iterations) const;
-  /// The same from that of the starts, at least one, which explains the frame best as it is; the first of equals.
+  /// The same from the one of `starts` (at least one) that explains the frame best before any step; the first of
+  /// equals.
   RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                           const HandPose& predicted, int iterations) const;
-  /// Score and visibility of a pose as it is.
+  /// Score and visibility of an unchanged pose.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
-  /// What the frame says about the hand's shape at a refined pose; `basis` belongs to the skin.
+  /// Normal equations of the hand's shape at a refined pose; `basis` must belong to the skin of this object.
   void shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
                        ShapeEquations& equations) const;
 
  private:
-  /// Buffers of one call.
+  /// Buffers of one call, pooled because calls may run in parallel.
   struct Workspace {
     RenderedHand rendered;
     ModelComparison comparison;
     GaussianTree tree;
   };
-  /// How finely model and data are compared.
+  /// How finely model and data are compared: which skin, and the spacing of the compared pixels.
   struct Detail {
     const Skin& skin;
-    int stride;  // pixels
+    int stride;  // every n-th pixel in both directions
   };
   Detail fine() const;
   Detail coarse(const HandObservation& observation) const;
   void compare_at(const HandObservation& observation, const HandPose& pose, const Detail& detail, Normals normals,
                   Workspace& work) const;
+  // Copies the score and the visible and matched fractions of the segments to `result`.
   void summarise(const Workspace& work, RefinedPose& result) const;
+  // One Gauss-Newton step on `refined.pose`. `seen`: as in add_prior_terms(). Returns false if the normal equations
+  // cannot be solved.
   bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, const DataWeighting& weighting,
             const Skin& skin, Workspace& work, RefinedPose& refined) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
-  Skin coarse_skin_;  // for all but the last steps
+  Skin coarse_skin_;  // used in all but the last steps
   std::array<JointLimits, kSegmentCount> limits_;
   HandContact contact_;
   mutable Pool<Workspace> workspaces_;

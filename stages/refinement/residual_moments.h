@@ -8,18 +8,19 @@
 
 namespace barehand {
 
-/// By how much skin near a joint counts less, as how it folds there is known badly: 1 + (`folds` w)^2, where w is the
-/// smaller of the two segments' shares in `v`.
+/// Factor by which the information of skin near a joint is divided, since the way it folds there is badly known: 1 +
+/// (`folds` w)^2, where w is the smaller of the two segments' skinning weights in `v`.
 template <class Scalar>
 Scalar fold_penalty(const SkinVertex& v, Scalar folds) {
   const Scalar fold = folds * Scalar(std::min(v.weight_b, 1 - v.weight_b));
   return 1 + fold * fold;
 }
 
-/// Sums up the normal equations of thousands of one-dimensional residuals at points of the skin. The row of a residual
-/// along direction d at point p is (d, (p - t) x d) for a segment with origin t, times the segment's share of the
-/// vertex: one outer product of six numbers instead of a 3x6 Jacobian on both sides of a matrix. Single precision and
-/// padded to eight lanes: relative error below 1e-5, far below what depth data is worth.
+/// Accumulates the normal equations of thousands of one-dimensional residuals at points of the skin. The Jacobian row
+/// of a residual along direction d at point p is (d, (p - t) x d) for a segment with origin t, times the segment's
+/// skinning weight: this costs one outer product of six numbers instead of a 3x6 Jacobian on both sides of a matrix.
+/// It computes in single precision, padded to eight lanes; the relative error below 1e-5 is far below the accuracy of
+/// depth data.
 class ResidualMoments {
  public:
   explicit ResidualMoments(const HandPose& pose) {
@@ -31,7 +32,8 @@ class ResidualMoments {
     }
   }
 
-  /// Residual `r` [m] of a point `p` on the skin at vertex `v`, along `direction`, with information `w` [1/m^2].
+  /// Adds the residual `r` [m] of the point `p` on the skin at vertex `v` along `direction` with the information `w`
+  /// [1/m^2]. `p` and `direction` are in the camera frame.
   void add(const SkinVertex& v, const Eigen::Vector3f& p, const Eigen::Vector3f& direction, float r, float w) {
     const Row a = row(v.a, p, direction, 1 - v.weight_b);
     add_product(self_[v.a], a, a, w);
@@ -46,12 +48,14 @@ class ResidualMoments {
       add_product(parent_[v.b], b, a, w);
   }
 
+  /// Adds all accumulated residuals to the normal equations.
   void add_to(GaussianTree& tree) const;
 
  private:
   using Row = Eigen::Matrix<float, 8, 1>;
   using Square = Eigen::Matrix<float, 8, 6>;
 
+  // The Jacobian row for segment s; see the comment of the class.
   Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float share) const {
     const Eigen::Vector3f turn = (p - origin_[s]).cross(d);
     Row row = Row::Zero();
@@ -65,7 +69,7 @@ class ResidualMoments {
   }
 
   std::array<Eigen::Vector3f, kSegmentCount> origin_;
-  std::array<Square, kSegmentCount> self_, parent_;  // parent: rows of a segment, columns of its parent
+  std::array<Square, kSegmentCount> self_, parent_;  // parent_: rows of a segment, columns of its parent
   std::array<Row, kSegmentCount> gradient_;
 };
 

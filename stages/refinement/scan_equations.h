@@ -12,26 +12,29 @@
 
 namespace barehand {
 
-/// One frame of a scan: what was seen, and the pose of the model's segments there.
+/// One frame of a scan: its observation and the pose of the model's segments in it.
 struct ScanFrame {
   HandObservationPtr observation;
   HandPose pose;  ///< T_camera_segment
 };
 
-/// Information of what must not move.
+/// Information that effectively fixes an unknown.
 inline constexpr double kHeld = 1e12;
 
-/// Normal equations H x = g of a scan's shared unknowns. Few unknowns meet in any one term, but for
-/// means over the skin of a bone.
+/// Normal equations H x = g of the unknowns that all frames of a scan share (ScanVariables). Each term involves only
+/// few unknowns, so H is kept as triplets; the exceptions are means over the skin of a bone, which are kept in
+/// factored form.
 struct ScanEquations {
-  std::vector<Eigen::Triplet<double>> H;      ///< lower triangle; entries at the same place add up
-  std::vector<Eigen::Triplet<double>> means;  ///< J, of terms that many unknowns share: J^T J belongs to H, too
-  int mean_rows = 0;                          ///< of J
+  std::vector<Eigen::Triplet<double>> H;  ///< lower triangle; entries at the same place add up
+  /// J of terms that involve many unknowns; J^T J is part of the matrix, too
+  std::vector<Eigen::Triplet<double>> means;
+  int mean_rows = 0;  ///< of J
   Eigen::VectorXd g;
 
+  /// Removes all terms; `count`: number of unknowns.
   void set_zero(int count);
   void add(int i, int j, double value) { H.emplace_back(std::max(i, j), std::min(i, j), value); }
-  /// A symmetric block on the diagonal.
+  /// Adds a symmetric block on the diagonal, beginning at the unknown `first`.
   template <int N>
   void add(int first, const Eigen::Matrix<double, N, N>& block) {
     for (int i = 0; i < N; ++i)
@@ -39,41 +42,45 @@ struct ScanEquations {
   }
 };
 
-/// What one frame says: normal equations of its pose, 96 numbers, and of the shared unknowns that it touches. The
-/// pose is eliminated by a Schur complement, so a joint counts only as far as no pose would explain the frame as well.
+/// The normal equations of one frame: of its pose (96 numbers) and of the shared unknowns that it touches. The pose is
+/// eliminated by a Schur complement, so that only that part of a shared unknown counts which no change of the pose
+/// could explain as well.
 class ScanFrameEquations {
  public:
-  /// `hold_pose`: the frame's pose is taken as right. false: the equations of the pose are not positive definite.
+  /// Linearises the frame at its pose and at `model`. `hold_pose`: the frame's pose is taken as correct. `limits`:
+  /// joint limits [rad]. Returns false if the equations of the pose are not positive definite.
   bool linearise(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables,
                  const std::array<JointLimits, kSegmentCount>& limits, bool hold_pose);
-  /// `weight` times what the frame says, but for explained().
+  /// Adds `weight` times the equations of the shared unknowns, without the part that explained() returns.
   void add_to(ScanEquations& equations, double weight = 1) const;
-  /// H_explained x: what the frame's pose takes of the shared unknowns' equations. H_explained is dense and never made.
+  /// The Schur complement's part H_explained times x: what the frame's pose takes away from the equations of the
+  /// shared unknowns. H_explained is dense and never formed.
   Eigen::VectorXd explained(const Eigen::VectorXd& x) const;
-  /// Its block of the joints.
+  /// The block of H_explained that belongs to the joints; kJoints x kJoints.
   Eigen::MatrixXd explained_joints() const;
-  /// The pose that is best once the shared unknowns have made `step`.
+  /// The optimal pose after the shared unknowns have made the step `step`.
   HandPose moved(const HandPose& pose, const Eigen::VectorXd& step) const;
 
-  /// Distances of data and skin along the normal that counted [m^2], and how many.
+  /// Sum of the squared distances of data and skin along the normal [m^2], over the residuals() that were used.
   double squares() const { return squares_; }
   int residuals() const { return residuals_; }
 
  private:
   static constexpr int kPose = 6 * kSegmentCount;
   using PoseColumn = Eigen::Matrix<double, 6, 1>;
-  // Sums over the residuals at one vertex: products of the changes by its offset (o), its share (s) and the poses of
-  // its two segments (a, b), and their gradients.
+  // Sums over the residuals at one vertex: information products and gradients of its unknowns, the offset (o) and the
+  // skinning share (s), and their products with the twists of its two segments (a, b).
   struct VertexSums {
-    int vertex, offset, share;  // the latter two: number of the unknown
+    int vertex, offset, share;  // offset, share: indices of the unknowns
     double oo = 0, os = 0, ss = 0, g_o = 0, g_s = 0;
     PoseColumn ao = PoseColumn::Zero(), bo = PoseColumn::Zero(), as = PoseColumn::Zero(), bs = PoseColumn::Zero();
   };
   static constexpr int kJoint = ScanVariables::kJoint;
+  // Sums of one joint's unknowns.
   struct JointSums {
     Eigen::Matrix<double, kJoint, kJoint> H;
     Eigen::Matrix<double, kJoint, 1> g;
-    Eigen::Matrix<double, 6, kJoint> parent, child;  // with the twists of the joint's two segments
+    Eigen::Matrix<double, 6, kJoint> parent, child;  // products with the twists of the joint's two segments
   };
 
   void add_skin(const ScanFrame& frame, const ScanModel& model, const ScanVariables& variables, GaussianTree& tree);
@@ -84,7 +91,8 @@ class ScanFrameEquations {
 
   std::vector<VertexSums> sums_;
   std::array<JointSums, kSegmentCount> joints_;
-  Eigen::SparseMatrix<double> coupling_;  // pose x shared unknowns
+  Eigen::SparseMatrix<double> coupling_;  // rows: pose; columns: shared unknowns
+  // Factorised matrix of the frame's pose.
   Eigen::LLT<Eigen::MatrixXd> pose_;
   Eigen::VectorXd g_pose_;
   double squares_ = 0;

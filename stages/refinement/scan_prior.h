@@ -4,11 +4,10 @@
 
 namespace barehand {
 
-/// What is known of a scanned hand besides its images, as normal equations at `model`: joints lie near where they were
-/// in `start`, above all across the bone, and at the same place on both of their bones; fingers are rooted in the
-/// middle of their skin; the skin differs from the start's smoothly and on average not at all, segment by segment, so
-/// that frames do not wander off in their skin.
-/// `hold_joints`: the joints are taken as right.
+/// Adds what is known of a scanned hand besides its images to the normal equations at `model`. Joints lie near their
+/// places in `start`, most firmly across the bone, and both points of a joint coincide at rest. Fingers are rooted in
+/// the middle of their skin. The skin differs from that of `start` smoothly and, segment by segment, by zero on
+/// average, so that a segment cannot drift within its skin. `hold_joints`: the joints are taken as correct.
 void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVariables& variables, bool hold_joints,
                     ScanEquations& equations);
 

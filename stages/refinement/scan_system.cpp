@@ -3,9 +3,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kDamping = 1e-3;      // relative, Levenberg
-constexpr double kTolerance = 1e-6;    // of the right side
-constexpr int kMostIterations = 1000;  // a hundred are usual
+constexpr double kDamping = 1e-3;      // Levenberg-Marquardt, relative to the diagonal
+constexpr double kTolerance = 1e-6;    // of the residual, relative to the right-hand side
+constexpr int kMostIterations = 1000;  // about a hundred are usual
 constexpr int kJoints = ScanVariables::kJoints;
 
 Eigen::SparseMatrix<double> assembled(int rows, int columns, const std::vector<Eigen::Triplet<double>>& entries) {
@@ -14,7 +14,8 @@ Eigen::SparseMatrix<double> assembled(int rows, int columns, const std::vector<E
   return matrix;
 }
 
-/// H + J^T J of the skin's unknowns as [H J^T; J -1]: sparse, and as good.
+/// The matrix H + J^T J of the skin's unknowns in the augmented form [H J^T; J -1], which has the same solution and
+/// stays sparse.
 Eigen::SparseMatrix<double> augmented(const Eigen::SparseMatrix<double>& H, const Eigen::SparseMatrix<double>& means) {
   const int skin = static_cast<int>(H.rows()) - kJoints, rows = static_cast<int>(means.rows());
   std::vector<Eigen::Triplet<double>> entries;
@@ -33,15 +34,21 @@ Eigen::SparseMatrix<double> augmented(const Eigen::SparseMatrix<double>& H, cons
 ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrameEquations> frames, double weight,
                        Workers& workers)
     : frames_(frames), weight_(weight), workers_(workers), g_(equations.g) {
+  // Assemble the sparse matrices.
   const int count = static_cast<int>(g_.size());
   H_ = assembled(count, count, equations.H);
   means_ = assembled(equations.mean_rows, count, equations.means);
+
+  // The joints' block with the poses eliminated, for the preconditioner.
   Eigen::MatrixXd joints = Eigen::MatrixXd(H_.topLeftCorner(kJoints, kJoints)).selfadjointView<Eigen::Lower>();
   for (const ScanFrameEquations& frame : frames_) joints -= weight_ * frame.explained_joints();
-  // Relative to what is left of a joint's equations: their poses explain nearly all.
+
+  // The damping is relative to what the elimination leaves of a joint's equations, as the poses explain nearly all of
+  // them.
   Eigen::VectorXd damping = kDamping * H_.diagonal();
   damping.head(kJoints) = kDamping * joints.diagonal();
-  H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // also where nothing was said about an unknown
+  H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // also where no frame determined an unknown
+
   joints.diagonal() += damping.head(kJoints);
   joints_.compute(joints);
   skin_.compute(augmented(H_, means_));
@@ -67,14 +74,18 @@ Eigen::VectorXd ScanSystem::preconditioned(const Eigen::VectorXd& r) const {
 }
 
 std::optional<Eigen::VectorXd> ScanSystem::solve() const {
+  // Start the preconditioned conjugate gradients at zero.
   if (joints_.info() != Eigen::Success || skin_.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(g_.size()), r = g_, z = preconditioned(r), direction = z;
   double size = r.dot(z);
   const double enough = kTolerance * kTolerance * size;
+
+  // Step along conjugate directions until the residual is small enough.
   for (int i = 0; i < kMostIterations && size > enough; ++i) {
     const Eigen::VectorXd product = times(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0)) return std::nullopt;
+
     const double step = size / curvature;
     x += step * direction;
     r -= step * product;
@@ -83,6 +94,7 @@ std::optional<Eigen::VectorXd> ScanSystem::solve() const {
     direction = z + next / size * direction;
     size = next;
   }
+
   if (!x.allFinite()) return std::nullopt;
   return x;
 }

@@ -9,19 +9,21 @@
 
 namespace barehand {
 
-/// Equations of a scan's shared unknowns with the poses of all frames eliminated. That makes the matrix dense, so it is
-/// never formed: conjugate gradients need its products only, and few of them, as all that no pose touches is solved
-/// exactly in each (the preconditioner). Same equations, same solution, whatever the number of threads.
+/// Solves the equations of a scan's shared unknowns with the poses of all frames eliminated. The elimination makes the
+/// matrix dense, so it is never formed; conjugate gradients need only its products with vectors. They converge in few
+/// iterations, because the preconditioner solves exactly everything that no pose touches. The result does not depend
+/// on the number of threads.
 class ScanSystem {
  public:
-  /// `equations`: all but what the poses of `frames` explain, with the same `weight`. `frames` and `workers` outlive
-  /// it.
+  /// `equations`: the shared unknowns' equations before the elimination, in which `frames` have the same `weight`.
+  /// `frames` and `workers` must outlive this object.
   ScanSystem(const ScanEquations& equations, std::span<const ScanFrameEquations> frames, double weight,
              Workers& workers);
 
   /// The matrix times x.
+  /// The matrix, with all poses eliminated, times x.
   Eigen::VectorXd times(const Eigen::VectorXd& x) const;
-  /// none: the matrix is not positive definite.
+  /// The step of all shared unknowns; none if the matrix is not positive definite.
   std::optional<Eigen::VectorXd> solve() const;
 
  private:
@@ -32,8 +34,9 @@ class ScanSystem {
   Workers& workers_;
   Eigen::VectorXd g_;
   Eigen::SparseMatrix<double> H_, means_;  // H_: lower triangle
-  Eigen::LLT<Eigen::MatrixXd> joints_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> skin_;  // of the other unknowns, and of the means
+  Eigen::LLT<Eigen::MatrixXd> joints_;     // preconditioner of the joints
+  // Preconditioner of the skin's unknowns, augmented by the means.
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> skin_;
 };
 
 }  // namespace barehand

@@ -6,7 +6,8 @@
 
 namespace barehand {
 
-/// When and how a person's hand is learnt while it is tracked.
+/// When and how strongly frames contribute to the shape of a person's hand while it is tracked. A "look" is one frame
+/// that contributes.
 struct ShapeFitParams {
   bool enabled = true;
   int every = 1, every_later = 8;  ///< frames between two looks: at first, and after `eager_looks`
@@ -36,17 +37,18 @@ void visit(V& v, ShapeFitParams& p) {
   v.user("scans", p.scans, 0, 10, "how often the skin is scanned, if the profile has none of its own; 0: never");
 }
 
-/// Collects what frames say about a person's hand, each at its own best pose and with that pose's uncertainty
-/// marginalised, into one Gaussian over the shape; starts from how people differ (ShapeParameter::deviation).
+/// Estimates the shape of a person's hand from many frames as one Gaussian. Each frame contributes at its own optimal
+/// pose, with the uncertainty of that pose marginalised. The prior is how people differ (ShapeParameter::deviation).
 class ShapeFit {
  public:
   explicit ShapeFit(const ShapeFitParams& params);
 
-  /// One frame's equations, linearised at `at`. false: they say nothing definite, and nothing changed.
+  /// Adds one frame's equations, linearised at the shape `at`. Returns false, and changes nothing, if they are not
+  /// positive definite.
   bool add(const ShapeEquations& equations, const HandShape& at);
-  /// The most likely shape.
+  /// The most likely shape; see HandShape for the units.
   HandShape estimate() const;
-  /// Standard deviation of each number of the shape.
+  /// Standard deviation of each number of the shape, same units.
   HandShape deviation() const;
   int looks() const { return looks_; }
 

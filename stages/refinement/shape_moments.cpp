@@ -14,12 +14,17 @@ void ShapeEquations::set_zero() {
 }
 
 bool ShapeEquations::without_pose(Eigen::Matrix<double, kShapeCount, kShapeCount>& information, HandShape& g) const {
+  // Start from what does not depend on the pose.
   information = H_shape;
   g = g_shape;
   GaussianTree column = tree;
   std::array<Vector6d, kSegmentCount> x;
   if (!column.solve(x)) return false;
+
+  // The pose's gradient explains a part of the shape's.
   for (int s = 0; s < kSegmentCount; ++s) g -= H_pose_shape[s].transpose() * x[s];
+
+  // So does each column of the coupling; one tree serves all columns.
   for (int k = 0; k < kShapeCount; ++k) {
     for (int s = 0; s < kSegmentCount; ++s) column.g[s] = H_pose_shape[s].col(k);
     if (!column.solve(x)) return false;

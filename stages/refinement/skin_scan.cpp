@@ -11,12 +11,14 @@
 namespace barehand {
 namespace {
 
-constexpr int kRounds = 40, kRoundsOfSkin = 16;  // the latter where the joints stay
-constexpr int kSkinRounds = 2;                   // first ones, in which the skin alone settles: it is farthest off
-// Frames: more of them say no more, as all err alike; fewer where the joints stay, as skin seen in part strays then.
+constexpr int kRounds = 40, kRoundsOfSkin = 16;  // the latter if the joints stay fixed
+constexpr int kSkinRounds = 2;                   // the first rounds move the skin alone, which is farthest off
+// Number of frames whose total weight is not exceeded: more of them add no information, as their errors are
+// correlated. With fixed joints the limit is lower, because partly seen skin would drift.
 constexpr double kFullScan = 100, kFullScanOfSkin = 46;
-constexpr double kWidening = 20 * kDegree;  // of joint limits
+constexpr double kWidening = 20 * kDegree;  // of the joint limits
 
+/// The state of a running scan.
 class Scan {
  public:
   Scan(const HandProfile& start, double cell, std::vector<ScanFrame> frames, Workers& workers)
@@ -28,18 +30,24 @@ class Scan {
         equations_(frames_.size()),
         workers_(workers) {}
 
+  // Number of rounds of the whole scan.
   int rounds() const { return start_.joints_are_known() ? kRoundsOfSkin : kRounds; }
-  /// Root mean square mismatch before the round; none: it cannot be solved.
+  /// One Gauss-Newton step on everything. `skin_only`: poses and joints stay. Returns the root mean square mismatch
+  /// before the step [m]; none if it cannot be solved.
   std::optional<double> round(bool skin_only) {
+    // Linearise all frames in parallel.
     const int frames = static_cast<int>(frames_.size());
     std::vector<char> fine(frames_.size());
     workers_.for_each_index(
         frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
+
+    // Sum up the prior and all frames, whose total weight is bounded.
     const double weight = std::min(1.0, (start_.joints_are_known() ? kFullScanOfSkin : kFullScan) / frames);
     ScanEquations shared;
     shared.set_zero(variables_.count());
     add_scan_prior(model_, start_, variables_, skin_only || start_.joints_are_known(), shared);
+
     double squares = 0;
     int residuals = 0;
     for (const ScanFrameEquations& equations : equations_) {
@@ -48,6 +56,8 @@ class Scan {
       residuals += equations.residuals();
     }
     if (residuals == 0) return std::nullopt;
+
+    // Solve and move everything.
     const auto step = ScanSystem(shared, equations_, weight, workers_).solve();
     if (!step) return std::nullopt;
     workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });
@@ -75,6 +85,8 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
   if (frames.empty()) return std::nullopt;
   Scan scan(start, cell, std::move(frames), workers);
   double first = 0, last = 0;
+
+  // Iterate, unless the caller stops the scan or a round cannot be solved.
   for (int round = 0; round < scan.rounds(); ++round) {
     if (stop.stop_requested()) return std::nullopt;
     const auto mismatch = scan.round(round < kSkinRounds);
@@ -83,6 +95,8 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
     if (round == 0) first = last;
     if (progress) progress({round + 1, scan.rounds(), last});
   }
+
+  // A hand that explains the frames worse than the start does is refused.
   if (last > first) return std::nullopt;
   return scan.hand();
 }

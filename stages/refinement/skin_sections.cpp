@@ -6,16 +6,22 @@
 namespace barehand {
 
 std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, double length, bool alone) {
-  constexpr float kAlong = 0.5f;  // cosine: skin that faces along the bone tells little
+  constexpr float kAlong = 0.5f;  // cosine: skin that faces along the bone says little about its section
+
+  // Fewer vertices than this do not determine a section.
   constexpr std::size_t kFewest = 12;
+
+  // Select skin beside the bone.
   SkinSections sections;
   for (int i = 0; i < static_cast<int>(skin.vertices.size()); ++i) {
     const SkinVertex& v = skin.vertices[i];
     if (v.a != segment || (alone && v.weight_b > 0) || std::abs(v.normal_in_a.z()) >= kAlong) continue;
     sections.vertices_.push_back(i);
   }
+
   if (sections.vertices_.size() < kFewest) return std::nullopt;
-  // n . p = n . middle(u) + radius(u) + e (n_x^2 - n_y^2), all across the bone.
+
+  // The support function of an ellipse, linearised: n . p = n . middle(u) + radius(u) + e (n_x^2 - n_y^2).
   const auto count = static_cast<Eigen::Index>(sections.vertices_.size());
   Eigen::Matrix<double, Eigen::Dynamic, 7> A(count, 7);
   Eigen::VectorXd support(count), squares(count);
@@ -27,6 +33,8 @@ std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, dou
     support[k] = n.dot(p);
     squares[k] = n.squaredNorm();
   }
+
+  // Solve; the pseudo-inverse also yields the derivative by each vertex's offset.
   const Eigen::MatrixXd inverse = A.completeOrthogonalDecomposition().pseudoInverse();
   sections.fit_ = inverse * support;
   sections.per_offset_ = inverse.row(0).transpose().cwiseProduct(squares);

@@ -6,13 +6,14 @@
 
 namespace barehand {
 
-/// Samples per task: small enough to balance, large enough to be worth a task.
+/// Number of samples per parallel task: small enough to balance the load, large enough to outweigh a task's overhead.
 inline constexpr int kSampleChunk = 16;
 
-/// Largest distance of one pixel [m] (Eq. 1); infinity: uncapped.
+/// The cap on a single pixel's distance (Eq. 1) [m]; infinity if the distance is uncapped.
 float distance_cap(const SegmentTrackerParams& params);
 
-/// Compares on the cores of `workers`, which outlive it; results do not depend on their number.
+/// Compares samples with the data on the CPU. `workers` must outlive this object; results do not depend on their
+/// number.
 class CpuObserver final : public Observer {
  public:
   CpuObserver(float cap, Workers& workers) : cap_(cap), workers_(workers) {}

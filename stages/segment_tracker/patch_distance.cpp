@@ -9,18 +9,18 @@
 namespace barehand {
 namespace {
 
-constexpr float kNearest = 0.01f;  // skin nearer to the camera than this [m] is not seen by any depth sensor
-constexpr int kBlock = 64;         // points whose intermediate results stay in the first-level cache
+constexpr float kNearest = 0.01f;  // m; no depth sensor sees anything closer than this
+constexpr int kBlock = 64;         // points per block: their intermediate results fit into the first-level cache
 
-/// What is known of a block of points before they are looked up in the data.
+/// Intermediate results for a block of skin points.
 struct Block {
-  std::array<float, kBlock> x, y, z, weight;  ///< camera frame [m]; pixels covered, 0 for a back
+  std::array<float, kBlock> x, y, z, weight;  ///< position [m] and covered pixels; 0 for points that face away
   std::array<std::int32_t, kBlock> pixel;     ///< index into the map
   std::array<PixelMap::Cell, kBlock> cell;
   std::array<std::int32_t, kBlock> hidden;
 };
 
-/// The sample's motion and the camera in single precision.
+/// The sample's pose and the camera in single precision.
 struct View {
   Eigen::Matrix3f R;
   Eigen::Vector3f t, origin;
@@ -40,7 +40,9 @@ struct View {
         width(map.width) {}
 };
 
+/// Projects a block of skin points into the image.
 inline void project(const SegmentSurface& skin, int begin, int n, const View& view, Block& out) {
+  // Load everything that does not depend on the point.
   const float *x = skin.x.data() + begin, *y = skin.y.data() + begin, *z = skin.z.data() + begin;
   const float *nx = skin.nx.data() + begin, *ny = skin.ny.data() + begin, *nz = skin.nz.data() + begin;
   const float* area = skin.area.data() + begin;
@@ -51,30 +53,34 @@ inline void project(const SegmentSurface& skin, int begin, int n, const View& vi
   const float fx = view.fx, fy = view.fy, pixels = fx * fy, cx = view.cx, cy = view.cy;
   const float last_u = view.last_u, last_v = view.last_v;
   const std::int32_t width = view.width;
+
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
     const float px = r00 * x[i] + r01 * y[i] + r02 * z[i] + tx;
     const float py = r10 * x[i] + r11 * y[i] + r12 * z[i] + ty;
     const float pz = r20 * x[i] + r21 * y[i] + r22 * z[i] + tz;
-    // n.p is needed in camera coordinates only as a scalar: n_camera . p_camera = n . (p + R^T t).
+    // The angle to the line of sight needs only a scalar product: n_camera . p_camera = n . (p + R^T t).
     const float away = nx[i] * (x[i] + ox) + ny[i] * (y[i] + oy) + nz[i] * (z[i] + oz);
     const float inv = 1.0f / (pz > kNearest ? pz : kNearest);
-    // Solid angle on the image plane: a patch covers f^2 area (-n.p) / z^3 pixels.
+    // A point with an area covers f^2 area (-n.p) / z^3 pixels of the image.
     const bool front = (away < 0.0f) & (pz > kNearest);
     out.weight[i] = front ? -away * area[i] * pixels * inv * inv * inv : 0.0f;
+
+    // The pixel, clamped to the border of the map.
     float u = fx * px * inv + cx, v = fy * py * inv + cy;
     u = u > 0.0f ? u : 0.0f;
     u = u < last_u ? u : last_u;
     v = v > 0.0f ? v : 0.0f;
     v = v < last_v ? v : last_v;
     out.pixel[i] = static_cast<std::int32_t>(v) * width + static_cast<std::int32_t>(u);
+
     out.x[i] = px;
     out.y[i] = py;
     out.z[i] = pz;
   }
 }
 
-/// Whole cells are copied, one load each: gathering their members lane by lane takes four.
+/// Copies whole cells with one load each; gathering their four members lane by lane would take four.
 inline void look_up(const PixelMap& map, int n, Block& block) {
   const PixelMap::Cell* cells = map.cells.data();
   const std::int32_t* hidden = map.hidden.data();
@@ -84,16 +90,19 @@ inline void look_up(const PixelMap& map, int n, Block& block) {
   }
 }
 
+/// Adds the block's distances; `bit` selects the segment in PixelMap::hidden.
 inline void add_distances(const Block& block, int n, std::int32_t bit, float cap, PatchDistance& out) {
   float distance = 0, counted = 0, total = 0;
 #pragma omp simd reduction(+ : distance, counted, total)
   for (int i = 0; i < n; ++i) {
     const PixelMap::Cell& cell = block.cell[i];
-    // Eq. 1; on hand pixels the depth difference alone.
+    // Eq. 1: on hand pixels only the difference of depth counts.
     const float dx = block.x[i] - cell.x, dy = block.y[i] - cell.y, dz = block.z[i] - std::fabs(cell.z);
     const float lateral = cell.z < 0.0f ? dx * dx + dy * dy : 0.0f;
     float d = std::sqrt(lateral + dz * dz);
     d = d < cap ? d : cap;
+
+    // Hidden points do not count.
     const bool seen = (block.z[i] <= cell.occluder_z) & ((block.hidden[i] & bit) == 0);
     const float seen_weight = seen ? block.weight[i] : 0.0f;
     distance += seen_weight * d;
@@ -114,6 +123,8 @@ BAREHAND_SIMD PatchDistance patch_distance(const SegmentSurface& skin, const SE3
   const int size = static_cast<int>(skin.size());
   PatchDistance sum;
   Block block;
+
+  // Block by block: project, look up, add.
   for (int begin = 0; begin < size; begin += kBlock) {
     const int n = std::min(kBlock, size - begin);
     project(skin, begin, n, view, block);

@@ -9,12 +9,15 @@
 namespace barehand {
 namespace {
 
-/// Eq. 3. A sample without evidence gets the mean distance of its siblings: neither punished nor preferred.
+/// Computes Eq. 3 for all samples of a segment. A sample without evidence gets the mean distance of the others, so
+/// that it is neither punished nor preferred.
 void log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha, double sigma_obs,
                     std::vector<double>& log_l) {
   const auto has_evidence = [&](const PatchDistance& p) {
     return p.counted > 0 && p.counted_fraction() >= min_counted;
   };
+
+  // The mean distance of the samples with evidence.
   double sum = 0;
   int count = 0;
   for (const PatchDistance& patch : patches) {
@@ -23,6 +26,8 @@ void log_likelihood(const std::vector<PatchDistance>& patches, double min_counte
     ++count;
   }
   const double neutral = count > 0 ? sum / count : 0;
+
+  // Eq. 3.
   log_l.resize(patches.size());
   for (std::size_t i = 0; i < log_l.size(); ++i) {
     const double d = (has_evidence(patches[i]) ? patches[i].mean() : neutral) / sigma_obs;
@@ -55,14 +60,19 @@ const PreparedObservation& SegmentTracker::prepare(const HandObservation& observ
 
 const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
                                              const SampleKey& key) {
+  // Draw the samples.
   const int count = params_.samples, chunks = (count + kSampleChunk - 1) / kSampleChunk;
   for (auto& poses : samples_.poses) poses.resize(count);
   workers_.for_each_index(kSegmentCount * chunks, [&](int task) {
     const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
     for (int i = begin; i < end; ++i) samples_.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
+
+  // Compare them with the data; an unobserved palm is left out.
   observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1},
                      distances_);
+
+  // Compute the likelihoods; sigma shrinks from level to level.
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);
   samples_.unoccluded = prepared.unoccluded;
   for (int s = 0; s < kSegmentCount; ++s)

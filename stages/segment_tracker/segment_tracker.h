@@ -13,32 +13,33 @@
 
 namespace barehand {
 
-/// One frame as all levels of the local trackers share it: data, and what is hidden at the prediction.
+/// Data of one frame that all levels share: the pixel map, with the pixels that are hidden at the prediction.
 struct PreparedObservation {
   PixelMap map;
-  std::uint64_t id = 0;                            ///< of the map, unique within its tracker
+  std::uint64_t id = 0;                            ///< of the map, unique within the tracker
   std::array<double, kSegmentCount> unoccluded{};  ///< alpha of Eq. 3 at the predicted pose
 };
 
-/// The 16 local trackers of Sec. 4: each draws its own samples and judges them by the data around it alone. What it
-/// returns depends on the arguments only, not on earlier calls or the number of workers; references are valid until
-/// the same is called again: their memory is kept.
+/// The 16 local trackers of Sec. 4. Each draws samples for its own segment and evaluates them on the data around it.
+/// Results depend on the arguments only, not on earlier calls or the number of workers. A returned reference is valid
+/// until the same function is called again, because its memory is reused.
 class SegmentTracker {
  public:
-  /// `observer` compares the samples with the data; none: the CPU does. It may go on to the next tracker.
+  /// `observer` compares samples with the data; if none is given, the CPU does. It may be shared with a later tracker.
   SegmentTracker(const SegmentTrackerParams& params, std::shared_ptr<const HandSurface> surface, Workers& workers,
                  std::shared_ptr<Observer> observer = nullptr);
 
   const SegmentTrackerParams& params() const { return params_; }
 
-  /// Once per frame.
+  /// Prepares a frame; call once per frame.
   const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted);
 
-  /// Once per level: S samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment without
-  /// observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
+  /// Draws S samples per segment from its kernels (at least one each) and computes log L of Eq. 3; call once per
+  /// level. A segment without observation has a flat likelihood: the palm, if so configured, and hidden segments, for
+  /// which alpha is 0.
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key);
 
-  /// One pose of one segment against the data.
+  /// Compares one pose of one segment with the data.
   PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;
 
  private:

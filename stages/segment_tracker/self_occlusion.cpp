@@ -12,7 +12,7 @@ using ImagePoint = PredictedPatch::ImagePoint;
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr float kNearest = 0.01f;  // [m]
 
-/// Front-facing skin points in pixels of the map.
+/// Projects the skin points that face the camera into pixels of the map.
 void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map, std::vector<ImagePoint>& points) {
   const Eigen::Matrix3f R = T.R.cast<float>();
   const Eigen::Vector3f t = T.t.cast<float>();
@@ -25,7 +25,7 @@ void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map
   }
 }
 
-/// Calls visit(pixel index, cell index) for the pixels of the map that a patch covers.
+/// Calls visit(pixel index, cell index) for all pixels of the map that a patch covers.
 template <class Visit>
 void for_each_pixel(const PredictedPatch& patch, const PixelMap& map, const Visit& visit) {
   const int u_end = std::min(map.width - 1, patch.u0 + patch.columns * patch.cell);
@@ -39,9 +39,12 @@ void for_each_pixel(const PredictedPatch& patch, const PixelMap& map, const Visi
 }  // namespace
 
 void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const PixelMap& map, double margin) {
+  // Project the skin.
   columns = rows = 0;
   project_front(skin, T, map, points);
   if (points.empty()) return;
+
+  // Its bounding box in the image.
   float u_lo = kFar, v_lo = kFar, u_hi = -kFar, v_hi = -kFar, z_lo = kFar;
   for (const ImagePoint& p : points) {
     u_lo = std::min(u_lo, p.u);
@@ -50,19 +53,24 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     v_hi = std::max(v_hi, p.v);
     z_lo = std::min(z_lo, p.z);
   }
+
+  // The grid: it covers the margin, and its cells are finer than the spacing of the points.
   const float scale = map.fx / z_lo, border = static_cast<float>(margin) * scale;
   const float skin_area = std::accumulate(skin.area.begin(), skin.area.end(), 0.0f);
   const float spacing = std::sqrt(skin_area / static_cast<float>(skin.size())) * scale;
   const auto inside = [](float x, int size) { return static_cast<int>(std::clamp(x, 1.0f, size - 1.0f)); };
+
   u0 = inside(u_lo - border, map.width);
   v0 = inside(v_lo - border, map.height);
   cell = std::max(1, static_cast<int>(spacing / 2));
   columns = (inside(u_hi + border + 1, map.width) - u0 + cell - 1) / cell;
   rows = (inside(v_hi + border + 1, map.height) - v0 + cell - 1) / cell;
   outline_sq = spacing * spacing;
+
   z.assign(static_cast<std::size_t>(columns) * rows, kFar);
   gap_sq.assign(z.size(), kFar);
 
+  // Every cell gets the depth of the nearest skin point.
   const float centre = (cell - 1) / 2.0f, side = static_cast<float>(cell);
   for (int row = 0; row < rows; ++row) {
     float* row_gap = gap_sq.data() + static_cast<std::size_t>(row) * columns;
@@ -71,6 +79,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     for (const ImagePoint& p : points) {
       const float dv_sq = (v - p.v) * (v - p.v);
       for (int column = 0; column < columns; ++column) {
+        // Keep the nearest skin point of the cell.
         const float du = u0 + centre + static_cast<float>(column) * side - p.u;
         const float d = du * du + dv_sq;
         const bool nearer = d < row_gap[column];
@@ -81,7 +90,8 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   }
 }
 
-/// Sec. 4.2: data substantially closer to the camera than the prediction. Only skin: other data is judged per sample.
+/// The rule of Sec. 4.2: skin data is substantially closer to the camera than the prediction. Data of other objects is
+/// treated per sample.
 void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
   for (int s = 0; s < kSegmentCount; ++s)
     for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
@@ -90,7 +100,8 @@ void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
     });
 }
 
-/// The whole predicted hand in one depth buffer: another segment's skin in front hides this one.
+/// The other rule: the predicted skin of another segment is in front, found with a depth buffer of the whole predicted
+/// hand.
 void SelfOcclusion::label_by_model(float threshold, PixelMap& map) {
   front_.assign(map.cells.size(), kFar);
   for (const PredictedPatch& patch : patches_)

@@ -9,27 +9,29 @@
 
 namespace barehand {
 
-/// Depth of one segment's predicted skin on a coarse grid over its patch, continued beyond its outline by the depth of
-/// the nearest skin point, so that samples that leave the outline find a label, too. Keeps its memory.
+/// The predicted depth of one segment's skin on a coarse grid around it. Beyond the outline the depth of the nearest
+/// skin point is used, so that samples that leave the outline find a value, too. The buffers are kept between calls.
 struct PredictedPatch {
   struct ImagePoint {
     float u, v, z;
   };
-  std::vector<ImagePoint> points;  ///< the skin that faces the camera, in pixels of the map and [m]
-  int u0 = 0, v0 = 0;              ///< of the first cell, in pixels of the map
-  int cell = 1;                    ///< side of a cell [pixel], below the spacing of the skin points
+  std::vector<ImagePoint> points;  ///< skin points that face the camera; u, v in pixels of the map, z [m]
+  int u0 = 0, v0 = 0;              ///< corner of the first cell, in pixels of the map
+  int cell = 1;                    ///< side of a cell [pixel], smaller than the spacing of the skin points
   int columns = 0, rows = 0;       ///< 0: the segment is outside the region of interest
-  float outline_sq = 0;            ///< cells nearer to a skin point than this lie on the segment [pixel^2]
-  std::vector<float> z;            ///< [m]
+  float outline_sq = 0;            ///< cells closer to a skin point than this lie within the outline [pixel^2]
+  std::vector<float> z;            ///< depth [m]
   std::vector<float> gap_sq;       ///< squared distance to the nearest skin point [pixel^2]
 
+  /// Computes the grid for a predicted pose; `margin` [m] around the segment is covered, too.
   void predict(const SegmentSurface& skin, const SE3& T_camera_segment, const PixelMap& map, double margin);
 };
 
-/// What the hand itself hides at a predicted pose (Sec. 4.2), by the rule of `params.self_occlusion`.
+/// Finds the pixels where the hand hides its own segments at the predicted pose (Sec. 4.2); the setting
+/// `self_occlusion` selects the rule.
 class SelfOcclusion {
  public:
-  /// Sets bit s of `map.hidden` where segment s is hidden.
+  /// Sets bit s of `map.hidden` in all pixels where segment s is hidden.
   void label(const HandSurface& surface, const HandPose& predicted, const SegmentTrackerParams& params, PixelMap& map,
              Workers& workers);
 
@@ -38,7 +40,7 @@ class SelfOcclusion {
   void label_by_model(float threshold, PixelMap& map);
 
   std::array<PredictedPatch, kSegmentCount> patches_;
-  std::vector<float> front_;  ///< nearest predicted skin, a pixel of the map [m]
+  std::vector<float> front_;  ///< nearest predicted skin at each pixel of the map [m]
 };
 
 }  // namespace barehand

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A 4x2 picture whose depth counts its pixels.
+/// Frames of 4x2 pixels whose depth counts the pixels.
 FrameStore stored(int frames) {
   FrameStore store;
   for (int k = 0; k < frames; ++k) {
@@ -64,7 +64,7 @@ TEST(MemorySource, DecimationKeepsTheRays) {
   const RgbdFrame& frame = *small.frames[0];
   EXPECT_EQ(frame.depth.width(), 2);
   EXPECT_EQ(frame.depth.height(), 1);
-  EXPECT_EQ(frame.depth.at(1, 0), 2);  // was pixel (2, 0)
+  EXPECT_EQ(frame.depth.at(1, 0), 2);  // pixel (2, 0) of the original
   const Intrinsics full{4, 2, 100, 100, 2, 1};
   EXPECT_TRUE(frame.camera.unproject(1, 0, 0.5).isApprox(full.unproject(2, 0, 0.5)));
 }
@@ -94,12 +94,15 @@ BenchReport small_report() {
   BenchReport report;
   report.conditions.frames = 100;
   for (const double value : {0.0, 10.0, 20.0, 40.0}) {
+    // The case, and figures that grow with its value.
     BenchRow row;
     row.sweep = value == 0 ? "" : "samples";
     row.value = value;
     row.config = "default.yaml";
     row.result.cpu_seconds_per_frame = 0.01 + value * 1e-4;
     row.result.resident_mb = {50, 51};
+
+    // Its times; the queue was not measured.
     row.result.health.stages = {{"track", {100, 0.008, 0.007, 0.009, 0.010, 0.011}, 0}};
     row.result.health.queues = {{"door", 1, 0, 0, 0, 0, {0, kNaN, kNaN, kNaN, kNaN, kNaN}}};
     row.result.health.latency = {100, 0.012, 0.011, 0.013, 0.014, 0.015};

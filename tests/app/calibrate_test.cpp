@@ -56,15 +56,20 @@ TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
 }
 
 TEST_F(Calibrate, AMeasuredHandKeepsItsJointsAndGetsASkinOfWhatWasShown) {
+  // A measured hand.
   HandProfile measured = *test::adult_hand();
   measured.origin = ProfileOrigin::measured;
   const std::string given = folder_ / "given.json";
   ASSERT_TRUE(save_profile(measured, given));
+
+  // Scan it with only a few frames.
   auto arguments = calibrate("sim:scan,frames=90,width=320,height=240");
   arguments.insert(arguments.end(), {"--hand", given});
   ChildProcess child(arguments);
   ASSERT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("not seen enough, kept near the hand it started from"));
+
+  // The joints are unchanged.
   const auto hand = load_profile(profile_);
   ASSERT_TRUE(hand && hand->scanned_skin);
   for (int s = 1; s < kSegmentCount; ++s)
@@ -106,15 +111,19 @@ TEST_F(Calibrate, AProfileIsReplacedOnlyIfAllowed) {
 }
 
 TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
+  // Each wrong option, and the reason that is given.
   for (const auto& [option, value, reason] :
        {std::tuple("--hand", std::string("both"), "is not one hand"),
         {"--hand", folder_ / "nobody.json", "nobody.json"},
         {"--out", folder_ / "nowhere/mine.json", "No such file or directory"},
         {"--out", folder_.path(), "is a folder"},
         {"--out", folder_ / (std::string(300, 'x') + "/mine.json"), "name too long"}}) {
+    // The command line with the option.
     auto arguments = calibrate("sim:scan");
     if (std::string(option) == "--out") arguments.resize(arguments.size() - 2);
     arguments.insert(arguments.end(), {option, value});
+
+    // The program refuses it.
     ChildProcess child(arguments);
     EXPECT_EQ(child.finish(), 2) << child.output();
     EXPECT_THAT(child.output(), HasSubstr(reason));

@@ -36,7 +36,7 @@ class EvalCommand : public testing::Test {
       ASSERT_TRUE(writer->write(frame));
     }
   }
-  /// Runs the command; `%` stands for the test's folder.
+  /// Runs the command line; `%` stands for the folder of the test.
   int run(std::string line) {
     for (auto at = line.find('%'); at != std::string::npos; at = line.find('%')) line.replace(at, 1, folder_.path());
     CLI::App app;
@@ -73,6 +73,7 @@ TEST_F(EvalCommand, ComparesSeveralRunsUnderTheirLabels) {
 }
 
 TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
+  // A recording, for its camera.
   auto writer = RecordingWriter::create(folder_ / "recording");
   RgbdFrame frame;
   frame.camera = {320, 240, 250, 250, 160, 120};
@@ -80,6 +81,8 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
   ASSERT_TRUE(writer->write(frame) && writer->finish());
   // Tip of the truth: u = 160 - 250 * 0.038 / 0.5 = 141.
   test::write_text(folder_ / "tips.csv", "frame,finger,u,v,visible\n1,index,141,123,1\n");
+
+  // The distance to the label is reported and drawn.
   ASSERT_EQ(run("eval --result %/truth.csv --fingertips %/tips.csv --recording %/recording --hand %/hand.json "
                 "--json %/e.json --plots %/plots"),
             0)
@@ -90,21 +93,24 @@ TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
 }
 
 TEST_F(EvalCommand, JudgesTheUncertaintyOfStatesInALog) {
+  // States with a known error and a stated uncertainty.
   auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
   ASSERT_TRUE(log);
   for (int i = 0; i < 3; ++i) {
     hand_state_t state{};
     state.frame_number = i;
     state.has_pose = i < 2;
-    for (segment_state_t& s : state.segments) {  // 2 mm off along x, as the truth's second table
+    for (segment_state_t& s : state.segments) {  // 2 mm off along x, like the second table of the truth
       s.position[0] = 0.002, s.position[2] = s.distal[2] = 0.5, s.distal[0] = 0.002 - 0.03;
       for (int k = 0; k < 3; ++k) s.covariance[k][k] = 1e-6;
-      s.covariance[4][4] = 0.01;  // a turn about y moves the distal end, 30 mm along -x, in depth
+      s.covariance[4][4] = 0.01;  // a rotation about y moves the distal end, 30 mm along -x, in depth
       s.confidence = 0.95;
     }
     ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), i));
     ASSERT_TRUE((*log)->send("OTHER", std::vector<std::uint8_t>(24), i));
   }
+
+  // Coverage, errors and confidence follow from them.
   log->reset();
   ASSERT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog --json %/e.json --plots %/plots"), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("stated uncertainty, 2 frames"));
@@ -135,6 +141,8 @@ TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
                                                {0, hand_state_t::RIGHT, "frame 0 comes twice"}}) {
     auto log = LcmLogWriter::create(folder_ / "states.lcmlog", true);
     ASSERT_TRUE(log);
+
+    // Two states that contradict each other.
     hand_state_t state{};
     state.has_pose = true;
     state.handedness = hand_state_t::RIGHT;
@@ -142,6 +150,8 @@ TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
     state.frame_number = frame;
     state.handedness = side;
     ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), 1));
+
+    // The command refuses them.
     log->reset();
     EXPECT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog"), 2);
     EXPECT_THAT(err_, HasSubstr(complaint));
@@ -183,21 +193,28 @@ TEST_F(EvalCommand, ATableWithoutFramesIsAResultButNoTruth) {
 }
 
 TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
+  // Missing or wrong inputs.
   EXPECT_EQ(run("eval --truth %/truth.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("--result or --states"));
   EXPECT_EQ(run("eval --truth %/truth.csv --states a.lcmlog b.lcmlog"), 2);
   EXPECT_THAT(err_, HasSubstr("a log of hand states for each"));
   EXPECT_EQ(run("eval --truth %/truth.csv --states %/truth.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("truth.csv"));
+
+  // Options that need others.
   EXPECT_EQ(run("eval --result %/out.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("give --truth"));
   EXPECT_EQ(run("eval --result %/out.csv --fingertips tips.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("--recording"));
+
+  // Files that cannot be read or written.
   EXPECT_EQ(run("eval --result %/none.csv --truth %/truth.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("none.csv: cannot be read"));
   EXPECT_EQ(run("eval --result %/out.csv --truth %/truth.csv --json /no/such/place.json"), 1);
   EXPECT_THAT(err_, HasSubstr("/no/such/place.json: cannot be written"));
   EXPECT_THAT(out_, HasSubstr("frames 3")) << "what was computed is printed all the same";
+
+  // Labels that do not fit.
   EXPECT_EQ(run("eval --result %/out.csv %/out.csv --truth %/truth.csv --label one"), 2);
   EXPECT_THAT(err_, HasSubstr("--label"));
 }

@@ -35,6 +35,7 @@ TEST(ExperimentPlan, EveryAblationChangesTheDefault) {
   EXPECT_EQ(configs.size(), variants.size());
 }
 
+/// Results of two variants on one sequence; no segment was hidden.
 ExperimentReport small_report() {
   ExperimentReport report{"fist", {}};
   for (const char* variant : {"paper", "default"}) {

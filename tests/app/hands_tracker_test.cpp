@@ -12,13 +12,13 @@
 namespace barehand {
 namespace {
 
-/// A right and a left hand, and what a camera sees of each.
+/// A right and a left hand, and what a camera sees of each of them.
 class HandsTrackerTest : public ::testing::Test {
  protected:
   enum Side { kRight, kLeft };
   static constexpr double kRightX = 0.1, kLeftX = -0.1;
 
-  /// Its wrist at x.
+  /// The observation of a hand with its wrist at x.
   static HandObservationPtr seen(const HandProfile& profile, double flexion, double x) {
     HandPose pose = test::facing_pose(profile, 0.5, flexion);
     for (SE3& T : pose) T.t.x() += x;
@@ -30,7 +30,7 @@ class HandsTrackerTest : public ::testing::Test {
     copy->followed = followed;
     return copy;
   }
-  /// `followed`: preprocess found the k-th where its hint said.
+  /// Processes the next frame; `followed`: preprocessing found the k-th hand where its hint said.
   HandEstimates next(HandsTracker& tracker, const HandObservationPtr& first, const HandObservationPtr& second,
                      std::array<bool, 2> followed) {
     utime_ += 33'000;
@@ -88,7 +88,7 @@ TEST_F(HandsTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
     EXPECT_EQ(found[kRight]->status, TrackStatus::searching) << i;
     found = next(tracker_, left_hand_, nothing(), {});
   }
-  // Now that the right hand is the nearer one, preprocess gives that first.
+  // Now the right hand is nearer, so preprocessing lists it first.
   found = next(tracker_, right_hand_, left_hand_, {});
   EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
   EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
@@ -107,17 +107,22 @@ TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
 }
 
 TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
+  // Track a right hand with its profile.
   TrackerParams params = test::quick_tracker();
-  params.search_convincing = 0;  // every start is on trial
+  params.search_convincing = 0;  // every start is put on trial
   std::ostringstream said;
   HandsTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
   HandEstimates last;
   for (int i = 0; i < 4; ++i) last = next(only_right, right_hand_);
   ASSERT_EQ(last[0]->status, TrackStatus::tracking);
-  // The same place, palm for palm: a right hand that is bent to it explains it badly, but is tracked.
+
+  // A left hand takes its place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
+  // a while.
   const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
   int frames = 0;
   while (++frames < 60 && last[0]->status == TrackStatus::tracking) last = next(only_right, left_hand);
+
+  // In the end the other side is recognised.
   EXPECT_NE(last[0]->status, TrackStatus::tracking);
   EXPECT_NE(said.str().find("looks like a left hand"), std::string::npos) << said.str() << frames;
   EXPECT_GT(frames, 10);
@@ -128,7 +133,8 @@ TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater)
   for (int i = 0; i < 6 && (i == 0 || last[kRight]->status != TrackStatus::tracking); ++i)
     last = next(tracker_, right_hand_, nothing(), {});
   ASSERT_EQ(last[kRight]->status, TrackStatus::tracking);
-  // The same place, palm for palm: a right hand that is bent to it explains it badly, but is tracked.
+  // A left hand takes the place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
+  // a while.
   const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
   int frames = 0;
   while (++frames < 60 && last[kLeft]->status != TrackStatus::tracking) last = next(tracker_, left_hand, nothing(), {});
@@ -139,7 +145,7 @@ TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater)
 
 TEST_F(HandsTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
   auto patch = std::make_shared<HandObservation>(*left_hand_);
-  patch->hand_pixels.resize(50);  // fewer than any search looks at
+  patch->hand_pixels.resize(50);  // fewer than any search uses
   HandEstimates found;
   for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
     found = next(tracker_, right_hand_, patch, {});
@@ -180,7 +186,7 @@ TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
 
 class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithParamInterface<double> {
  protected:
-  /// What is said while the right hand is tracked with a profile of this size that is used as it is.
+  /// What the log says while the right hand is tracked with a measured profile scaled by `size`.
   std::string said(double size) {
     auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
     profile->origin = ProfileOrigin::measured;

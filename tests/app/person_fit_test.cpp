@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-/// A person whose hand is larger, broader and longer-fingered than the mean one, shown in a few poses.
+/// A person whose hand is larger, broader and longer-fingered than the mean hand, shown in a few poses.
 class PersonFitTest : public ::testing::Test {
  protected:
   static HandShape shape_of_the_person() {
@@ -23,7 +23,7 @@ class PersonFitTest : public ::testing::Test {
     }
     return shape;
   }
-  // Shows the hand turning and bending, and fits.
+  // Shows the hand in different directions and bends, and fits.
   void show(int looks) {
     for (int i = 0; i < looks; ++i) {
       const HandPose facing = test::facing_pose(*person_, 0.45, 0.15 + 0.1 * (i % 8));

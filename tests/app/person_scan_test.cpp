@@ -15,7 +15,7 @@ namespace {
 class PersonScanTest : public ::testing::Test {
  protected:
   PersonScanTest() {
-    params_.skin_cell = 0.008;  // m: few unknowns
+    params_.skin_cell = 0.008;  // m, coarse: few unknowns
     params_.shape_fit.scan_after = 60;
     params_.shape_fit.scans = 2;
   }
@@ -26,7 +26,7 @@ class PersonScanTest : public ::testing::Test {
       if (shape_parameters()[k].name == "fingers_thickness") shape[k] = fingers_thickness;
     return shape;
   }
-  /// Mean distance of a phalanx' skin from its bone [m].
+  /// Mean distance of a phalanx's skin from its bone [m].
   static double thickness(const Skin& skin, int segment) {
     double sum = 0;
     int count = 0;
@@ -43,7 +43,7 @@ class PersonScanTest : public ::testing::Test {
     }
   }
   static std::shared_ptr<const HandProfile> wait_for(PersonScan& scan) {
-    for (int i = 0; i < 600000; ++i) {  // minutes, where a sanitizer slows it down
+    for (int i = 0; i < 600000; ++i) {  // takes minutes if a sanitizer slows it down
       if (auto hand = scan.take()) return hand;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -73,13 +73,18 @@ TEST_F(PersonScanTest, ARecordingHasTheHandAtOnce) {
 }
 
 TEST_F(PersonScanTest, AMeasuredHandKeepsItsJointsAndGetsASkin) {
+  // A measured hand with the person's bones.
   auto measured = std::make_shared<HandProfile>(reshaped(*mean_, shape_of_the_person(0)));
   measured->origin = ProfileOrigin::measured;
   PersonScan scan(params_, measured, workers_);
   show(scan, params_.shape_fit.scan_after);
+
+  // The scan keeps the joints ...
   const auto hand = scan.take();
   ASSERT_TRUE(hand && hand->scanned_skin);
   EXPECT_EQ(hand->origin, ProfileOrigin::measured);
+
+  // ... and brings the skin closer to the person's.
   const Skin before = make_blended_skin(*measured, params_.skin_cell);
   double error = 0, error_before = 0;
   for (int s = 1; s < kSegmentCount; ++s) {

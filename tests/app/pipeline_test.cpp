@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Delivers what `script` returns for the n-th call.
+/// A source that returns for its n-th call what `script` says.
 class ScriptedSource : public FrameSource {
  public:
   ScriptedSource(bool live, std::function<SourceEvent(int)> script) : live_(live), script_(std::move(script)) {}
@@ -66,7 +66,7 @@ class RecordingSink : public Sink {
   std::atomic<int> idle_calls = 0;
 };
 
-/// Stages whose results depend on the hint and on all that was tracked before, and the frame numbers they fail on.
+/// Stages whose results depend on the hint and on everything tracked before, and that fail on given frames.
 struct World {
   explicit World(bool threaded) { options.threaded = threaded; }
 
@@ -148,11 +148,14 @@ TEST_P(PipelineLifecycle, HintIsTheEstimateTwoFramesBack) {
 }
 
 TEST_P(PipelineLifecycle, MeasuresTheWaitInEveryQueueThatWasPassed) {
-  // The clock moves while the source is asked for the second frame: with threads, frame 0 may be through by then.
+  // The clock advances while the source is asked for the second frame; with threads, frame 0 may have passed all
+  // queues by then.
   ScriptedSource source(false, [this](int n) -> SourceEvent {
     world_.clock.advance(n == 1 ? 5000 : 0);
     return n < 3 ? SourceEvent(frame(n)) : EndOfStream{};
   });
+
+  // Every queue has measured all waits.
   const RunResult result = world_.run(source);
   for (const QueueHealth& queue : result.health.queues) {
     EXPECT_EQ(queue.wait.count, queue.popped) << queue.name;
@@ -177,11 +180,14 @@ TEST_P(PipelineLifecycle, HintIsNullWhereTheFrameFailed) {
 }
 
 TEST_P(PipelineLifecycle, StopDrainsWhatIsInFlightAndFlushes) {
+  // Stop after some frames.
   ScriptedSource endless(false, frames_then_end(1 << 30));
   world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
     if (tracked.frame->number == 5) world_.pipeline->request_stop();
     return {};
   };
+
+  // All frames that were taken have been delivered.
   const RunResult result = world_.run(endless);
   EXPECT_TRUE(result.stopped);
   EXPECT_FALSE(result.error);
@@ -204,12 +210,15 @@ TEST_P(PipelineLifecycle, StopTokenStopsBeforeTheFirstFrame) {
 }
 
 TEST_P(PipelineLifecycle, ThrowingStageCostsItsFrameOnly) {
+  // Two frames on which the stage throws.
   ScriptedSource source(false, frames_then_end(9));
   world_.before_track = [](const FramePtr& f) -> Result<void> {
     if (f->number == 4) throw std::runtime_error("four");
     if (f->number == 5) throw 5;
     return {};
   };
+
+  // Only these two frames are missing.
   const RunResult result = world_.run(source);
   EXPECT_FALSE(result.error);
   EXPECT_TRUE(result.incomplete.empty());
@@ -246,11 +255,14 @@ TEST_P(PipelineLifecycle, FailuresWithASuccessBetweenGoOn) {
 }
 
 TEST_P(PipelineLifecycle, FailingSinkCountsTheFrameAndEndsARunThatCannotWrite) {
+  // A sink that cannot write from frame 4 on.
   ScriptedSource endless(false, frames_then_end(1 << 30));
   world_.options.max_failures_in_a_row = 3;
   world_.sink.on_frame = [](const TrackedFrame& tracked) -> Result<void> {
     return tracked.frame->number >= 4 ? Result<void>(fail("disk full")) : Result<void>();
   };
+
+  // The run ends with the sink's error.
   const RunResult result = world_.run(endless);
   ASSERT_TRUE(result.error);
   EXPECT_THAT(result.error->message(), HasSubstr("disk full"));
@@ -264,17 +276,22 @@ TEST_P(PipelineLifecycle, FailingSinkCountsTheFrameAndEndsARunThatCannotWrite) {
 TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
   std::atomic<int> consumed = 0;
   int delivered = 0;
-  // The next frame comes when the last one was consumed, so that none is dropped at the door.
+
+  // The next frame comes when the last one was consumed, so that none is dropped at the input queue.
   ScriptedSource source(true, [&](int) -> SourceEvent {
     if (delivered > consumed) return Timeout{};
     if (delivered == 10) return EndOfStream{};
     return frame(delivered++);
   });
+
+  // The sink fails more often than a replay would allow.
   world_.options.max_failures_in_a_row = 3;
   world_.sink.on_frame = [&](const TrackedFrame&) -> Result<void> {
     if (++consumed <= 8) return fail("network down");
     return {};
   };
+
+  // The run goes on until the sink works again.
   const RunResult result = world_.run(source);
   EXPECT_FALSE(result.error);
   EXPECT_EQ(result.health.failed, 8);
@@ -283,6 +300,7 @@ TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
 }
 
 TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
+  // Look at the pulse while the last frame is in the sink.
   ScriptedSource source(false, frames_then_end(5));
   PipelinePulse inside;
   world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
@@ -290,6 +308,8 @@ TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
     return {};
   };
   world_.run(source);
+
+  // The counts at that moment, and at the end.
   EXPECT_EQ(inside.finished, 4);
   EXPECT_EQ(inside.inside, 1) << "the one that the sink holds";
   EXPECT_GE(inside.answers, 5);
@@ -352,6 +372,8 @@ TEST_P(PipelineLifecycle, SourceThatFailsOrThrowsEndsTheRunWithItsError) {
       if (throws) throw std::runtime_error("unplugged");
       return SourceFailed{{"unplugged", "usb", ""}};
     });
+
+    // The frames before it are delivered, and the error is reported.
     const RunResult result = world.run(source);
     ASSERT_TRUE(result.error);
     EXPECT_THAT(result.error->message(), HasSubstr("unplugged"));
@@ -365,12 +387,16 @@ TEST_P(PipelineLifecycle, LiveLatencyIsFromCaptureAndReplayLatencyFromArrival) {
   for (const bool live : {true, false}) {
     World world(GetParam());
     world.clock.advance(5'000'000);
+
+    // One frame, captured 20 ms before it arrives; preprocessing takes 3 ms.
     ScriptedSource source(live, [&](int n) -> SourceEvent {
       auto made = std::make_shared<RgbdFrame>();
       made->utime = 4'980'000;
       return n == 0 ? SourceEvent(FramePtr(made)) : EndOfStream{};
     });
     world.before_preprocess = [&](const FramePtr&) { world.clock.advance(3'000); };
+
+    // Only a live run counts from the capture.
     const RunResult result = world.run(source);
     EXPECT_DOUBLE_EQ(result.health.latency.max, live ? 0.023 : 0.003);
     EXPECT_DOUBLE_EQ(result.health.stages[0].time.max, 0.003);
@@ -398,16 +424,19 @@ TEST(PipelineRunners, ThreadedAndInlineGiveIdenticalResults) {
   }
   EXPECT_EQ(threaded.hints, single.hints);
   EXPECT_EQ(threaded.sink.numbers, single.sink.numbers);
-  EXPECT_EQ(threaded.sink.scores, single.sink.scores);  // exactly
+  EXPECT_EQ(threaded.sink.scores, single.sink.scores);  // exactly equal
 }
 
 TEST(PipelineRunners, SlowConsumerHoldsUpAReplayAndLosesNothing) {
   World world(true);
   world.options.replay_capacity = 1;
-  // In flight: one in every stage and queue, and one that the source cannot put down.
+
+  // Frames in flight: one in every stage and queue, and one that the source cannot push.
   constexpr int kInFlight = 7;
   std::latch full(kInFlight);
   std::atomic<int> calls = 0;
+
+  // The first frame leaves the sink when all places are full.
   ScriptedSource source(false, [&](int n) -> SourceEvent {
     ++calls;
     if (n < kInFlight) full.count_down();
@@ -420,6 +449,8 @@ TEST(PipelineRunners, SlowConsumerHoldsUpAReplayAndLosesNothing) {
     }
     return {};
   };
+
+  // No frame is lost.
   const RunResult result = world.run(source);
   EXPECT_EQ(result.health.published, 30);
   EXPECT_EQ(result.health.dropped, 0);
@@ -428,6 +459,8 @@ TEST(PipelineRunners, SlowConsumerHoldsUpAReplayAndLosesNothing) {
 
 TEST(PipelineRunners, LiveFramesAreDroppedAtTheDoorAndTheNewestWinsThreaded) {
   World world(true);
+
+  // All frames arrive while the first one is tracked.
   std::latch all_sent(1);
   ScriptedSource source(true, [&](int n) -> SourceEvent {
     if (n < 20) return frame(n);
@@ -438,8 +471,10 @@ TEST(PipelineRunners, LiveFramesAreDroppedAtTheDoorAndTheNewestWinsThreaded) {
     all_sent.wait();  // slower than the sensor
     return {};
   };
+
+  // Frames were dropped at the input queue only, and the newest one was kept.
   const RunResult result = world.run(source);
-  EXPECT_GE(result.health.dropped, 17);  // at most one is tracked, one waits for the tracker, one at the door
+  EXPECT_GE(result.health.dropped, 17);  // at most one is tracked, one waits for the tracker and one at the input queue
   EXPECT_EQ(result.health.queues[0].dropped, result.health.dropped);
   EXPECT_EQ(result.health.queues[1].dropped + result.health.queues[2].dropped, 0);
   EXPECT_EQ(world.sink.numbers.back(), 19);

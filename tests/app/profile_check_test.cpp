@@ -12,19 +12,20 @@
 namespace barehand {
 namespace {
 
-constexpr double kBad = 0.01, kGood = 1e-5;  // scores, far above and below what a hand of the seen side gets [m]
+constexpr double kBad = 0.01, kGood = 1e-5;  // scores far above and far below those of a hand of the observed side [m]
 
-/// A left hand is seen, and the profile is a right hand's; what it makes of that is said by the test.
+/// The observed hand is a left hand, and the profile is that of a right hand; the test says how well the profile
+/// explains it.
 class ProfileOnTrial : public ::testing::Test {
  protected:
   static TrackerParams params() {
     TrackerParams params = test::quick_tracker();
-    params.search_convincing = 0;  // nothing does
+    params.search_convincing = 0;  // no score is convincing
     return params;
   }
   HandObservationPtr seen() { return test::stamped(*left_hand_, utime_ += 33'000); }
   bool refused(double score) { return check_.is_other_side(*seen(), Effort::quick, 1, score); }
-  /// Frames until the other side is found out, with the profile's own `score` and status; none if it is not.
+  /// Number of frames until the other side is recognised, for the profile's own `score` and status; none if it is not.
   std::optional<int> trial(double score, TrackStatus status = TrackStatus::tracking) {
     HandEstimate own;
     own.status = status;
@@ -52,7 +53,7 @@ TEST_F(ProfileOnTrial, AStartIsRefusedWhereTheMirroredHandIsClearlyBetter) {
 }
 
 TEST_F(ProfileOnTrial, AHandOfTheOtherSideIsFoundOutWhileItIsTracked) {
-  ASSERT_FALSE(refused(kGood));  // the start looked well
+  ASSERT_FALSE(refused(kGood));  // the start looked good
   ASSERT_TRUE(check_.on_trial());
   const auto frames = trial(kBad);
   ASSERT_TRUE(frames);
@@ -85,7 +86,7 @@ TEST_F(ProfileOnTrial, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
   ASSERT_FALSE(refused(kGood));
   ASSERT_TRUE(trial(kBad));
   EXPECT_TRUE(refused(kGood));
-  EXPECT_TRUE(refused(kBad));  // begins anew
+  EXPECT_TRUE(refused(kBad));  // begins another trial
   EXPECT_TRUE(refused(kGood));
   EXPECT_TRUE(refused(kGood));
   EXPECT_FALSE(refused(kGood));

@@ -9,17 +9,20 @@
 namespace barehand {
 namespace {
 
-/// A hand of which palm, thumb root and first phalanges are seen beside what hides the rest.
+/// A hand of which only the palm, the thumb's root and the first phalanges are visible; an object hides the rest.
 class RelaxedPose : public testing::Test {
  protected:
   static bool shown(int s) { return s == kPalm || parent_of(s) == kPalm; }
 
   void SetUp() override {
+    // The whole hand.
     auto hand = test::observe_skin(*skin_, pose_);
     RenderedHand rendered;
     const Intrinsics& camera = hand->frame->camera;
     render_hand(*skin_, pose_, camera, {0, 0, 1, camera.width, camera.height}, rendered);
     Image<std::int32_t> object(camera.width, camera.height, -1);
+
+    // Hide the other segments behind an object.
     std::erase_if(hand->hand_pixels, [&](std::int32_t i) {
       if (shown(skin_->vertices[rendered.vertex[i]].a)) return false;
       hand->label[i] = PixelLabel::object;
@@ -28,12 +31,15 @@ class RelaxedPose : public testing::Test {
       rendered.vertex[i] = -1;
       return true;
     });
+
+    // The derived maps.
     hand->nearest_hand = test::nearest_in(rendered.vertex);
     hand->nearest_object = test::nearest_in(object);
     hand_ = hand;
   }
 
-  /// As if a search had found the hand with this flexion of hidden joints, and knuckles bent too far by `error` [rad].
+  /// A pose as a search might find it: hidden joints have this flexion, and knuckles are bent too far by `error`
+  /// [rad].
   RefinedPose found(double hidden, double error) const {
     RefinedPose result;
     std::array<JointAngles, kSegmentCount> angles{};

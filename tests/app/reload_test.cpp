@@ -31,6 +31,7 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
 }
 
 TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
+  // Change values of both kinds.
   NewParams news;
   Reload reload({}, news);
   Config wanted;
@@ -44,11 +45,14 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   EXPECT_EQ(news.tracker.take()->shape_fit.enabled, Config{}.tracker.shape_fit.enabled);
   EXPECT_EQ(news.bus.take()->hold_time, 2) << "one key serves the tracker and what is published";
   EXPECT_EQ(news.states_log.take()->hold_time, 2);
+
+  // A second call lists only what still waits for a restart.
   EXPECT_EQ(reload.apply(wanted).for_restart.size(), 2u) << "still not in force";
   EXPECT_THAT(reload.apply(wanted).made, IsEmpty());
 }
 
 TEST(Reload, PreprocessWorksWithTheNewParametersFromTheNextFrameOn) {
+  // A frame that shows a hand.
   const auto profile = test::adult_hand();
   const auto seen = test::observe_skin(make_blended_skin(*profile, 0.004), test::facing_pose(*profile, 0.5));
   auto frame = std::make_shared<RgbdFrame>(*seen->frame);
@@ -56,12 +60,16 @@ TEST(Reload, PreprocessWorksWithTheNewParametersFromTheNextFrameOn) {
   frame->depth.reset(frame->camera.width, frame->camera.height);
   for (std::size_t i = 0; i < frame->depth.size(); ++i)
     frame->depth[i] = static_cast<std::uint16_t>(seen->depth[i] / frame->depth_unit);
+
+  // The stages find it.
   ManualClock clock;
   RepeatLog log(make_silent_logger(), clock);
   Workers workers(1);
   NewParams news;
   const TrackStages stages = make_track_stages({}, {profile}, std::nullopt, {}, workers, log, &news);
   EXPECT_TRUE(stages.preprocess(frame, {})->front()->hand_present);
+
+  // With another range of depth they do not.
   PreprocessParams near;
   near.max_depth = 0.3;
   news.preprocess.put(near);
@@ -69,6 +77,7 @@ TEST(Reload, PreprocessWorksWithTheNewParametersFromTheNextFrameOn) {
 }
 
 TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
+  // A tracked hand that is lost in the next frame.
   const test::TempFolder folder;
   const auto profile = test::adult_hand();
   auto estimate = std::make_shared<HandEstimate>();
@@ -80,6 +89,8 @@ TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
   auto lost = std::make_shared<HandEstimate>(*estimate);
   lost->utime += 100'000;
   lost->status = TrackStatus::lost;
+
+  // Between the frames the hold time becomes zero.
   Slot<PublishParams> news;
   {
     auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", false, &news).value();
@@ -89,6 +100,8 @@ TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
     news.put(no_hold);
     ASSERT_TRUE(sink->consume({nullptr, {}, {lost}}));
   }
+
+  // The log shows that the lost hand is not held.
   auto log = LcmLogReader::open(folder / "states.lcmlog").value();
   std::vector<int> has_pose;
   for (const LogEntry& entry : log.entries()) {

@@ -25,7 +25,7 @@ class ScanFramesTest : public ::testing::Test {
   }
 
   ScanFrames frames_{kSettling, kMost};
-  int shown_ = 0;  // tracked frames
+  int shown_ = 0;  // number of tracked frames
 };
 
 TEST_F(ScanFramesTest, LeavesOutTheBeginningAndWhatIsNotTracked) {

@@ -31,15 +31,21 @@ TEST_F(SimRun, WritesARecordingWithTruthProfileAndStart) {
   const auto frames = run("fist,frames=3,width=160,height=120", path("fist"));
   ASSERT_TRUE(frames.has_value()) << frames.error().message();
   EXPECT_EQ(*frames, 3);
+
+  // The recording.
   const auto recording = open_recording(path("fist"));
   ASSERT_TRUE(recording.has_value()) << recording.error().message();
   EXPECT_EQ(recording->entries.size(), 3u);
   EXPECT_EQ(recording->fps, 25);
   EXPECT_EQ(recording->depth_unit, 0.0001);
+
+  // The truth.
   const auto truth = read_table(path("fist/truth.csv"));
   ASSERT_TRUE(truth.has_value()) << truth.error().message();
   ASSERT_EQ(truth->frames.size(), 3u);
   EXPECT_NEAR(truth->frames[1].timestamp, 1e-6 * recording->entries[1].utime, 1e-6);
+
+  // The profile and the start.
   const auto profile = load_profile(path("fist/hand.json"));
   ASSERT_TRUE(profile.has_value()) << profile.error().message();
   const auto pose = load_pose(path("fist/start_pose.json"), *profile);
@@ -48,6 +54,7 @@ TEST_F(SimRun, WritesARecordingWithTruthProfileAndStart) {
 }
 
 TEST_F(SimRun, WritesTruthAndProfileOfBothHands) {
+  // Both hands have their truth, and the left one comes later.
   const std::string spec = "two_hands,fps=10,frames=19,width=160,height=120";  // the left hand comes after 1.4 s
   ASSERT_TRUE(run(spec, path("two")).has_value());
   const auto right = read_table(path("two/truth.csv")), left = read_table(path("two/truth_left.csv"));
@@ -76,9 +83,12 @@ TEST_F(SimRun, WritesTruthAndProfileOfBothHands) {
 }
 
 TEST_F(SimRun, WritesTheSameDepthIntoALog) {
+  // The same sequence as a folder and as a log.
   ASSERT_TRUE(run("open,frames=2,width=160,height=120", path("a")).has_value());
   const auto logged = run("open,frames=2,width=160,height=120", path("b.lcmlog"));
   ASSERT_TRUE(logged.has_value()) << logged.error().message();
+
+  // The second frame of both.
   const auto recording = open_recording(path("a"));
   ASSERT_TRUE(recording.has_value());
   const auto from_folder = read_frame(*recording, 1);
@@ -89,6 +99,8 @@ TEST_F(SimRun, WritesTheSameDepthIntoALog) {
   const auto* frame = std::get_if<FramePtr>(&event);
   ASSERT_TRUE(frame);
   ASSERT_TRUE(from_folder.has_value());
+
+  // They agree, and the log has its files beside it.
   EXPECT_EQ((*frame)->utime, (*from_folder)->utime);
   EXPECT_TRUE(std::equal((*frame)->depth.data(), (*frame)->depth.data() + (*frame)->depth.size(),
                          (*from_folder)->depth.data()));

@@ -8,12 +8,17 @@ namespace barehand {
 namespace {
 
 TEST(AvailableMemory, IsTheKernelsFigureWithinTheGroupsLimit) {
+  // The files in which the kernel reports.
   const test::TempFolder folder;
   const std::string info = folder / "meminfo", own = folder / "cgroup";
   const std::string service = folder / "system.slice/barehand.service";
   std::filesystem::create_directories(service);
+
+  // Without a control group the kernel's figure counts.
   test::write_text(info, "MemTotal:  8000 kB\nMemFree:  1000 kB\nMemAvailable:  3000 kB\n");
   EXPECT_EQ(available_memory(info, "/nonexistent", "/nonexistent"), 3000 * 1024);
+
+  // The lowest limit of the group and of its parents counts.
   test::write_text(own, "4:memory:/elsewhere\n0::/system.slice/barehand.service\n");
   test::write_text(service + "/memory.max", "max\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 3000 * 1024);
@@ -23,7 +28,9 @@ TEST(AvailableMemory, IsTheKernelsFigureWithinTheGroupsLimit) {
   EXPECT_EQ(available_memory(info, own, folder.path()), 1048576);
   test::write_text(folder / "memory.max", "524288\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
-  test::write_text(own, "0::/\n");  // in a namespace of its own
+
+  // In a namespace of its own, the process's group is the root.
+  test::write_text(own, "0::/\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
 }
 

@@ -1,4 +1,4 @@
-// Started by with_own_run.sh: plays the journal that listens at /run/systemd/journal/socket.
+// Started by with_own_run.sh. It plays the journal that listens at /run/systemd/journal/socket.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -31,7 +31,7 @@ class Journal : public ::testing::Test {
     close(socket_);
     unsetenv("JOURNAL_STREAM");
   }
-  /// What came, "" if nothing did: sending is synchronous.
+  /// The message that has arrived, "" if there is none; sending is synchronous.
   std::string received() const {
     char buffer[4096];
     const ssize_t count = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);

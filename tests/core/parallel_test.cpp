@@ -69,6 +69,8 @@ TEST(Workers, DoAsideBeforeTheyReturnWhereNothingIsLive) {
       cores = w.threads();
       return 7;
     });
+
+    // It ran on this thread with all cores, and is done.
     EXPECT_EQ(where, std::this_thread::get_id());
     EXPECT_EQ(cores, threads);
     ASSERT_EQ(result.wait_for(std::chrono::seconds(0)), std::future_status::ready);
@@ -81,7 +83,7 @@ TEST(Workers, DoAsideMeanwhileAndGiveWayWhereFramesComeByThemselves) {
   workers.go_live();
   std::promise<void> returned;
   auto result = workers.aside([&](Workers& alone) {
-    returned.get_future().wait();  // would never end if aside() waited for this
+    returned.get_future().wait();  // would never end if aside() waited for it
     EXPECT_EQ(alone.threads(), 1);
     return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
   });

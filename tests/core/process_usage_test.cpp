@@ -12,10 +12,10 @@ TEST(ProcessUsage, ComputingTakesCpuSeconds) {
   const double before = cpu_seconds();
   volatile double sum = 0;
   while (cpu_seconds() < before + 0.02) sum = sum + 1;
-  EXPECT_GT(cpu_seconds() - before, 0.019);  // the sum rounds
+  EXPECT_GT(cpu_seconds() - before, 0.019);  // the sum is rounded
 }
 
-/// Fills so much memory and gives it back to the kernel, which an allocator may put off.
+/// Uses this much memory and returns it to the kernel at once, which an allocator might delay.
 void fill_and_release(std::size_t bytes) {
   void* const block = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(block, MAP_FAILED);

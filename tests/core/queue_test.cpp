@@ -71,11 +71,14 @@ TEST(BoundedQueue, PopWithinGivesUpAndDrainedSaysWhenItIsOver) {
 }
 
 TEST(BoundedQueue, CloseWakesBlockedProducerAndConsumer) {
+  // A producer waits for space, a consumer for an item.
   BoundedQueue<int> full("full", 1, Overflow::block), empty("empty", 1, Overflow::block);
   full.push(1);
   std::latch running(2);
   bool pushed = true;
   std::optional<int> popped = 0;
+
+  // Closing wakes both.
   {
     std::jthread producer([&] { running.count_down(), pushed = full.push(2); });
     std::jthread consumer([&] { running.count_down(), popped = empty.pop(); });
@@ -90,6 +93,8 @@ TEST(BoundedQueue, CloseWakesBlockedProducerAndConsumer) {
 TEST(BoundedQueue, CountsHoldWithManyThreads) {
   for (const Overflow overflow : {Overflow::block, Overflow::drop_oldest}) {
     BoundedQueue<int> queue("q", 3, overflow);
+
+    // Several producers and consumers at once.
     std::atomic<int> received = 0;
     {
       std::vector<std::jthread> consumers, producers;
@@ -101,9 +106,13 @@ TEST(BoundedQueue, CountsHoldWithManyThreads) {
         producers.emplace_back([&] {
           for (int i = 0; i < 500; ++i) queue.push(i);
         });
+
+      // The consumers end when the queue is closed and empty.
       producers.clear();
       queue.close();
     }
+
+    // The counts agree; a blocking queue loses nothing.
     const QueueHealth health = queue.health();
     EXPECT_EQ(health.pushed, 1500);
     EXPECT_EQ(health.popped, received);

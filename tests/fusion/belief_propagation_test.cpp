@@ -18,7 +18,8 @@ struct SmallTree {
   std::vector<EdgeEnergy> energy;
 };
 
-/// Up to 6 nodes of 1 to 4 states; log observations span `phi_range`, edge energies `energy_range`.
+/// A tree of up to 6 nodes with 1 to 4 states each; log observations are in `phi_range`, edge energies in
+/// `energy_range`.
 SmallTree random_tree(std::uint64_t seed, double phi_range, double energy_range) {
   KeyedRandom random(seed, 7);
   SmallTree tree;
@@ -27,6 +28,8 @@ SmallTree random_tree(std::uint64_t seed, double phi_range, double energy_range)
     tree.parent.push_back(i == 0 ? -1 : static_cast<int>(random.uniform(0, i)));
     tree.log_phi.emplace_back(1 + static_cast<int>(random.uniform(0, 4)));
     for (double& p : tree.log_phi.back()) p = random.uniform(-phi_range, 0);
+
+    // The edge to the parent.
     EdgeEnergy e;
     if (i > 0) {
       e = {tree.log_phi[tree.parent[i]].size(), tree.log_phi[i].size(), {}};
@@ -43,27 +46,35 @@ double log_add(double a, double b) {
   return std::isinf(m) ? m : m + std::log(std::exp(a - m) + std::exp(b - m));
 }
 
-/// Marginals (or max-marginals) by enumerating every joint state.
+/// Marginals or max-marginals, computed by enumerating all joint states.
 Beliefs brute_force(const SmallTree& tree, Marginals marginals) {
   Beliefs result;
   for (const auto& phi : tree.log_phi) result.emplace_back(phi.size(), -INFINITY);
   std::vector<std::size_t> state(tree.parent.size(), 0);
+
+  // The log probability of one joint state.
   for (bool more = true; more;) {
     double total = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
       total += tree.log_phi[i][state[i]];
       if (i > 0) total -= tree.energy[i].row(state[i])[state[tree.parent[i]]];
     }
+
+    // Add it to the belief of each node's state.
     for (std::size_t i = 0; i < state.size(); ++i) {
       double& r = result[i][state[i]];
       r = marginals == Marginals::max ? std::max(r, total) : log_add(r, total);
     }
+
+    // The next joint state.
     more = false;
     for (std::size_t i = 0; i < state.size() && !more; ++i) {
       state[i] = (state[i] + 1) % tree.log_phi[i].size();
       more = state[i] != 0;
     }
   }
+
+  // Normalise.
   for (auto& r : result) {
     double sum = -INFINITY;
     for (const double v : r) sum = log_add(sum, v);
@@ -72,7 +83,8 @@ Beliefs brute_force(const SmallTree& tree, Marginals marginals) {
   return result;
 }
 
-/// Largest error of any belief: in the logarithm where the state matters (above e^-20), else only that it stays low.
+/// Largest error of a belief. Where the state matters (above e^-20) the logarithms are compared; elsewhere the belief
+/// only has to be low.
 double mismatch(const Beliefs& actual, const Beliefs& expected) {
   double worst = 0;
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -99,11 +111,11 @@ TEST(TreeBeliefs, EqualMarginalsByEnumeration) {
 }
 
 TEST(TreeBeliefs, StayExactInExtremeDynamicRange) {
-  // exp(-5000) is zero in any floating-point format: a linear-domain message would be 0 / 0 here.
+  // exp(-5000) is zero in every floating-point format, so that a message in the linear domain would be 0 / 0 here.
   for (std::uint64_t seed = 0; seed < 200; ++seed)
     for (const auto& [phi, psi] : {std::pair{5000.0, 5.0}, {5.0, 5000.0}, {5000.0, 5000.0}}) {
       const SmallTree tree = random_tree(seed, phi, psi);
-      // 5000 has a single-precision spacing of 5e-4; a few of them add up along the tree.
+      // Near 5000, single precision has a spacing of 5e-4, and several such errors add up along the tree.
       ASSERT_LT(mismatch(propagate(tree), brute_force(tree, Marginals::sum)), 5e-3) << "seed " << seed;
     }
 }
@@ -130,7 +142,7 @@ TEST(TreeBeliefs, DoNotDependOnTheNumberOfWorkers) {
 
 TEST(TreeBeliefs, DoNotDependOnWhatWasComputedBefore) {
   const SmallTree tree = random_tree(12, 20, 20);
-  SmallTree larger = tree;  // more samples a node
+  SmallTree larger = tree;  // more samples per node
   for (std::size_t i = 0; i < larger.parent.size(); ++i) {
     larger.log_phi[i].resize(9, -1);
     if (i > 0) larger.energy[i] = {9, 9, std::vector<float>(81, 0.5f)};
@@ -144,7 +156,7 @@ TEST(TreeBeliefs, DoNotDependOnWhatWasComputedBefore) {
 }
 
 TEST(TreeBeliefsCheck, RejectsAMessageThatIgnoresASibling) {
-  // Root with two leaves; the wrong result leaves out the second leaf's message.
+  // A root with two leaves. A wrong implementation would leave out the second leaf's message.
   SmallTree tree{{-1, 0, 0}, {{0, 0}, {0, -1}, {-3, 0}}, {{}, {2, 2, {0, 2, 2, 0}}, {2, 2, {0, 2, 2, 0}}}};
   SmallTree without = tree;
   without.log_phi[2] = {0, 0};

@@ -19,7 +19,7 @@ HandPose flexed_hand(double flexion) {
   return forward_kinematics(small_hand(), kPalmPose, angles);
 }
 
-/// The given pose and `count - 1` displaced ones per segment, all equally likely.
+/// Samples of every segment: the given pose and `count - 1` displaced ones, all equally likely.
 SegmentSamples flat_samples(const HandPose& pose, int count) {
   KeyedRandom random(5, 1);
   SegmentSamples samples;
@@ -32,6 +32,7 @@ SegmentSamples flat_samples(const HandPose& pose, int count) {
       twist.tail<3>() *= 0.3;
       samples.poses[s].push_back(boxplus(pose[s], twist));
     }
+
     samples.log_likelihood[s].assign(count, 0.0);
   }
   return samples;
@@ -44,7 +45,8 @@ Fusion make_fusion(Workers& workers, const FusionParams& params = {}) {
 std::size_t best(const std::vector<double>& v) { return std::max_element(v.begin(), v.end()) - v.begin(); }
 
 TEST(Fusion, StructureAloneFindsTheClosedHand) {
-  // Only palm and fingertips are seen, at sample 0; all others are flat (fully occluded) and must follow.
+  // Only the palm and the fingertips are observed, at sample 0. All other segments have a flat likelihood (fully
+  // occluded) and must follow.
   Workers workers(1);
   Fusion fusion = make_fusion(workers);
   SegmentSamples samples = flat_samples(flexed_hand(0.4), 40);
@@ -92,9 +94,13 @@ TEST(Fusion, NextProposalsAreTheBestSamplesInShrinkingBoxes) {
   params.levels = 4;
   params.kernel_separation = 0;
   Fusion fusion = make_fusion(workers, params);
+
+  // Beliefs whose order is known.
   const SegmentSamples samples = flat_samples(flexed_hand(0.2), 6);
   HandBelief belief;
   for (auto& b : belief.log_belief) b = {-5, -1, -9, -2, -3, -4};
+
+  // The best three samples come first, and the boxes shrink.
   const Proposals next = fusion.next_proposals(samples, belief, 2);
   const Vector6d first = fusion.first_proposals(flexed_hand(0.2))[7][0].half_width;
   ASSERT_EQ(next[7].size(), 3u);
@@ -108,6 +114,8 @@ TEST(Fusion, NextProposalsAreTheBestSamplesInShrinkingBoxes) {
 TEST(Fusion, ReadOutAveragesTheBestModeOnly) {
   Workers workers(1);
   Fusion fusion = make_fusion(workers);
+
+  // Two close samples form the best mode; one is far away.
   SegmentSamples samples;
   HandBelief belief;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -118,6 +126,8 @@ TEST(Fusion, ReadOutAveragesTheBestModeOnly) {
     samples.poses[s] = {a, b, far};
     belief.log_belief[s] = {std::log(0.4), std::log(0.4), std::log(0.2)};
   }
+
+  // The mean is that of the mode.
   const FusedPose fused = fusion.read_out(samples, belief);
   EXPECT_NEAR(fused.pose[3].t.x(), 0.001, 1e-9);
   EXPECT_NEAR(log_so3(fused.pose[3].R).x(), 0.05, 1e-9);
@@ -130,8 +140,10 @@ TEST(Fusion, ReadOutAveragesTheBestModeOnly) {
 TEST(Fusion, CovarianceIsThatOfTheBeliefInTheCameraFrame) {
   Workers workers(1);
   FusionParams params;
-  params.range_end = 0.001;  // leaves nearly nothing to the resolution term
+  params.range_end = 0.001;  // leaves hardly anything to the resolution term
   Fusion fusion = make_fusion(workers, params);
+
+  // Two samples on the camera's y axis.
   SegmentSamples samples;
   HandBelief belief;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -141,6 +153,8 @@ TEST(Fusion, CovarianceIsThatOfTheBeliefInTheCameraFrame) {
     samples.poses[s] = {a, b};
     belief.log_belief[s] = {std::log(0.5), std::log(0.5)};
   }
+
+  // The variance is along this axis.
   const Matrix6d covariance = fusion.read_out(samples, belief).covariance[5];
   EXPECT_NEAR(covariance(1, 1), 1e-6, 1e-9);
   EXPECT_LT(covariance(0, 0), 1e-9);

@@ -12,9 +12,10 @@
 namespace barehand {
 namespace {
 
-/// Eq. 4-6 as written, in double precision.
+/// Eq. 4-6 literally, in double precision.
 double reference_energy(const HandProfile& profile, const FusionParams& params, double sigma_prox, const HandPose& pose,
                         int s) {
+  // The distance of an angle from its range, the short way round.
   const JointLimits l = widened_limits(profile, params.limit_widening_deg * kDegree)[s];
   const JointAngles a = joint_angles(profile, pose, s);
   const auto error = [](double angle, double lo, double hi) {
@@ -25,6 +26,8 @@ double reference_energy(const HandProfile& profile, const FusionParams& params, 
     }
     return nearest;
   };
+
+  // The sum of all terms.
   const double prox = (joint_in_parent(profile, pose, s) - proximal_end(pose, s)).norm() / sigma_prox;
   const double flexion = error(a.flexion, l.flexion_lo, l.flexion_hi) / (params.sigma_flexion_deg * kDegree);
   const double abduction = error(a.abduction, l.abduction_lo, l.abduction_hi) / (params.sigma_abduction_deg * kDegree);
@@ -54,13 +57,17 @@ TEST(JointEnergy, AgreesWithTheEquationsInDoublePrecision) {
   const FusionParams params = distinct_sigmas();
   const JointModels models = make_joint_models(profile, params);
   KeyedRandom random(1, 2);
+
+  // All pairs of random samples; the last child has angles beyond the wrap.
   for (const int s : {1, 4, 5}) {
     std::vector<SE3> parents, children;
     for (int i = 0; i < 9; ++i) {
       parents.push_back(random_pose(random, 0.02, 1.0));
       children.push_back(random_pose(random, 0.02, 1.0));
     }
-    children.push_back(random_pose(random, 0.02, 3.1));  // angles past the wrap
+    children.push_back(random_pose(random, 0.02, 3.1));
+
+    // Compare every pair with the equations.
     const EdgeEnergy energy = energy_of_all_pairs(models[s], 0.005, parents, children);
     for (std::size_t c = 0; c < children.size(); ++c)
       for (std::size_t p = 0; p < parents.size(); ++p) {
@@ -90,9 +97,9 @@ TEST(JointEnergy, IsZeroWithinTheWidenedLimitsOfAClosedJoint) {
 
 TEST(JointEnergy, CountsOneSigmaAsOne) {
   EXPECT_NEAR(energy_at({}, 4, {0, 0.005, 0}), 1, 1e-4);                 // sigma_prox
-  EXPECT_NEAR(energy_at({(100 + 12) * kDegree, 0, 0}, 4), 1, 1e-3);      // beyond flexion
-  EXPECT_NEAR(energy_at({0, -(20 + 10 + 7) * kDegree, 0}, 4), 1, 1e-3);  // beyond abduction
-  EXPECT_NEAR(energy_at({0, 0, 5 * kDegree}, 4), 1, 1e-3);               // any twist
+  EXPECT_NEAR(energy_at({(100 + 12) * kDegree, 0, 0}, 4), 1, 1e-3);      // beyond the flexion limit
+  EXPECT_NEAR(energy_at({0, -(20 + 10 + 7) * kDegree, 0}, 4), 1, 1e-3);  // beyond the abduction limit
+  EXPECT_NEAR(energy_at({0, 0, 5 * kDegree}, 4), 1, 1e-3);               // any twist counts
 }
 
 TEST(JointEnergy, AHingeHasNoFreeAbduction) { EXPECT_NEAR(energy_at({0.5, 7 * kDegree, 0}, 5), 1, 1e-3); }

@@ -12,6 +12,7 @@ namespace {
 constexpr int kUnknowns = 6 * kSegmentCount;
 using Dense = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
+/// A positive definite tree of random residuals.
 GaussianTree random_tree(std::uint32_t key) {
   KeyedRandom random(1, key);
   const auto block = [&] { return Matrix6d::NullaryExpr([&] { return random.uniform(-1, 1); }); };
@@ -21,7 +22,8 @@ GaussianTree random_tree(std::uint32_t key) {
     tree.H_self[s] += Matrix6d::Identity() * 0.1;
     tree.g[s] = Vector6d::NullaryExpr([&] { return random.uniform(-1, 1); });
     if (s == kPalm) continue;
-    const Matrix6d a = block(), b = block();  // a residual between segment and parent
+
+    const Matrix6d a = block(), b = block();  // a random residual between segment and parent
     tree.H_self[s] += a.transpose() * a;
     tree.H_self[parent_of(s)] += b.transpose() * b;
     tree.H_parent[s] += a.transpose() * b;

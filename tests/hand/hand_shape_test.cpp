@@ -17,7 +17,7 @@ int index_of(const std::string& name) {
 
 class HandShapeTest : public ::testing::Test {
  protected:
-  // Mean distance of a skin, carried along by its bones, to the surface of a hand.
+  // Mean distance of a skin that moves with its bones from the surface of a hand.
   static double mean_distance(const Skin& skin, const ImplicitHand& hand) {
     double sum = 0;
     for (const SkinVertex& v : skin.vertices) {

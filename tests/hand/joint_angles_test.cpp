@@ -17,7 +17,7 @@ TEST(JointAngles, DecompositionInvertsRotationPastNinetyDegreesOfFlexion) {
 }
 
 TEST(JointAngles, FlexionTurnsTheBoneTowardsThePalmSide) {
-  // -z is along the bone, -y is palmar.
+  // The bone points along -z, and the palm's side is -y.
   const Eigen::Vector3d bone = joint_rotation({0.5, 0, 0}) * -Eigen::Vector3d::UnitZ();
   EXPECT_LT(bone.y(), -0.4);
 }

@@ -17,7 +17,7 @@ HandPose bent_pose(const HandProfile& profile) {
   return pose;
 }
 
-// What a joint says, as a vector, in a pose near the one it was linearised in.
+// A quantity of a joint as a vector, evaluated in a pose near the one at which the joint was linearised.
 using Quantity = std::function<Vector3d(const JointLinearisation&)>;
 
 Vector3d gap(const JointLinearisation& joint) { return joint.gap; }
@@ -40,6 +40,8 @@ class JointJacobiansTest : public ::testing::Test {
       pose[body] = boxplus(pose[body], Vector6d::Unit(axis) * step);
       return quantity(linearise_joint(*profile_, pose, segment));
     };
+
+    // Compare every column, for the segment and for its parent.
     double worst = 0;
     for (int axis = 0; axis < 6; ++axis) {
       const auto numeric = [&](int body) { return ((moved(body, axis, h) - moved(body, axis, -h)) / (2 * h)).eval(); };

@@ -22,7 +22,7 @@ HandProfile right_index() {
 TEST(Mirrored, ReflectsEveryPointOfThePosedFinger) {
   const HandProfile right = right_index(), left = mirrored(right);
   EXPECT_EQ(left.handedness, Handedness::left);
-  const auto posed = [](const HandProfile& profile) {  // both joints bent by the same angles about their own axes
+  const auto posed = [](const HandProfile& profile) {  // both joints are bent by the same angles about their own axes
     const SegmentProfile& s = profile.segments[4];
     return SE3{s.T_hand_segment.R * exp_so3(0.3 * s.dofs[0].axis) * exp_so3(0.8 * s.dofs[1].axis), s.T_hand_segment.t};
   };

@@ -52,7 +52,7 @@ TEST_F(SkinTest, FollowsARigidMotionOfTheWholeHand) {
 }
 
 TEST_F(SkinTest, ThicknessFollowsTheProfile) {
-  // Half way along the middle finger's second phalanx the skin is as wide as the profile's sections say.
+  // Half way along the middle finger's second phalanx, the skin is as wide as the profile's sections.
   const int s = segment_of(2, 1);
   const SegmentProfile& segment = profile_->segments[s];
   double widest = 0;
@@ -62,7 +62,7 @@ TEST_F(SkinTest, ThicknessFollowsTheProfile) {
   EXPECT_NEAR(widest, 0.5 * (segment.half_width[0] + segment.half_width[1]), 0.001);
 }
 
-/// Edges that are not passed once in each direction: a rim.
+/// Counts the edges that are not passed once in each direction: those of a rim.
 int open_edges(const Skin& skin) {
   std::map<std::pair<int, int>, int> balance;
   for (const auto& t : skin.triangles)
@@ -120,6 +120,7 @@ TEST_F(SkinTest, AScannedSkinGoesBeforeTheSections) {
 }
 
 TEST_F(SkinTest, AScannedSkinIsMirroredAndScaledWithItsHand) {
+  // The hand and its mirrored, enlarged copy at rest.
   HandProfile hand = *profile_;
   hand.scanned_skin = std::make_shared<const Skin>(skin_);
   HandProfile other = scaled(mirrored(hand), 1.2);
@@ -129,11 +130,14 @@ TEST_F(SkinTest, AScannedSkinIsMirroredAndScaledWithItsHand) {
     rest[s] = hand.segments[s].T_hand_segment;
     rest_other[s] = other.segments[s].T_hand_segment;
   }
+
+  // Their skins correspond.
   pose_skin(skin_, rest, posed);
   pose_skin(*other.scanned_skin, rest_other, posed_other);
   for (std::size_t i = 0; i < posed.size(); ++i)
     ASSERT_LT((posed_other[i] - 1.2f * posed[i].cwiseProduct(Vector3f(-1, 1, 1))).norm(), 1e-5f) << i;
-  // Triangles still face outwards: normals made anew from them are those that were mirrored.
+
+  // Triangles still face outward: normals computed from them agree with those that were mirrored.
   Skin anew = *other.scanned_skin;
   compute_normals(other, anew);
   double agree = 0;

@@ -24,13 +24,14 @@ TEST(ExtractSurface, SphereHasItsVolumeAndOutwardTriangles) {
   const TriangleMesh mesh = extract_surface(distance, Vector3d::Constant(-0.06), Vector3d::Constant(0.06), 0.004);
   for (const Vector3d& v : mesh.vertices) EXPECT_NEAR(distance(v), 0, 1e-5);
   const double volume = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-  EXPECT_NEAR(signed_volume(mesh), volume, 0.02 * volume);  // chords lie inside; inside out would be negative
+  // Chords lie inside; a surface turned inside out would have a negative volume.
+  EXPECT_NEAR(signed_volume(mesh), volume, 0.02 * volume);
 }
 
 TEST(ExtractSurface, IsClosed) {
   const auto distance = [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() - 0.02; };
   const TriangleMesh mesh = extract_surface(distance, Vector3d::Constant(-0.033), Vector3d::Constant(0.033), 0.005);
-  Vector3d area = Vector3d::Zero();  // of a closed surface the directed areas cancel
+  Vector3d area = Vector3d::Zero();  // the directed areas of a closed surface cancel
   double total = 0;
   for (const auto& t : mesh.triangles) {
     const Vector3d& a = mesh.vertices[t[0]];

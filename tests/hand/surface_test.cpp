@@ -59,6 +59,7 @@ TEST(CylinderSurface, PointsLieOnTheSkinWithOutwardUnitNormals) {
   for (std::size_t i = 0; i < skin.size(); ++i) {
     const Eigen::Vector3d p = point(skin, i), n = normal(skin, i);
     ASSERT_NEAR(n.norm(), 1, 1e-5);
+
     if (p.z() > -0.04) {  // frustum: the normal leans forward by the slope of the taper
       const double t = -p.z() / 0.04;
       EXPECT_NEAR(std::hypot(p.x(), p.y()), 0.010 - 0.003 * t, 1e-6);
@@ -74,7 +75,8 @@ TEST(CylinderSurface, PointsLieOnTheSkinWithOutwardUnitNormals) {
 }
 
 TEST(CylinderSurface, PointsAreEvenlySpread) {
-  // On an even cover the nearest neighbour of every point is about sqrt(area per point) away; clumps and gaps differ.
+  // With an even distribution, the nearest neighbour of every point is about sqrt(area per point) away, unlike in
+  // clumps and gaps.
   const SegmentSurface skin = make_cylinder_surface(simple_profile(), 150)[kMiddle];
   const double spacing = std::sqrt(skin.area[0]);
   for (std::size_t i = 0; i < skin.size(); ++i) {

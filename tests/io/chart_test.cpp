@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-/// Rows that hold a pixel of nearly this colour: where something drawn in it lies.
+/// Rows that contain a pixel of nearly this colour, which shows where something was drawn in it.
 std::vector<int> rows_of(const Image<Rgb>& image, Rgb colour) {
   std::vector<int> rows;
   for (int v = 0; v < image.height(); ++v)
@@ -35,7 +35,7 @@ TEST(Chart, MedianStandsAtItsHeight) {
   const auto high = rows_of(box_chart(folder / "high.png", 8), kMedianRed);
   ASSERT_FALSE(low.empty());
   ASSERT_FALSE(high.empty());
-  // Between 0 and 10 the axis is 470 pixels high.
+  // From 0 to 10, the axis is 470 pixels high.
   EXPECT_NEAR(low.front() - high.front(), 0.6 * 470, 3);
 }
 

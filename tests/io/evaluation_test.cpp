@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A hand whose segments are 40 mm long and side by side; seen but for the last, hidden one.
+/// A hand with segments of 40 mm side by side; all but the last one are visible.
 TableFrame truth_frame(std::int64_t number) {
   TableFrame frame{number, 0.1 * static_cast<double>(number), {}};
   for (int s = 0; s < kSegmentCount; ++s) frame.rows[s] = {{0.01 * s, 0, 0.5}, {0.01 * s, 0.04, 0.5}, 1};
@@ -26,11 +26,14 @@ ResultTable truth_of(int frames) {
 }
 
 TEST(Evaluation, ByHandComputedExample) {
+  // Known displacements of single ends.
   ResultTable result = truth_of(1);
   result.frames[0].rows[3].proximal += Eigen::Vector3d(0.003, 0.004, 0);  // 5 mm
   result.frames[0].rows[3].distal += Eigen::Vector3d(0, 0, -0.001);       // 1 mm: error (5 + 1) / 2 = 3 mm
   result.frames[0].rows[15].proximal += Eigen::Vector3d(0, 0.010, 0);     // 10 mm at one end: 5 mm
   result.frames[0].rows[kPalm].distal += Eigen::Vector3d(0, 0, 0.016);    // 16 mm at one end: 8 mm
+
+  // The errors follow from them.
   const auto e = evaluate(truth_of(1), result);
   ASSERT_TRUE(e) << e.error().message();
   EXPECT_NEAR(e->frames[0].segments[3], 0.003, 1e-12);
@@ -38,6 +41,8 @@ TEST(Evaluation, ByHandComputedExample) {
   EXPECT_NEAR(e->frame_error_without_palm.mean, 0.008 / 15, 1e-12);
   EXPECT_EQ(e->segment_error.count, 16u);
   EXPECT_NEAR(e->segment_error.max, 0.008, 1e-12);
+
+  // So do those of seen and hidden segments.
   EXPECT_EQ(e->seen.count, 14u);
   EXPECT_NEAR(e->seen.mean, 0.011 / 14, 1e-12);
   EXPECT_EQ(e->hidden.count, 1u);
@@ -69,8 +74,10 @@ TEST(Evaluation, FramesWithoutRowsAndFarOffFramesAreLost) {
 TEST(Evaluation, ReturnsIntoViewAndHandsWhereThereIsNone) {
   ResultTable truth, result;
   for (int i : {0, 1, 2, 6, 7, 8, 9, 14, 15}) truth.frames.push_back(truth_frame(i));
-  for (TableRow& row : truth.frames[3].rows) row.visible = 0.4;                   // frame 6: hardly in view yet
-  for (int i : {0, 1, 2, 3, 9, 12, 20}) result.frames.push_back(truth_frame(i));  // 20: the truth does not go so far
+  for (TableRow& row : truth.frames[3].rows) row.visible = 0.4;  // frame 6: hardly in view yet
+
+  // 20: beyond the last frame of the truth
+  for (int i : {0, 1, 2, 3, 9, 12, 20}) result.frames.push_back(truth_frame(i));
   const auto e = evaluate(truth, result);
   ASSERT_TRUE(e);
   EXPECT_THAT(e->phantoms, ElementsAre(3, 12));
@@ -117,7 +124,7 @@ TEST(Evaluation, JointGapIsBetweenAdjacentEndsOfTheResult) {
   for (int s = 1; s < kSegmentCount; ++s)
     if (parent_of(s) != kPalm) frame.rows[s].proximal = frame.rows[parent_of(s)].distal;
   EXPECT_NEAR(evaluate(truth_of(1), result)->joint_gap.max, 0, 1e-15);
-  frame.rows[5].proximal.x() += 0.002;  // index: 2 mm off its proximal phalanx
+  frame.rows[5].proximal.x() += 0.002;  // the end of the index finger's proximal phalanx is off by 2 mm
   const Distribution gap = evaluate(truth_of(1), result)->joint_gap;
   EXPECT_EQ(gap.count, 10u);
   EXPECT_NEAR(gap.mean, 0.0002, 1e-12);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Index fingertip segment pointing to the left of the image at 0.5 m: skin ends 8 mm beyond (-0.03, 0, 0.5).
+/// The index fingertip points to the left of the image at 0.5 m; its skin ends 8 mm beyond (-0.03, 0, 0.5).
 TableFrame pointing_left(std::int64_t number) {
   TableFrame frame{number, 0, {}};
   for (TableRow& row : frame.rows) row = {{0, 0, 0.5}, {-0.03, 0, 0.5}, 1};
@@ -23,7 +23,7 @@ TEST(Fingertips, DistanceOfTheProjectedSkinTip) {
   ResultTable result{{pointing_left(3)}, false};
   const Eigen::Vector3d tip = fingertip(result.frames[0], test::small_hand(), 1);
   EXPECT_NEAR((tip - Eigen::Vector3d(-0.038, 0, 0.5)).norm(), 0, 1e-12);
-  // Projects to u = 160 - 250 * 0.038 / 0.5 = 141, v = 120.
+  // The fingertip projects to u = 160 - 250 * 0.038 / 0.5 = 141, v = 120.
   const auto e = evaluate_fingertips({{3, 1, {144, 124}}, {3, 4, {141, 121}}, {4, 1, {0, 0}}}, {result},
                                      test::small_hand(), kCamera);
   EXPECT_EQ(e.labels, 3u);
@@ -47,12 +47,16 @@ TEST(Fingertips, LabelsAreReadAndHiddenOnesLeftOut) {
   const test::TempFolder folder;
   const std::string path = folder / "tips.csv";
   test::write_text(path, "frame,finger,u,v,visible\n3,thumb,195.7,95.4,1\n3,index,-1,-1,0\n18,little,99.3,74.5,1\n");
+
+  // Visible labels are read.
   const auto labels = read_fingertip_labels(path);
   ASSERT_TRUE(labels) << labels.error().message();
   ASSERT_EQ(labels->size(), 2u);
   EXPECT_EQ((*labels)[1].frame, 18);
   EXPECT_EQ((*labels)[1].finger, 4);
   EXPECT_DOUBLE_EQ((*labels)[0].pixel.x(), 195.7);
+
+  // Errors name the line.
   test::write_text(path, "frame,finger,u,v,visible\n3,toe,195.7,95.4,1\n");
   EXPECT_THAT(read_fingertip_labels(path).error().message(), HasSubstr("line 2"));
   for (const char* number : {"left", "nan", "-inf", "1e300"}) {

@@ -7,9 +7,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kDeviation = 0.003;  // of every axis [m]
+constexpr double kDeviation = 0.003;  // m, of every axis
 
-/// A truth, and statements off by kDeviation that say `stated`.
+/// A truth, and statements that are off by kDeviation and state the deviation `stated`.
 std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, double confidence = 0.5) {
   KeyedRandom random(7, key);
   const auto off = [&]() -> Eigen::Vector3d {
@@ -20,6 +20,8 @@ std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, d
     TableFrame frame{i, 0.1 * i, {}};
     for (int s = 0; s < kSegmentCount; ++s) {
       frame.rows[s] = {{0.01 * s, 0, 0.5}, {0.01 * s, 0.03, 0.5}, 1};
+
+      // Both ends are off by random errors.
       const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() * stated * stated;
       out.second[i][s] = {
           frame.rows[s].proximal + off(), frame.rows[s].distal + off(), covariance, covariance, confidence, s < 8};
@@ -55,7 +57,8 @@ TEST(Reliability, BinsHoldWhatWasSaidAgainstWhatWas) {
   ASSERT_EQ(r->confidences.size(), 2u);
   EXPECT_NEAR(r->confidences[0].stated, 0.31, 1e-9);
   EXPECT_NEAR(r->confidences[1].stated, 0.95, 1e-9);
-  // Both ends of three axes each are within 10 mm: (chi-square of 3, up to (10 / 3)^2) squared.
+  // The error of each of the two ends has three independent axes and must be within 10 mm: (chi-square of 3 degrees of
+  // freedom up to (10 / 3)^2) squared.
   EXPECT_NEAR(r->confidences[1].actual, 0.9887 * 0.9887, 0.01);
 }
 

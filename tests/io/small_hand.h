@@ -4,7 +4,7 @@
 
 namespace barehand::test {
 
-/// A simple right hand with round numbers: fingers side by side along -z, joints that flex and abduct.
+/// A simple right hand with round numbers: the fingers lie side by side along -z, and the joints flex and abduct.
 inline HandProfile small_hand() {
   HandProfile profile;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -16,6 +16,8 @@ inline HandProfile small_hand() {
     segment.half_thickness = {0.0095, 0.007};
     segment.flesh_offset_x = {0.001, -0.002};
     segment.flesh_offset_y = {-0.003, 0};
+
+    // All segments but the palm have a joint.
     if (s == kPalm) continue;
     const int joint = (s - 1) % 3;
     segment.T_hand_segment.t = {-0.03 + 0.015 * finger_of(s), 0, -0.08 - 0.03 * joint};

@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-// Nearest camera-facing triangle along the ray of a pixel (Moeller-Trumbore); 0 = none.
+// Depth of the nearest triangle that faces the camera along the ray of a pixel (Moeller-Trumbore); 0 = none.
 double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::max();
   for (const auto& t : skin.triangles) {
@@ -16,6 +16,7 @@ double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, con
     const Eigen::Vector3d p = ray.cross(ac);
     const double det = ab.dot(p);
     if (det < 1e-14) continue;  // seen from behind
+
     const double u = -a.dot(p) / det;
     const Eigen::Vector3d q = (-a).cross(ab);
     const double v = ray.dot(q) / det, depth = ac.dot(q) / det;
@@ -25,19 +26,22 @@ double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, con
 }
 
 TEST(RenderHand, AgreesWithRayCasting) {
+  // Render a hand.
   const auto profile = test::adult_hand();
   const Skin skin = make_blended_skin(*profile, 0.005);
   const HandPose pose = test::facing_pose(*profile, 0.45, 0.9);
   const Intrinsics camera = test::small_camera();
   RenderedHand rendered;
   render_hand(skin, pose, camera, {7, 3, 3, 100, 75}, rendered);
+
+  // Compare every other cell with a ray.
   int covered = 0, differ = 0;
   for (int j = 0; j < 75; j += 2)
     for (int i = 0; i < 100; i += 2) {
       const double expected = ray_cast(skin, rendered.position, camera.unproject(7 + 3 * i, 3 + 3 * j, 1.0));
       const double depth = rendered.depth.at(i, j);
       if ((expected > 0) != (depth > 0)) {
-        ++differ;  // a ray may pass exactly through an edge
+        ++differ;  // a ray may hit an edge exactly
       } else {
         EXPECT_NEAR(depth, expected, 1e-4) << i << "," << j;
       }
@@ -56,7 +60,7 @@ TEST(RenderHand, CountsHiddenSkinAsProjected) {
   std::array<int, kSegmentCount> front{};
   for (std::size_t i = 0; i < rendered.vertex.size(); ++i)
     if (rendered.vertex[i] >= 0) ++front[skin.vertices[rendered.vertex[i]].a];
-  const int proximal = segment_of(2, 0);  // behind the curled fingertips
+  const int proximal = segment_of(2, 0);  // hidden by the curled fingertips
   EXPECT_LT(front[proximal], rendered.projected[proximal] / 2);
 }
 

@@ -44,7 +44,7 @@ TEST_F(CompareTest, DepthShiftCostsItsLength) {
 }
 
 TEST_F(CompareTest, UnexplainedDataCosts) {
-  // Tracker's fingers curled away from visible, straight ones: the data in their place must count.
+  // The tracker's fingers are curled while the visible ones are straight: the data in their place must count.
   const ModelComparison curled = compare_at(*observation_, test::facing_pose(*profile_, 0.45, 1.3));
   int unexplained = 0;
   for (const Correspondence& c : curled.correspondences) unexplained += c.kind == Correspondence::Kind::unexplained;
@@ -84,13 +84,15 @@ TEST_F(CompareTest, AnObjectBehindContradicts) {
   EXPECT_GT(compare_at(*observation_, pose_).score, 0.002);
 }
 
-// An object that begins right of column 200, between the hand and the camera or behind the hand.
+// An object to the right of column 200, in front of or behind the hand.
 class HidingPlaceTest : public CompareTest {
  protected:
   ModelComparison compare_beside_object(float z) {
     constexpr int kEdge = 200;
     const int width = observation_->label.width(), height = observation_->label.height();
     observation_->nearest_object.reset(width, height, -1);
+
+    // In each row, find the nearest object to the right.
     for (int v = 0; v < height; ++v)
       for (int u = width - 1, object = -1; u >= 0; --u) {
         const auto i = static_cast<std::int32_t>(observation_->label.index(u, v));
@@ -125,11 +127,12 @@ TEST_F(HidingPlaceTest, NothingHidesBehindWhatIsFartherAway) {
   EXPECT_EQ(pulled_behind_object(compare_beside_object(0.6f)), 0);
 }
 
-// Skin a little in front of something that is not hand, without data of its own, is nearest to lying behind it: what
-// that costs is how far it stands out, from nothing on.
+// Skin a little in front of something that is not hand is best explained by lying behind it. The cost is the distance
+// by which it stands out.
 TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
+  // The number of points that should go back if the fingers are something else and stand out `by` [m].
   const auto standing_out = [&](PixelLabel label, float by) {
-    const auto other = std::make_shared<HandObservation>(*observation_);  // fingers that are something else
+    const auto other = std::make_shared<HandObservation>(*observation_);  // the fingers are something else
     for (int v = 0; v < 100; ++v)
       for (int u = 0; u < 320; ++u)
         if (other->label.at(u, v) != PixelLabel::background) other->label.at(u, v) = label;
@@ -137,11 +140,15 @@ TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
     ModelComparison comparison = compare_at(*other, shifted({0, 0, -by - tolerance}));
     std::erase_if(comparison.correspondences,
                   [](const Correspondence& c) { return c.kind != Correspondence::Kind::behind; });
+
+    // They go back along their line of sight, by the distance by which they stand out.
     for (const Correspondence& c : comparison.correspondences)
       EXPECT_LT((c.data.head<2>() / c.data.z() - c.model.head<2>() / c.model.z()).norm(), 1e-5);
     const auto is_back = [&](const Correspondence& c) { return std::abs(c.data.z() - c.model.z() - by) < 1e-3; };
     return std::ranges::count_if(comparison.correspondences, is_back);
   };
+
+  // Only skin that stands out a little goes back.
   for (const PixelLabel label : {PixelLabel::object, PixelLabel::background}) {
     EXPECT_GT(standing_out(label, 0.003f), 50);
     EXPECT_EQ(standing_out(label, 0.02f), 0) << "far out it goes aside";
@@ -149,7 +156,7 @@ TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
   }
 }
 
-// A finger that looks out behind the hand itself is a step aside from being hidden, however deep it lies.
+// A finger beside the outline of the hand is one step aside from being hidden by the hand, however deep it is.
 TEST_F(CompareTest, SkinBesideTheHandMayHideBehindIt) {
   const auto aside = [&](double deeper) {
     int count = 0;
@@ -162,7 +169,7 @@ TEST_F(CompareTest, SkinBesideTheHandMayHideBehindIt) {
 }
 
 TEST_F(CompareTest, ForearmIsNotUnexplained) {
-  // Hand-like data far behind the wrist (below it in the image).
+  // Hand-like data far behind the wrist, which is below it in the image.
   for (int v = 220; v < 240; ++v)
     for (int u = 140; u < 180; ++u) {
       observation_->label.at(u, v) = PixelLabel::hand;

@@ -15,11 +15,14 @@ int distance_sq(const Image<std::int32_t>& image, int u, int v, std::int32_t cel
 }
 
 TEST(NearestCell, IsAsNearAsBruteForce) {
+  // A few occupied cells.
   Image<std::int32_t> occupied(41, 33, -1);
   KeyedRandom random(1, 2);
   for (int i = 0; i < 60; ++i) occupied[random.bits() % occupied.size()] = 5;
   NearestCell nearest;
   nearest.index(occupied);
+
+  // The nearest one is as near as the one that brute force finds.
   for (int v = 0; v < occupied.height(); ++v)
     for (int u = 0; u < occupied.width(); ++u) {
       int best = std::numeric_limits<int>::max();

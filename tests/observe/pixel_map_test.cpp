@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// One row: hand, background, object, unknown.
+/// A map of one row: hand, background, object, unknown.
 PixelMap four_labels(bool missing_is_background) {
   Workers workers(1);
   const ScenePixel row[] = {

@@ -8,6 +8,7 @@ namespace barehand {
 namespace {
 
 TEST(PixelRays, GiveTheObservationsOwnPoints) {
+  // A region of interest within a larger image.
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = {640, 480, 525.3, 524.1, 319.7, 238.9};
   HandObservation observation;
@@ -17,6 +18,8 @@ TEST(PixelRays, GiveTheObservationsOwnPoints) {
   observation.depth.reset(213, 97);
   for (std::size_t i = 0; i < observation.depth.size(); ++i)
     observation.depth[i] = 0.3f + 1e-5f * static_cast<float>(i);
+
+  // The tables give bit by bit the same points.
   PixelRays rays;
   rays.reset(frame->camera, observation.u0, observation.v0, 213, 97);
   for (int v = 0; v < 97; ++v)

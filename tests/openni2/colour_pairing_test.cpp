@@ -31,7 +31,8 @@ TEST(ColourPairing, ColourOfAnotherExposureIsNotTaken) {
   pairing.add_colour(at(1000, 5000, "c1"));
   EXPECT_EQ(text(pairing.add_depth(at(34'000, 38'000, "d2"))), "none");
   EXPECT_EQ(text(pairing.due(39'000)), "none");
-  EXPECT_EQ(text(pairing.add_depth(at(67'000, 71'000, "d3"))), "d2+-");  // the next exposure: it waited long enough
+  // The next exposure: the old one has waited long enough.
+  EXPECT_EQ(text(pairing.add_depth(at(67'000, 71'000, "d3"))), "d2+-");
   EXPECT_EQ(text(pairing.add_colour(at(67'000, 72'000, "c3"))), "d3+c3");
 }
 
@@ -57,7 +58,7 @@ TEST(ColourPairing, WaitsOnePeriodAtMost) {
 TEST(ColourPairing, DoesNotWaitForColourThatStopped) {
   Pairing pairing(kPeriod);
   EXPECT_EQ(text(pairing.add_depth(at(0, 4000, "d0"))), "none");
-  EXPECT_EQ(text(pairing.due(4000)), "d0+-");  // none ever came
+  EXPECT_EQ(text(pairing.due(4000)), "d0+-");  // no colour has ever arrived
   pairing.add_colour(at(33'000, 37'000, "c1"));
   const std::int64_t later = 37'000 + Pairing::kColourGone;
   pairing.add_depth(at(600'000, later, "d2"));

@@ -1,4 +1,4 @@
-// The program as a user runs it, with the virtual sensor.
+// Runs the program like a user, with the virtual sensor.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -40,12 +40,15 @@ TEST(OpenNiCommands, RecordsAndPlaysBack) {
 }
 
 TEST(OpenNiCommands, ARecordingSaysThatItsDiskCannotKeepUp) {
+  // A pipe stands for the disk, which is as slow as the pipe's reader.
   VirtualSensor sensor;
   const test::TempFolder folder;
-  const std::string log = folder / "slow.lcmlog";  // a pipe: as slow as its reader
+  const std::string log = folder / "slow.lcmlog";
   ASSERT_EQ(mkfifo(log.c_str(), 0600), 0);
   const int reader = open(log.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   fcntl(reader, F_SETFL, 0);
+
+  // Record until frames are missing.
   ChildProcess record({BAREHAND_PROGRAM, "record", "--source", "openni2", "--overwrite", "--out", log});
   ASSERT_TRUE(record.wait_for("opened Barehand Virtual Sensor")) << record.output();
   std::atomic<bool> slow = true;
@@ -55,6 +58,8 @@ TEST(OpenNiCommands, ARecordingSaysThatItsDiskCannotKeepUp) {
       if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(200));
   });
   EXPECT_TRUE(record.wait_for("frames missing so far, ")) << record.output();
+
+  // The recorder ends normally and reports what was lost.
   slow = false;
   record.signal(SIGTERM);
   EXPECT_EQ(record.finish(), 0) << record.output();
@@ -109,7 +114,7 @@ TEST(OpenNiCommands, SayWhoseIntrinsicsOfTheConfigurationAreHalf) {
   EXPECT_THAT(outcome.output, HasSubstr("openni2, fx, fy, cx, cy: no camera has these intrinsics"));
 }
 
-/// "6 frames in 1.0 s (6.0 frames/s): 5 published, 1 dropped, 0 failed".
+/// Parses "6 frames in 1.0 s (6.0 frames/s): 5 published, 1 dropped, 0 failed".
 struct Counts {
   long captured = -1, published = 0, dropped = 0, failed = 0;
 };
@@ -123,18 +128,25 @@ Counts counts_in(const std::string& output) {
 }
 
 TEST(OpenNiCommands, TrackingOutlivesTheCable) {
+  // Start without a sensor, then plug it in.
   VirtualSensor sensor(Settings{{"plugged", "0"}, {"sim", "fist,noise=kinect,width=320,height=240"}});
   ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "openni2", "--no-publish", "--health"});
   ASSERT_TRUE(track.wait_for("no sensor yet")) << track.output();
   sensor.plug();
   ASSERT_TRUE(track.wait_for("opened Barehand Virtual Sensor")) << track.output();
-  ASSERT_TRUE(track.wait_for("captured ")) << track.output();  // health: frames pass
+  ASSERT_TRUE(track.wait_for("captured ")) << track.output();  // health: frames pass through the pipeline
+
+  // Unplug it; after a while another sensor is plugged in.
   sensor.unplug();
   ASSERT_TRUE(track.wait_for("was unplugged")) << track.output();
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // long enough for another word about the same thing
+
+  // Long enough for a second message about the same thing.
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   sensor.set({{"plugged", "1"}, {"uri", "virtual/3"}, {"sim", "fist,noise=kinect,width=160,height=120"}});
   ASSERT_TRUE(track.wait_for("160x120")) << track.output();
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+
+  // The run ends normally, and its counts agree.
   track.signal(SIGTERM);
   EXPECT_EQ(track.finish(), 0) << track.output();
   const Counts counts = counts_in(track.output());

@@ -9,15 +9,15 @@ namespace barehand {
 namespace {
 
 constexpr std::int64_t kPeriod = 33'333;
-constexpr std::int64_t kHostStart = 900'000'000;  // the two clocks have nothing to do with each other
+constexpr std::int64_t kHostStart = 900'000'000;  // the two clocks are unrelated
 constexpr std::int64_t kLeastDelay = 8'000;
 
-/// A sensor whose frames arrive late by the least delay and some more.
+/// A sensor whose frames arrive late by a minimum delay plus a random one.
 class Sensor {
  public:
   Sensor(double drift_ppm, std::int64_t most_jitter_us) : drift_(1 + 1e-6 * drift_ppm), jitter_(0, most_jitter_us) {}
 
-  /// Error of the next frame's time [us], the least delay not counted.
+  /// Error of the next frame's time [us], without the minimum delay.
   std::int64_t next(std::int64_t extra_delay = 0) {
     exposed_ += kPeriod;
     const std::int64_t arrival = kHostStart + exposed_ + kLeastDelay + jitter_(random_) + extra_delay;
@@ -86,8 +86,8 @@ TEST(DeviceClock, AClockThatFallsBehindForGoodIsFollowed) {
   Sensor sensor(0, 2'000);
   sensor.run(20);
   int frames = 0;
-  while (!sensor.jumped() && ++frames < 300) sensor.next(200'000);  // from now on everything comes later
-  EXPECT_GT(frames, 30);                                            // a few late frames are late frames
+  while (!sensor.jumped() && ++frames < 300) sensor.next(200'000);  // from now on every frame arrives later
+  EXPECT_GT(frames, 30);  // a few late frames are no reason to restart the clock
   ASSERT_LT(frames, 150);
   EXPECT_NEAR(sensor.next(200'000), 200'000, 3'000);
 }

@@ -1,4 +1,4 @@
-// Everything that goes wrong with a sensor, injected into the virtual one while it streams.
+// Injects everything that can go wrong with a sensor into the virtual one while it streams.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -14,11 +14,11 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A machine whose clock is set.
+/// A clock that can be set like that of a machine.
 class SettableClock : public SystemClock {
  public:
   std::int64_t utime() const override { return SystemClock::utime() + set_by; }
-  std::atomic<std::int64_t> set_by = 0;  ///< [us]
+  std::atomic<std::int64_t> set_by = 0;  ///< us
 };
 
 class OpenNiFaults : public ::testing::Test {
@@ -58,7 +58,7 @@ TEST_F(OpenNiFaults, UnpluggedAndPluggedIntoAnotherPort) {
   const FramePtr before = reader_->frame();
   sensor_.unplug();
   ASSERT_TRUE(reader_->told("virtual/1 was unplugged"));
-  reader_->frames_within(milliseconds(100));  // what was under way
+  reader_->frames_within(milliseconds(100));  // frames that were under way
   EXPECT_EQ(reader_->frames_within(milliseconds(500)), 0);
   sensor_.set({{"plugged", "1"}, {"uri", "virtual/9"}});
   const FramePtr after = reader_->frame();
@@ -91,7 +91,7 @@ TEST_F(OpenNiFaults, StallWithoutAnError) {
 TEST_F(OpenNiFaults, AHiccupOfBothCamerasIsNoReasonToDoubtThatTheyAreInStep) {
   stream();
   inject("stall");
-  reader_->frames_within(milliseconds(750));  // more than half the patience, less than all of it
+  reader_->frames_within(milliseconds(750));  // more than half of the patience, but not all of it
   inject("none");
   reader_->frames(20);
   EXPECT_THAT(reader_->notices, Not(HasSubstr("in step")));
@@ -209,7 +209,7 @@ TEST_F(OpenNiFaults, ADriverThatHangsDoesNotHoldUpTheEnd) {
   const auto start = std::chrono::steady_clock::now();
   source_.reset();
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
-  inject("none");  // the thread that was left behind gets its way, before OpenNI2 is used again
+  inject("none");  // lets the thread that was left behind finish before OpenNI2 is used again
   std::this_thread::sleep_for(milliseconds(500));
 }
 
@@ -224,6 +224,8 @@ TEST_F(OpenNiFaults, ManyPlugsCostNothing) {
       ASSERT_TRUE(reader_->frame()) << i;
     }
   };
+
+  // Count files and threads after some plugs ...
   replug(5);
   const auto open_files = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
@@ -232,6 +234,8 @@ TEST_F(OpenNiFaults, ManyPlugsCostNothing) {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
   };
   const auto files = open_files(), tasks = threads();
+
+  // ... and after many more.
   replug(15);
   EXPECT_LE(open_files(), files + 1);
   EXPECT_LE(threads(), tasks + 1);

@@ -21,7 +21,7 @@ const std::string kSim = "fist,noise=kinect,width=160,height=120";
 
 class OniFile : public ::testing::Test {
  protected:
-  /// Has OpenNI2 itself record the virtual sensor; `fault`: from the middle on.
+  /// Lets OpenNI2 itself record the virtual sensor; `fault` is in force from the middle of the recording on.
   void record_file(const std::string& streams, const std::string& fault = "none") {
     ChildProcess recorder({BAREHAND_RECORD_ONI, path_, "1600", streams});
     ASSERT_TRUE(recorder.wait_for("recording")) << recorder.output();
@@ -29,7 +29,7 @@ class OniFile : public ::testing::Test {
     sensor_.set({{"fault", fault}});
     ASSERT_EQ(recorder.finish(), 0) << recorder.output();
   }
-  /// Which picture a frame shows; -1: none. Recorded mirrored, as the sensor starts.
+  /// The image that a frame shows; -1: none. The sensor records mirrored images at first.
   int picture_of(const RgbdFrame& frame) const {
     const auto& all = pictures_.frames;
     const auto same = [&](const FramePtr& picture) {
@@ -52,6 +52,8 @@ TEST_F(OniFile, EveryPictureIsPlayedOnceInOrderAndBitExact) {
   const std::int64_t total = (*source)->remaining();
   EXPECT_GE(total, 15);
   EXPECT_FALSE((*source)->live());
+
+  // Frames are complete and in order.
   SourceReader reader(**source);
   std::int64_t count = 0, last_utime = 0, coloured = 0;
   while (const FramePtr frame = reader.frame()) {
@@ -60,6 +62,8 @@ TEST_F(OniFile, EveryPictureIsPlayedOnceInOrderAndBitExact) {
     last_utime = frame->utime;
     EXPECT_EQ(frame->depth_unit, 1e-4);
     EXPECT_NEAR(frame->camera.fx, pictures_.camera().fx, 1e-3);
+
+    // Depth and colour are those of an image that was recorded.
     const int shown = picture_of(*frame);
     ASSERT_GE(shown, 0) << "frame " << frame->number;
     if (frame->colour.empty()) continue;
@@ -67,6 +71,8 @@ TEST_F(OniFile, EveryPictureIsPlayedOnceInOrderAndBitExact) {
     const Image<Rgb>& colour = pictures_.frames[static_cast<std::size_t>(shown)]->colour;
     EXPECT_TRUE(std::equal(colour.data(), colour.data() + colour.size(), frame->colour.data())) << frame->number;
   }
+
+  // The file was played to its end.
   EXPECT_TRUE(reader.ended);
   EXPECT_FALSE(reader.failed) << reader.failed->message();
   EXPECT_EQ(count, total);
@@ -89,6 +95,7 @@ TEST_F(OniFile, ColourThatStopsDoesNotEndTheDepth) {
 }
 
 TEST_F(OniFile, StartAndStep) {
+  // The frames of the whole file.
   record_file("depth");
   auto all = OpenNiFileSource::open(path_, {});
   ASSERT_TRUE(all.has_value()) << all.error().message();
@@ -96,6 +103,8 @@ TEST_F(OniFile, StartAndStep) {
   SourceReader reader(**all);
   const auto frames = reader.frames(9);
   all->reset();
+
+  // Every third one from the second on.
   auto some = OpenNiFileSource::open(path_, {}, 2, 3);
   ASSERT_TRUE(some.has_value()) << some.error().message();
   SourceReader skipping(**some);
@@ -104,7 +113,7 @@ TEST_F(OniFile, StartAndStep) {
     ASSERT_TRUE(frame && number < frames.size());
     EXPECT_EQ(frame->number, static_cast<std::int64_t>(number));
     EXPECT_EQ(frame->utime, frames[number]->utime);
-    EXPECT_EQ(picture_of(*frame), picture_of(*frames[number]));  // from the start again
+    EXPECT_EQ(picture_of(*frame), picture_of(*frames[number]));  // counted from the beginning of the file
   }
 }
 

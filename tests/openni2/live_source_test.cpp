@@ -24,7 +24,7 @@ using Settings = VirtualSensor::Settings;
 const std::string kSim = "fist,noise=kinect,width=160,height=120";
 constexpr int kPictures = 15;
 
-/// A source at the virtual sensor, and who reads it.
+/// A source at the virtual sensor, and its reader.
 struct Stream {
   explicit Stream(Settings settings = {}, OpenNiParams params = sized(), const std::string& wanted = "",
                   std::size_t capacity = 64)
@@ -47,7 +47,7 @@ const virtual_openni::Pictures& pictures() {
   return *rendered;
 }
 
-/// Which picture a frame shows; -1: none.
+/// The image that a frame shows; -1: none.
 int picture_of(const RgbdFrame& frame) {
   const auto same = [&](const FramePtr& picture) {
     return std::equal(picture->depth.data(), picture->depth.data() + picture->depth.size(), frame.depth.data());
@@ -60,6 +60,7 @@ int picture_of(const RgbdFrame& frame) {
 TEST(OpenNiLiveSource, DeliversEveryPixelWithItsColourAndCamera) {
   Stream stream;
   for (const FramePtr& frame : stream.reader.frames(20)) {
+    // Depth, unit and camera.
     const int shown = picture_of(*frame);
     ASSERT_GE(shown, 0) << "depth of frame " << frame->number;
     EXPECT_EQ(frame->depth_unit, 1e-4);
@@ -68,6 +69,8 @@ TEST(OpenNiLiveSource, DeliversEveryPixelWithItsColourAndCamera) {
     EXPECT_NEAR(frame->camera.fy, truth.fy, 1e-3);
     EXPECT_EQ(frame->camera.cx, truth.cx);
     EXPECT_EQ(frame->camera.cy, truth.cy);
+
+    // Colour.
     if (frame->colour.empty()) continue;  // the cameras do not start at the same moment
     const Image<Rgb>& colour = pictures().frames[static_cast<std::size_t>(shown)]->colour;
     EXPECT_TRUE(std::equal(colour.data(), colour.data() + colour.size(), frame->colour.data())) << frame->number;
@@ -81,6 +84,8 @@ TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
   Stream stream;
   const auto frames = stream.reader.frames(60);
   ASSERT_EQ(frames.size(), 60u);
+
+  // Numbers and times agree with the rate.
   const FramePtr& first = frames[20];  // by now the clock is known
   for (std::size_t i = 21; i < frames.size(); ++i) {
     EXPECT_GT(frames[i]->number, frames[i - 1]->number);
@@ -88,6 +93,8 @@ TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
     EXPECT_NEAR(static_cast<double>(frames[i]->utime - first->utime), expected, 5e3);
   }
   EXPECT_LT(std::abs(stream.clock.utime() - frames.back()->utime), 5'000'000);
+
+  // The counts agree once nothing is under way any more.
   stream.sensor.set({{"fault", "stall"}});
   ASSERT_TRUE(stream.reader.told("stalled"));  // nothing is under way any more
   const auto queues = stream.source.queues();
@@ -207,7 +214,7 @@ TEST(OpenNiLiveSource, AnUprightModeIsNotTheNearest) {
 TEST(OpenNiLiveSource, FindsTheSensorThatIsMeant) {
   Stream stream(Settings{{"second_uri", "virtual/2@7"}}, Stream::sized(), "@7");
   ASSERT_TRUE(stream.reader.frame());
-  stream.sensor.unplug();  // the other one
+  stream.sensor.unplug();  // the other sensor
   EXPECT_GT(stream.reader.frames_within(std::chrono::milliseconds(500)), 0);
   EXPECT_THAT(stream.reader.notices, Not(HasSubstr("unplugged")));
 }

@@ -29,7 +29,7 @@ TEST(ColourFormats, GreyHasNoHue) {
   EXPECT_EQ(convert({7, 200}, openni::PIXEL_FORMAT_GRAY8), (Row{Rgb{7, 7, 7}, Rgb{200, 200, 200}}));
 }
 
-// Red in BT.601: Y 81, U 90, V 240; white: Y 235 with the same hue is no longer red, so its blue stays low.
+// Red in BT.601 is Y 81, U 90, V 240. A white with the same U and V is no longer pure red, but its blue stays low.
 TEST(ColourFormats, YuvInBothOrders) {
   const Row yuyv = convert({81, 90, 81, 240}, openni::PIXEL_FORMAT_YUYV);
   const Row uyvy = convert({90, 81, 240, 81}, openni::PIXEL_FORMAT_YUV422);

@@ -1,5 +1,6 @@
-// Has OpenNI2's own recorder record the first sensor, in a process of its own: it crashes when it is used twice.
-//   record_oni FILE MILLISECONDS depth|both
+// Records the first sensor with OpenNI2's own recorder, in a process of its own, since it crashes when it is used
+// twice.
+// Usage: record_oni FILE MILLISECONDS depth|both
 #include <OpenNI.h>
 
 #include <chrono>
@@ -21,10 +22,13 @@ void pause(int milliseconds) { std::this_thread::sleep_for(std::chrono::millisec
 }  // namespace
 
 int main(int, char** arguments) {
+  // Open the sensor.
   const bool both = std::string(arguments[3]) == "both";
   must(openni::OpenNI::initialize(), "initialize");
   openni::Device device;
   must(device.open(openni::ANY_DEVICE), "open");
+
+  // Create its streams.
   openni::VideoStream depth, colour;
   must(depth.create(device, openni::SENSOR_DEPTH), "depth");
   openni::VideoMode mode = depth.getVideoMode();
@@ -34,6 +38,8 @@ int main(int, char** arguments) {
     must(colour.create(device, openni::SENSOR_COLOR), "colour");
     must(device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR), "registration");
   }
+
+  // Attach them to the recorder and record for some time.
   openni::Recorder recorder;
   must(recorder.create(arguments[1]), "recorder");
   must(recorder.attach(depth), "attach");
@@ -44,10 +50,12 @@ int main(int, char** arguments) {
   std::puts("recording");
   std::fflush(stdout);
   pause(std::atoi(arguments[2]));
+
+  // Stop.
   recorder.stop();
   depth.stop();
   if (both) colour.stop();
-  pause(300);  // else destroy() deadlocks now and then
+  pause(300);  // without it, destroy() sometimes deadlocks
   recorder.destroy();
   std::_Exit(0);
 }

@@ -10,12 +10,12 @@
 
 namespace barehand {
 
-/// Reads a source as the pipeline does, and keeps what it was told.
+/// Reads a source like the pipeline, and keeps the messages.
 class SourceReader {
  public:
   explicit SourceReader(FrameSource& source) : source_(source) {}
 
-  /// The next frame that satisfies `wanted`; null: none came in good time.
+  /// The next frame for which `wanted` is true; null: none arrived in time.
   FramePtr frame(const std::function<bool(const RgbdFrame&)>& wanted = [](const RgbdFrame&) { return true; }) {
     FramePtr found;
     read_until([&] { return last_ && wanted(*last_); }, kGoodTime, [&] { found = last_; });
@@ -27,18 +27,18 @@ class SourceReader {
       if (FramePtr next = frame()) all.push_back(std::move(next));
     return all;
   }
-  /// Reads on until a notice contains `text`; false: it did not come in good time.
+  /// Reads until a notice contains `text`; false: none did in time.
   bool told(const std::string& text) {
     return read_until([&] { return notices.find(text) != std::string::npos; }, kGoodTime, [] {});
   }
-  /// Reads for this long; the number of frames that came.
+  /// Reads for this time; returns the number of frames that arrived.
   int frames_within(std::chrono::milliseconds time) {
     const int before = delivered;
     read_until([] { return false; }, time, [] {});
     return delivered - before;
   }
 
-  std::string notices;  ///< one a line; may be cleared
+  std::string notices;  ///< one per line; may be cleared
   int delivered = 0, skipped = 0;
   bool ended = false;
   std::optional<Error> failed;
@@ -55,7 +55,7 @@ class SourceReader {
     }
     return false;
   }
-  /// False: nothing came.
+  /// False: nothing arrived.
   bool read() {
     SourceEvent event = source_.next(std::chrono::milliseconds(20));
     last_ = nullptr;

@@ -1,4 +1,4 @@
-// What the USB bus does for a sensor that comes through OpenNI2.
+// Tests how the USB bus is used for a sensor of OpenNI2.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 constexpr const char* kUri = "1d27/0601@1/4";
 constexpr UsbAddress kAddress{0x1d27, 0x0601, 1, 4};
 
-/// A bus with one device on it, which cures the virtual sensor when it is reset.
+/// A bus with one device; a reset calls `cure`, which mends the virtual sensor.
 struct Bus {
   std::function<void()> changed, cure;
   std::vector<UsbSensor> plugged;
@@ -83,18 +83,23 @@ TEST_F(OpenNiOnUsb, ASensorThatOpensAndNeverAnswersIsReset) {
 }
 
 TEST_F(OpenNiOnUsb, ASensorThatNoResetHelpsIsResetThreeTimes) {
+  // A clock that runs fast.
   class Hurried : public SystemClock {
    public:
     std::int64_t steady_us() const override { return 10 * SystemClock::steady_us(); }
   } hurried;
+
+  // A sensor that stalls and that no reset mends.
   sensor_.set({{"uri", kUri}, {"fault", "stall"}});
   bus_.cure = [] {};
   OpenNiLiveSource source("", params_, 8, hurried, std::make_unique<RecordingBus>(bus_));
   SourceReader reader(source);
-  for (int opened = 0; opened < 9; ++opened) {  // every second time in vain, the port would be reset
+
+  // Every second time that it was opened in vain, its port might be reset.
+  for (int opened = 0; opened < 9; ++opened) {
     reader.notices.clear();
     ASSERT_TRUE(reader.told("opened Barehand")) << opened;
-    bus_.changed();  // no need to wait before the next attempt
+    bus_.changed();  // ends the wait before the next attempt
   }
   EXPECT_EQ(bus_.resets, 3);
 }
@@ -119,16 +124,16 @@ TEST_F(OpenNiOnUsb, EveryPlugIsLookedAtWithoutDelay) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "back-off alone needs 27 s";
 }
 
-/// Looks for a sensor that is not there.
+/// A finder that looks for a sensor that is not there.
 class OpenNiFinderOnUsb : public ::testing::Test {
  protected:
-  /// Whether OpenNI2 is loaded by the next look, which asks for the bus's state once more then.
+  /// Whether the next look loads OpenNI2, for which it asks for the state of the bus once more.
   bool loads() {
     const int before = bus_.states;
     EXPECT_FALSE(finder_.find());
     return bus_.states - before == 2;
   }
-  /// Whether OpenNI2 is loaded anew after this time.
+  /// Whether OpenNI2 is loaded again after this time.
   bool loads_after(std::int64_t seconds) {
     clock_.advance(seconds * 1'000'000);
     EXPECT_FALSE(loads()) << "it was loaded";

@@ -22,7 +22,7 @@ class Contact : public testing::TestWithParam<Handedness> {
   HandPose pose_of(const std::array<JointAngles, kSegmentCount>& angles) const {
     return posed(profile_, {{palm_orientation(0.3, 0.2, 0.5), {0.02, -0.01, 0.5}}, angles});
   }
-  /// Fingers bent alike, from the thumb's side to the little finger's; the thumb is straight.
+  /// All fingers bent alike, from index to little finger; the thumb is straight.
   std::array<JointAngles, kSegmentCount> bent(double first, double second, double third) const {
     std::array<JointAngles, kSegmentCount> angles{};
     for (int finger = 1; finger < kFingerCount; ++finger) {
@@ -32,7 +32,7 @@ class Contact : public testing::TestWithParam<Handedness> {
     }
     return angles;
   }
-  /// Three fingers meet.
+  /// A pose in which three fingers overlap.
   HandPose tangled() const {
     auto angles = bent(20, 25, 15);
     const double side = side_sign(profile_.handedness);
@@ -51,12 +51,15 @@ class Contact : public testing::TestWithParam<Handedness> {
 };
 
 TEST_P(Contact, GradientMatchesCentralDifferences) {
+  // The analytic gradient.
   const HandContact contact(profile_);
   const HandPose pose = tangled();
   ASSERT_GT(contact.deepest(pose), 0.003);
   GaussianTree tree;
   tree.set_zero();
   contact.add_terms(pose, kSigma, tree);
+
+  // It must agree with central differences, and the check must notice a wrong one.
   const auto error = [&] {
     constexpr double kStep = 1e-6, kArm = 0.03;
     return test::gradient_error([&](const HandPose& at) { return energy(contact, at); }, pose, tree, kStep, kArm);
@@ -66,14 +69,18 @@ TEST_P(Contact, GradientMatchesCentralDifferences) {
   EXPECT_GT(error(), 0.01) << "the check must notice a wrong gradient";
 }
 
-// As in the refinement, without data: soft joints hold the hand together, its last pose is where it goes on from.
+// The energy of the refinement without data: soft joints hold the hand together, and each step starts from the last
+// pose.
 TEST_P(Contact, MovesSegmentsApartAndKeepsThemApart) {
+  // The overlap at the start.
   const HandContact contact(profile_);
   HandPose pose = tangled();
   const EnergyParams params;
   std::array<double, kSegmentCount> seen;
   seen.fill(0);
   const double tangled_energy = energy(contact, pose);
+
+  // Gauss-Newton steps.
   for (int step = 0; step < 8; ++step) {
     GaussianTree tree;
     tree.set_zero();
@@ -83,6 +90,8 @@ TEST_P(Contact, MovesSegmentsApartAndKeepsThemApart) {
     std::array<Vector6d, kSegmentCount> x;
     ASSERT_TRUE(tree.solve(x));
     for (int s = 0; s < kSegmentCount; ++s) pose[s] = boxplus(pose[s], x[s]);
+
+    // The overlap shrinks at once and stays small.
     EXPECT_LT(energy(contact, pose), tangled_energy / 4) << step;
   }
   EXPECT_LT(contact.deepest(pose), 0.001);

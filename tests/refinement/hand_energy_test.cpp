@@ -32,6 +32,7 @@ class EnergyTest : public ::testing::Test {
       Correspondence c;
       c.kind = static_cast<Kind>(i % 4);
       c.vertex = static_cast<int>(random.bits() % posed.size());
+
       c.model = posed[c.vertex];
       c.normal = Eigen::Vector3f(random.normal(), random.normal(), random.normal()).normalized();
       c.data = c.model + 0.003f * Eigen::Vector3f(random.normal(), random.normal(), random.normal());
@@ -48,7 +49,7 @@ class EnergyTest : public ::testing::Test {
     return tree;
   }
 
-  // Energy with the evidence's model points carried along by the skin.
+  // Energy of the evidence when its model points move with the skin.
   double data_energy(ModelComparison comparison, const HandPose& pose, const DataWeighting& weighting) const {
     for (Correspondence& c : comparison.correspondences) {
       const SkinVertex& v = skin_.vertices[c.vertex];
@@ -76,14 +77,14 @@ TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
   for (const DataWeighting& weighting : {DataWeighting{}, {.tangential = 0.4}, {.tangential = 1, .folds = 4}}) {
     GaussianTree tree = data_terms(comparison, weighting);
     const auto energy = [&](const HandPose& pose) { return data_energy(comparison, pose, weighting); };
-    // Single-precision points bound the accuracy.
+    // Points in single precision limit the accuracy.
     EXPECT_LT(gradient_error(energy, tree, 2e-4), 0.02) << weighting.tangential;
     tree.g[segment_of(1, 1)] *= 0.5;
     EXPECT_GT(gradient_error(energy, tree, 2e-4), 0.05) << "the check must notice a wrong gradient";
   }
 }
 
-// Beside a silhouette the data lies deeper than the model, wherever that is.
+// Beside a silhouette the data is deeper than the model, wherever the model is.
 TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
   ModelComparison comparison = evidence();
   std::erase_if(comparison.correspondences, [](const Correspondence& c) { return c.kind != Kind::unexplained; });
@@ -112,11 +113,14 @@ TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
 }
 
 TEST_F(EnergyTest, FoldsCountLessTheMoreEvenlyTwoSegmentsShareThem) {
+  // One vertex that two segments share.
   ModelComparison comparison = evidence();
   comparison.correspondences.resize(1);
   SkinVertex& v = skin_.vertices[comparison.correspondences[0].vertex];
   v.a = segment_of(2, 1);
   v.b = segment_of(2, 2);
+
+  // The information that is left, relative to that without the penalty.
   const auto fraction = [&](float share) {
     v.weight_b = share;
     return data_terms(comparison, {.folds = 4}).H_self[v.a].trace() / data_terms(comparison, {}).H_self[v.a].trace();
@@ -128,11 +132,14 @@ TEST_F(EnergyTest, FoldsCountLessTheMoreEvenlyTwoSegmentsShareThem) {
 }
 
 TEST_F(EnergyTest, PullAtTheJointsOfAHiddenSegmentMovesItsNeighbours) {
+  // The normal equations with a hidden segment.
   const int root = segment_of(1, 0);
   params_.palm_trust = 1;
   DataWeighting weighting;
   weighting.hidden[root] = 1;
   const GaussianTree hidden = data_terms(evidence(), weighting);
+
+  // They equal those of a skin whose shared vertices follow the other segment alone.
   const ModelComparison comparison = evidence();
   for (SkinVertex& v : skin_.vertices)
     if (v.weight_b > 0 && (v.a == root || v.b == root)) v.weight_b = v.a == root ? 1 : 0;
@@ -158,6 +165,7 @@ TEST_F(EnergyTest, JointGradientMatchesCentralDifferences) {
 }
 
 TEST_F(EnergyTest, PriorGradientIsExactForSmallTurns) {
+  // The normal equations of the prior.
   HandPose predicted = pose_;
   for (int s = 0; s < kSegmentCount; ++s)
     predicted[s] = boxplus(predicted[s], Vector6d::Constant(0.3 * kDegree * (s % 3)));
@@ -166,6 +174,8 @@ TEST_F(EnergyTest, PriorGradientIsExactForSmallTurns) {
   GaussianTree tree;
   tree.set_zero();
   add_prior_terms(*profile_, predicted, seen, pose_, params_, tree);
+
+  // They agree with the numeric gradient.
   const auto energy = [&](const HandPose& pose) {
     GaussianTree unused;
     unused.set_zero();

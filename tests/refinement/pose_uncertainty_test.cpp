@@ -10,7 +10,7 @@ constexpr int kTip = segment_of(2, 2);
 
 class PoseUncertaintyTest : public ::testing::Test {
  protected:
-  /// Refined where it is; with `covered`, a board hides all fingers.
+  /// A refined pose, started at the truth; if `covered`, a board hides all fingers.
   RefinedPose refined(bool covered) const {
     const HandPose truth = test::facing_pose(*profile_, 0.45, 0.2);
     auto observation = test::observe_skin(*skin_, truth);
@@ -21,7 +21,8 @@ class PoseUncertaintyTest : public ::testing::Test {
       }
     return refinement_.refine(*observation, truth, truth, 5);
   }
-  /// Root mean square of the stated error of the middle finger's tip [m]. Hidden: what the refinement hardly matched.
+  /// Root mean square of the stated error of the middle finger's tip [m]. Segments that the refinement hardly matched
+  /// count as hidden.
   double tip_deviation(const RefinedPose& pose, double dt = 1.0 / 30) {
     std::array<bool, kSegmentCount> hidden;
     for (int s = 0; s < kSegmentCount; ++s) hidden[s] = pose.matched[s] < 0.15;
@@ -53,12 +54,16 @@ TEST_F(PoseUncertaintyTest, AHiddenFingerIsKnownTheLessTheLongerItIsHidden) {
   profile_->origin = ProfileOrigin::measured;
   const double seen = tip_deviation(open_), hidden = tip_deviation(covered_);
   EXPECT_GT(hidden, 1.5 * seen);
+
+  // The deviation grows while the finger is hidden ...
   double last = hidden;
   for (int i = 0; i < 3; ++i) {
     const double later = tip_deviation(covered_, 0.1);
     EXPECT_GT(later, last);
     last = later;
   }
+
+  // ... up to that of the joint's range, and shrinks when the finger is seen again.
   tip_deviation(covered_, 1e6);
   const double longest = tip_deviation(covered_, 1);
   EXPECT_NEAR(tip_deviation(covered_, 1e6), longest, 1e-9) << "no further than the joint's range";
@@ -82,10 +87,14 @@ TEST_F(PoseUncertaintyTest, APoseWithoutEvidenceIsAnywhere) {
 
 TEST(ProbabilityWithin, AgreesWithDraws) {
   KeyedRandom random(1, 2);
+
+  // Several spreads, among them a very flat one.
   for (const Eigen::Vector3d& deviations : {Eigen::Vector3d(0.004, 0.004, 0.004), Eigen::Vector3d(0.002, 0.005, 0.011),
                                             Eigen::Vector3d(0.0001, 0.0001, 0.02)}) {
     const Eigen::Matrix3d turn = exp_so3({0.3, -0.8, 0.5});
     const Eigen::Matrix3d covariance = turn * deviations.cwiseAbs2().asDiagonal() * turn.transpose();
+
+    // Compare with the fraction of random errors within the radius.
     int within = 0;
     constexpr int kDraws = 20000;
     for (int i = 0; i < kDraws; ++i) {

@@ -65,7 +65,7 @@ TEST_F(RefinementTest, JointsStayClosed) {
 TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.2);
   auto observation = test::observe_skin(*skin_, truth);
-  hide_above(130, *observation);  // all fingers
+  hide_above(130, *observation);  // hides all fingers
   HandPose start = truth;
   for (SE3& T : start) T.t += Eigen::Vector3d(0.004, 0.003, -0.004);
   const RefinedPose refined = refinement_.refine(*observation, start, start, 10);
@@ -76,25 +76,34 @@ TEST_F(RefinementTest, HiddenFingerFollowsThePalm) {
 }
 
 TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
+  // The data comes from a hand whose skin differs at the knuckles.
   const int root = segment_of(2, 0);
   Skin other_knuckles = *skin_;
   for (SkinVertex& v : other_knuckles.vertices) {
     if (v.weight_b == 0 || (v.a != kPalm && v.b != kPalm)) continue;
-    // The farther out on the finger, the more its skin stands out.
+    // The farther out on the finger, the more the skin differs.
     const bool on_palm = v.a == kPalm;
     const Eigen::Vector3f out = (on_palm ? v.weight_b : 1 - v.weight_b) * 0.006f * Eigen::Vector3f::UnitY();
     v.in_a -= out;
     v.in_b -= out;
   }
+
+  // All fingers are hidden.
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
   auto observation = test::observe_skin(other_knuckles, truth);
-  hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);  // to the knuckles
+
+  // Up to the knuckles.
+  hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);
+
+  // How far the refinement rotates the hidden finger in a second.
   const auto turned_after_a_second = [&](const Refinement& refinement) {
     HandPose pose = truth;
     for (int frame = 0; frame < 30; ++frame) pose = refinement.refine(*observation, pose, pose, 5).pose;
     const auto in_palm = [&](const HandPose& of) { return of[kPalm].inverse() * of[root]; };
     return boxminus(in_palm(pose), in_palm(truth)).tail<3>().norm() / kDegree;
   };
+
+  // Guessed skin does not rotate it; scanned skin is trusted and does.
   EXPECT_LT(turned_after_a_second(refinement_), 1.5);
   auto scanned = std::make_shared<HandProfile>(*profile_);
   scanned->scanned_skin = skin_;

@@ -21,6 +21,8 @@ TEST(ResidualMoments, EqualTheSumOfEveryPointsJacobian) {
   GaussianTree expected, actual;
   expected.set_zero();
   actual.set_zero();
+
+  // Random residuals on rigid and on blended skin.
   for (int i = 0; i < 200; ++i) {
     SkinVertex v;
     v.a = static_cast<std::int16_t>(1 + i % (kSegmentCount - 1));
@@ -32,6 +34,7 @@ TEST(ResidualMoments, EqualTheSumOfEveryPointsJacobian) {
     const double r = random.normal() * 0.003, w = 1e5 * random.uniform();
     moments.add(v, p.cast<float>(), direction.cast<float>(), static_cast<float>(r), static_cast<float>(w));
 
+    // The same sums from every point's own Jacobian.
     const auto row = [&](int s, double share) {
       Vector6d j;  // d . d(R x + t)/d(v, w)
       j.head<3>() = share * direction;
@@ -47,6 +50,8 @@ TEST(ResidualMoments, EqualTheSumOfEveryPointsJacobian) {
     const bool a_is_child = parent_of(v.a) == v.b;
     expected.H_parent[a_is_child ? v.a : v.b] += w * (a_is_child ? a * b.transpose() : b * a.transpose());
   }
+
+  // Both sums agree in single precision.
   moments.add_to(actual);
   for (int s = 0; s < kSegmentCount; ++s) {
     EXPECT_TRUE(actual.H_self[s].isApprox(expected.H_self[s], 1e-5)) << s;

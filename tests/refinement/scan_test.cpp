@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCell = 0.008;  // m: few unknowns
+constexpr double kCell = 0.008;  // m, coarse: few unknowns
 
-/// The hand turned about its upright axis and bent, in front of the camera.
+/// A hand rotated about its vertical axis and bent, in front of the camera.
 HandPose shown(const HandProfile& hand, double turn, double mcp, double pip, double thumb) {
   SE3 T_camera_palm = test::facing_pose(hand, 0.4)[kPalm];
   T_camera_palm.R = exp_so3({0, turn, 0}) * T_camera_palm.R;
@@ -36,7 +36,7 @@ std::vector<HandPose> all_shown(const HandProfile& hand) {
   return poses;
 }
 
-/// What a camera sees of `person`, where `start` would be in these poses.
+/// The frames that a camera takes of `person`; the poses are those that `start` would have.
 std::vector<ScanFrame> scan_of(const HandProfile& person, const HandProfile& start) {
   const Skin skin = make_blended_skin(person, 0.004);
   const std::vector<HandPose> poses = all_shown(person), guesses = all_shown(start);
@@ -65,14 +65,19 @@ class ScanTest : public ::testing::Test {
 };
 
 TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
-  const HandProfile start = started_as(ProfileOrigin::measured);  // the tips of others move to where their skin says
+  // With other origins, the tips move to where the skin says.
+  const HandProfile start = started_as(ProfileOrigin::measured);
   const HandProfile hand = scanned_profile(make_scan_model(start, kCell), make_scan_model(start, kCell));
+
+  // The skin moves like that of the start ...
   const Skin skin = make_blended_skin(*start_, kCell);
   const HandPose pose = shown(*start_, 0.3, 0.8, 0.7, 0.5);
   std::vector<Eigen::Vector3f> before, after;
   pose_skin(skin, pose, before);
   pose_skin(*hand.scanned_skin, pose, after);
   for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT((before[i] - after[i]).norm(), 1e-6f) << i;
+
+  // ... and the segments are the same.
   EXPECT_EQ(hand.origin, ProfileOrigin::measured);
   for (int s = 0; s < kSegmentCount; ++s) {
     EXPECT_LT((hand.segments[s].T_hand_segment.matrix() - start_->segments[s].T_hand_segment.matrix()).norm(), 1e-9);
@@ -81,14 +86,19 @@ TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
 }
 
 TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
+  // Move a joint within both of its bones.
   ScanModel model = make_scan_model(*start_, kCell);
   const int s = segment_of(1, 1);
   const Vector3d shift(0.001, -0.002, 0.003);  // in the frame of the segment
   model.in_segment[s] = shift;
   model.in_parent[s] += start_->rest_relative(s).R * shift;
+
+  // The frame and the sections follow the joint.
   const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
   EXPECT_LT((hand.segments[s].T_hand_segment.t - start_->segments[s].T_hand_segment * shift).norm(), 1e-9);
   EXPECT_NEAR(hand.segments[s].flesh_offset_y[0], start_->segments[s].flesh_offset_y[0] - shift.y(), 1e-9);
+
+  // The skin stays where it was.
   HandPose rest, rest_before;
   for (int k = 0; k < kSegmentCount; ++k) {
     rest[k] = hand.segments[k].T_hand_segment;
@@ -101,17 +111,22 @@ TEST_F(ScanTest, AJointThatMovesTakesItsFrameAlongAndLeavesTheSkin) {
 }
 
 TEST_F(ScanTest, ABoneThatStandsOtherwiseAtRestTakesItsSkinAlong) {
+  // Rotate a bone at rest.
   ScanModel model = make_scan_model(*start_, kCell);
   const int s = segment_of(2, 1);
   const ScanVariables variables(model);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(variables.count());
   step.segment<3>(ScanVariables::joint(s) + 6) << 0.01, -0.02, 0.03;
   variables.apply(step, model);
+
+  // Its frame and everything behind it turn.
   const HandProfile hand = scanned_profile(make_scan_model(*start_, kCell), model);
   const Eigen::Matrix3d turned = start_->rest_relative(s).R * exp_so3({0.01, -0.02, 0.03});
   EXPECT_LT((hand.rest_relative(s).R - turned).norm(), 1e-9);
   EXPECT_LT((hand.rest_relative(s).t - start_->rest_relative(s).t).norm(), 1e-9);
   EXPECT_LT((hand.rest_relative(s + 1).matrix() - start_->rest_relative(s + 1).matrix()).norm(), 1e-9);
+
+  // The skin keeps its place on the bones.
   const Skin before = make_blended_skin(*start_, kCell);
   for (std::size_t i = 0; i < before.vertices.size(); ++i)
     ASSERT_LT((hand.scanned_skin->vertices[i].in_a - before.vertices[i].in_a).norm(), 1e-7f) << i;
@@ -134,11 +149,14 @@ TEST_F(ScanTest, ATipOfThickerSkinIsFartherFromItsEnd) {
   const SegmentProfile& old = start_->segments[s];
   const Eigen::Vector3f along = old.distal.normalized().cast<float>();
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
+    // Make the skin of a fingertip thicker.
     const ScanModel before = make_scan_model(started_as(origin), kCell);
     ScanModel thicker = before;
     for (SkinVertex& v : thicker.skin.vertices)
       if (v.a == s && v.normal_in_a.dot(along) < 0.5f)
         v.in_a += 0.001f * (v.normal_in_a - v.normal_in_a.dot(along) * along);
+
+    // The radius grows with it, and the end of the skin stays.
     const SegmentProfile tip = scanned_profile(before, thicker).segments[s];
     EXPECT_NEAR(tip.radius[1] - old.radius[1], 0.001, 3e-4);
     EXPECT_NEAR(tip.length + tip.radius[1], old.length + old.radius[1], 1e-4);
@@ -146,11 +164,14 @@ TEST_F(ScanTest, ATipOfThickerSkinIsFartherFromItsEnd) {
 }
 
 TEST_F(ScanTest, AFittedRadiusIsThatOfTheSkinAndAMeasuredOneStays) {
+  // A hand whose radius at the tip does not agree with its sections, which the skin follows.
   const int s = segment_of(2, 2);
   HandProfile start = *start_;
   const SegmentProfile& bone = start.segments[s];
   const double end = bone.length + bone.radius[1];
   start.segments[s].radius[1] = bone.radius[1] + 0.001;  // the sections, which the skin follows, stay
+
+  // Only a fitted hand takes the radius of the skin.
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
     start.origin = origin;
     const ScanModel model = make_scan_model(start, kCell);
@@ -177,7 +198,7 @@ TEST_F(ScanTest, AFittedTipLiesInTheMiddleOfItsSkin) {
 TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
   const HandPose pose = shown(*start_, 0, 0.1, 0.1, 0.1);
   const auto observation = test::observe_skin(make_blended_skin(*start_, 0.004), pose);
-  const auto information = [&](ProfileOrigin origin) {  // about the offset of every vertex
+  const auto information = [&](ProfileOrigin origin) {  // information about the offset of every vertex in one frame
     const HandProfile hand = started_as(origin);
     const ScanModel model = make_scan_model(hand, kCell);
     const ScanVariables variables(model);
@@ -191,6 +212,8 @@ TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
       if (entry.row() == entry.col()) diagonal[entry.row()] += entry.value();
     return Eigen::VectorXd(diagonal.segment(variables.offset(0), static_cast<int>(model.skin.vertices.size())));
   };
+
+  // The ratio of both cases follows from the two penalties.
   const Eigen::VectorXd moving = information(ProfileOrigin::mean), known = information(ProfileOrigin::measured);
   const ScanModel model = make_scan_model(*start_, kCell);
   int at_knuckles = 0;
@@ -207,25 +230,30 @@ TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
   EXPECT_GT(at_knuckles, 10);
 }
 
-/// At a model that explains a frame exactly, the equations are those of the true energy: a known change of the unknowns
-/// is found back in one step.
+/// At a model that explains a frame exactly, the equations are those of the true energy, so that a known change of the
+/// unknowns is recovered in one step.
 class ScanEquationsTest : public ScanTest {
  protected:
-  /// Solves for what `change` did to a model that explained the frames exactly.
+  /// Solves for the change that `change` made to a model that explained the frames exactly.
   enum class Unknown { joint, offset, share };
   Eigen::VectorXd found_back(Unknown unknown, const std::function<void(ScanModel&)>& change) {
+    // A changed model.
     const ScanModel truth = make_scan_model(*start_, kCell);
     ScanModel model = truth;
     change(model);
     const ScanVariables variables(model);
     const auto limits = widened_limits(*start_, 0.3);
+
+    // Only one kind of unknown is free, since an offset may hide the effect of a weight.
     ScanEquations shared;
     shared.set_zero(variables.count());
     const int joints = ScanVariables::kJoints, offsets = static_cast<int>(truth.skin.vertices.size());
-    for (int k = 0; k < variables.count(); ++k) {  // all but one kind is held: an offset may hide what a share does
+    for (int k = 0; k < variables.count(); ++k) {
       const Unknown kind = k < joints ? Unknown::joint : (k < joints + offsets ? Unknown::offset : Unknown::share);
       shared.add(k, k, kind == unknown ? 1.0 : 1e12);
     }
+
+    // Frames of the unchanged model.
     std::vector<ScanFrameEquations> frames;
     for (const HandPose& pose : all_shown(*start_)) {
       const ScanFrame frame{test::observe_skin(truth.skin, pose), pose};
@@ -238,11 +266,14 @@ class ScanEquationsTest : public ScanTest {
 };
 
 TEST_F(ScanEquationsTest, FindBackHowFarTheSkinStandsOut) {
+  // Shift all skin outward.
   const ScanModel truth = make_scan_model(*start_, kCell);
   const ScanVariables variables(truth);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(variables.count());
   for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) change[variables.offset(static_cast<int>(i))] = 0.001;
   const auto step = found_back(Unknown::offset, [&](ScanModel& model) { variables.apply(change, model); });
+
+  // The step takes the shift back wherever the skin was seen.
   double sum = 0;
   int seen = 0;
   for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {
@@ -256,17 +287,20 @@ TEST_F(ScanEquationsTest, FindBackHowFarTheSkinStandsOut) {
 }
 
 TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
+  // Change the weights of the skin about the fingers' second joints, towards the outer bone.
   const ScanModel truth = make_scan_model(*start_, 0.004);
   const ScanVariables variables(truth);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(variables.count());
-  for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {  // skin about the second joints of fingers
+  for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {
     const SkinVertex& v = truth.skin.vertices[i];
     const int inner = std::min(v.a, v.b), outer = std::max(v.a, v.b);
     if (v.weight_b == 0 || finger_of(outer) == 0 || inner != segment_of(finger_of(outer), 0) ||
         parent_of(outer) != inner)
       continue;
-    change[variables.share(static_cast<int>(i))] = v.a == inner ? 0.2 : -0.2;  // towards the outer bone
+    change[variables.share(static_cast<int>(i))] = v.a == inner ? 0.2 : -0.2;
   }
+
+  // The equations of one frame of the unchanged model.
   ScanModel model = truth;
   variables.apply(change, model);
   const HandPose pose = shown(*start_, 0, 0.1, 0.6, 0.1);
@@ -276,9 +310,10 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
   ScanEquations shared;
   shared.set_zero(variables.count());
   frames[0].add_to(shared);
-  // The step along `change` that is best. A pixel counts for the vertex next to it, so that skin beside the changed
-  // one, which counts more as it follows one bone, makes it shorter than -1. Twice or half the derivative: -0.13,
-  // -0.53.
+
+  // The optimal step along `change`. A pixel belongs to its nearest vertex, and skin beside the changed one counts
+  // more because it follows one bone, so the step is shorter than -1. With twice or half the derivative it would be
+  // -0.13 or -0.53.
   const Eigen::VectorXd H_change = ScanSystem(shared, frames, 1, workers_).times(change);
   const double step = shared.g.dot(change) / change.dot(H_change);
   EXPECT_LT(step, -0.2);
@@ -292,7 +327,8 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
     model.in_parent[s] += in_parent;
     model.in_segment[s] += in_segment;
   });
-  // Of a hinge that bends about one axis, only the difference along that axis can be found.
+
+  // For a hinge that bends about one axis, only the difference along that axis can be recovered.
   const Vector3d found_parent = step.segment<3>(ScanVariables::joint(s)),
                  found = step.segment<3>(ScanVariables::joint(s) + 3);
   EXPECT_NEAR(found_parent.z(), -in_parent.z(), 2e-5);
@@ -301,8 +337,7 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
   EXPECT_NEAR(found.y(), -in_segment.y(), 2e-5);
 }
 
-/// Only frames in which the angles of a hinge are not what its axes allow tell how its bones stand to each other at
-/// rest.
+/// Only frames in which the angles of a hinge contradict its axes show how its bones stand to each other at rest.
 TEST_F(ScanEquationsTest, FindBackHowAHingeStoodAtRest) {
   const int s = segment_of(2, 1);
   const Vector3d turn(0, 0.012, -0.008);
@@ -313,7 +348,7 @@ TEST_F(ScanEquationsTest, FindBackHowAHingeStoodAtRest) {
   EXPECT_LT(step.segment<3>(ScanVariables::joint(segment_of(3, 1)) + 6).norm(), 1e-6);  // its neighbour
 }
 
-/// What the poses of frames explain is as if they were unknowns, too.
+/// The elimination of the poses gives the same result as if the poses were unknowns of one large system.
 TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   const double cell = 0.012;
   const ScanModel start = make_scan_model(*start_, cell);
@@ -323,16 +358,22 @@ TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   std::vector<ScanFrameEquations> frames(4);
   ScanEquations shared;
   shared.set_zero(variables.count());
+
+  // The equations of the prior and of some frames.
   add_scan_prior(start, start, variables, false, shared);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     ASSERT_TRUE(frames[i].linearise(scan[i], start, variables, limits, false));
     frames[i].add_to(shared, 2);
   }
+
+  // The matrix, column by column; it is symmetric.
   const ScanSystem system(shared, frames, 2, workers_);
   Eigen::MatrixXd matrix(variables.count(), variables.count());
   for (int k = 0; k < variables.count(); ++k) matrix.col(k) = system.times(Eigen::VectorXd::Unit(variables.count(), k));
   const double asymmetry = (matrix - matrix.transpose()).norm();
   EXPECT_LT(asymmetry, 1e-9 * matrix.norm());
+
+  // A direct solution agrees with the iterative one.
   const Eigen::VectorXd exact = matrix.llt().solve(shared.g);
   const auto solved = system.solve();
   ASSERT_TRUE(solved);
@@ -340,8 +381,10 @@ TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   EXPECT_LT((*solved - exact).norm(), 1e-4 * exact.norm());
 }
 
-/// The prior is quadratic in all but turns: its gradient falls as its matrix says. A turn is small here.
+/// The prior is quadratic except for rotations, so its gradient changes as its matrix predicts; the rotations here are
+/// small.
 TEST_F(ScanTest, ThePriorsGradientFallsAsItsMatrixSays) {
+  // A small change of all unknowns.
   const ScanModel start = make_scan_model(*start_, kCell);
   const ScanVariables variables(start);
   Eigen::VectorXd step(variables.count());
@@ -349,22 +392,27 @@ TEST_F(ScanTest, ThePriorsGradientFallsAsItsMatrixSays) {
   step *= 1e-4;
   ScanModel model = start;
   variables.apply(step, model);
-  for (int i = 0; i < static_cast<int>(model.skin.vertices.size()); ++i)  // shares end at 0 and 1
+  for (int i = 0; i < static_cast<int>(model.skin.vertices.size()); ++i)  // weights end at 0 and 1
     step[variables.share(i)] = model.skin.vertices[i].weight_b - start.skin.vertices[i].weight_b;
+
+  // The equations before and after.
   ScanEquations before, after;
   for (auto [at, equations] : {std::pair(&start, &before), {&model, &after}}) {
     equations->set_zero(variables.count());
     add_scan_prior(*at, start, variables, false, *equations);
   }
+
+  // The gradient as the matrix predicts it; damping adds a thousandth.
   const Eigen::VectorXd expected = before.g - ScanSystem(before, {}, 1, workers_).times(step);
-  for (int k = 0; k < step.size(); ++k)  // damping adds a thousandth
+  for (int k = 0; k < step.size(); ++k)
     ASSERT_NEAR(after.g[k], expected[k], 0.01 * expected.norm() / std::sqrt(expected.size())) << k;
 }
 
 TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
   const ScanModel start = make_scan_model(*start_, kCell);
+
   const ScanVariables variables(start);
-  const auto pull = [&](const ScanModel& model, bool hold) {  // sideways on the root of every digit
+  const auto pull = [&](const ScanModel& model, bool hold) {  // sideways, on the root of every digit
     ScanEquations equations;
     equations.set_zero(variables.count());
     add_scan_prior(model, start, variables, hold, equations);
@@ -372,28 +420,36 @@ TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
     for (int f = 0; f < kFingerCount; ++f) g[f] = equations.g[ScanVariables::joint(segment_of(f, 0)) + 3];
     return g;
   };
-  ScanModel beside = start;  // both points of every root, as if the joint moved: nothing else pulls but where it was
+
+  // Both points of every root move, so that nothing pulls but the prior of the joint and of the skin's middle.
+  ScanModel beside = start;
   for (int f = 0; f < kFingerCount; ++f) {
     const int s = segment_of(f, 0);
     beside.in_segment[s].x() += 0.001;
     beside.in_parent[s] += start.rest[s].col(0) * 0.001;
   }
+
   const auto free = pull(beside, false), at_start = pull(start, false), held = pull(beside, true);
-  for (int f = 1; f < kFingerCount; ++f)  // 1 mm by a deviation of 1 mm is 1000 / m, half of it at least
+  for (int f = 1; f < kFingerCount; ++f)  // 1 mm at a deviation of 1 mm is 1000 / m; at least half of it must pull
     EXPECT_LT(free[f] - at_start[f], held[f] - 500) << f;
   EXPECT_NEAR(free[0] - at_start[0], held[0], 1e-6);
 }
 
 TEST_F(ScanTest, FindsAnotherPersonsBonesAndSkin) {
+  // A person with other bones and another thickness.
   const HandProfile person = reshaped(*start_, shape_with({{"index_proximal_length", 0.08},
                                                            {"middle_intermediate_length", -0.08},
                                                            {"fingers_thickness", 0.08},
                                                            {"palm_thickness", 0.08}}));
   double before = 0, after = 0;
   std::vector<double> mismatch;
+
+  // Scan.
   const auto hand = scan_hand(*start_, 0.005, scan_of(person, *start_), workers_,
                               [&](const ScanProgress& progress) { mismatch.push_back(progress.mismatch); });
   ASSERT_TRUE(hand);
+
+  // Bones and skin have come closer to the person's.
   for (const int s : {segment_of(1, 0), segment_of(2, 1)}) {
     before += std::abs(start_->segments[s].length - person.segments[s].length);
     after += std::abs(hand->segments[s].length - person.segments[s].length);

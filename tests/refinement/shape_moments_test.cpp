@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3f;
 using Eigen::VectorXd;
 
-/// Random evidence at a bent hand, weighted as plain least squares so that every derivative is exact.
+/// Random evidence on a bent hand, weighted as plain least squares so that all derivatives are exact.
 class ShapeMomentsTest : public ::testing::Test {
  protected:
   ShapeMomentsTest() {
@@ -35,7 +35,7 @@ class ShapeMomentsTest : public ::testing::Test {
     }
   }
 
-  // The evidence after a change of the shape: the skin moves outward, the data stays.
+  // The evidence after a change of the shape: the skin moves outward, and the data stays.
   ModelComparison reshaped_evidence(const HandShape& change) const {
     ModelComparison moved;
     moved.correspondences = evidence_.correspondences;
@@ -97,6 +97,7 @@ TEST_F(ShapeMomentsTest, GradientMatchesCentralDifferences) {
 }
 
 TEST_F(ShapeMomentsTest, MixedBlocksAreHowTheShapeChangesThePosesGradient) {
+  // The gradient of the pose as a function of the shape.
   const ShapeEquations at = equations();
   const auto pose_gradient = [&](const HandShape& change) {
     GaussianTree tree;
@@ -105,6 +106,8 @@ TEST_F(ShapeMomentsTest, MixedBlocksAreHowTheShapeChangesThePosesGradient) {
     add_joint_terms(profile_after(change), limits_, pose_, params_, tree);
     return tree.g;
   };
+
+  // Its numeric derivative equals the mixed blocks.
   double worst = 0, scale = 0;
   for (int k = 0; k < kShapeCount; ++k) {
     const double step = 0.02 * shape_parameters()[k].deviation;
@@ -119,6 +122,7 @@ TEST_F(ShapeMomentsTest, MixedBlocksAreHowTheShapeChangesThePosesGradient) {
 }
 
 TEST_F(ShapeMomentsTest, SchurComplementEqualsTheDenseOne) {
+  // The whole system as dense matrices.
   const ShapeEquations at = equations();
   constexpr int n = 6 * kSegmentCount;
   MatrixXd H = MatrixXd::Zero(n, n), cross(n, kShapeCount);
@@ -131,6 +135,8 @@ TEST_F(ShapeMomentsTest, SchurComplementEqualsTheDenseOne) {
     H.block<6, 6>(6 * s, 6 * parent_of(s)) = at.tree.H_parent[s];
     H.block<6, 6>(6 * parent_of(s), 6 * s) = at.tree.H_parent[s].transpose();
   }
+
+  // The Schur complement, computed densely and by the tree.
   const MatrixXd information = at.H_shape - cross.transpose() * H.llt().solve(cross);
   const VectorXd gradient = at.g_shape - cross.transpose() * H.llt().solve(g);
   Eigen::Matrix<double, kShapeCount, kShapeCount> S;

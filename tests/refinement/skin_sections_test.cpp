@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kLength = 0.045;
 
-/// A tapered tube of elliptic sections about a line from (x, y) at the joint to (0, 0) at the end, as far as it shows:
-/// from the middle of the bone on, and on two thirds of its girth.
+/// A tapered tube of elliptic sections about a line from (x, y) at the joint to (0, 0) at the end. Only the part that
+/// a scan sees: from the middle of the bone on, and two thirds of the girth.
 Skin tube(int segment, double x, double y) {
   Skin skin;
   for (double u = 0.4; u < 1; u += 0.1)
@@ -62,6 +62,8 @@ TEST(SkinSections, FollowVerticesAlongTheirNormals) {
   Skin skin = tube(segment, 0.001, 0);
   const auto sections = SkinSections::fit(skin, segment, kLength, true);
   ASSERT_TRUE(sections);
+
+  // Predict the effect of moving the vertices, then move them.
   double moved = sections->middle_x(0);
   for (std::size_t k = 0; k < sections->vertices().size(); ++k) {
     SkinVertex& v = skin.vertices[sections->vertices()[k]];
@@ -69,6 +71,8 @@ TEST(SkinSections, FollowVerticesAlongTheirNormals) {
     v.in_a += static_cast<float>(out) * v.normal_in_a;
     moved += sections->middle_x_per_offset()[static_cast<Eigen::Index>(k)] * out;
   }
+
+  // A new fit agrees with the prediction.
   const double after = SkinSections::fit(skin, segment, kLength, true)->middle_x(0);
   EXPECT_GT(std::abs(after - sections->middle_x(0)), 1e-5);
   EXPECT_NEAR(after, moved, 1e-7);

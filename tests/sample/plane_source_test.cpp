@@ -14,11 +14,14 @@ TEST(PlaneSource, DeliversEveryFrameInOrderAndThenEnds) {
   options.frames = 3;
   const auto source = PlaneSource::open(options);
   ASSERT_TRUE(source.has_value());
+
+  // Frames come in order and are complete.
   std::int64_t last_utime = 0;
   for (std::int64_t i = 0; i < 3; ++i) {
     const SourceEvent event = (*source)->next(milliseconds(0));
     const auto* frame = std::get_if<FramePtr>(&event);
     ASSERT_TRUE(frame);
+
     EXPECT_EQ((*frame)->number, i);
     EXPECT_GT((*frame)->utime, last_utime);
     EXPECT_TRUE((*frame)->camera.valid());
@@ -33,6 +36,8 @@ TEST(PlaneSource, WallSwingsBetweenItsDistances) {
   options.frames = 60;
   const auto source = PlaneSource::open(options);
   ASSERT_TRUE(source.has_value());
+
+  // The extreme distances over a whole swing.
   double nearest = 10, farthest = 0;
   for (int i = 0; i < options.frames; ++i) {
     const SourceEvent event = (*source)->next(milliseconds(0));

@@ -14,26 +14,31 @@ namespace {
 constexpr int kSegment = 6;
 using HiddenPixels = Image<std::uint8_t>;
 
-/// Sec. 4.1, 4.2 point by point in double precision, from the observation itself rather than from the pixel map.
+/// Sec. 4.1 and 4.2 point by point in double precision, from the observation itself instead of the pixel map.
 PatchDistance reference_distance(const SegmentSurface& skin, const SE3& T, const HandObservation& o,
                                  const HiddenPixels& hidden, bool missing_is_background, double cap) {
   const Intrinsics& c = o.frame->camera;
   double distance = 0, counted = 0, total = 0;
   for (std::size_t i = 0; i < skin.size(); ++i) {
+    // The pixels that the point covers.
     const Eigen::Vector3d p = T * Eigen::Vector3d(skin.x[i], skin.y[i], skin.z[i]);
     const double facing = -(T.R * Eigen::Vector3d(skin.nx[i], skin.ny[i], skin.nz[i])).dot(p);
     if (facing <= 0) continue;
     const double weight = skin.area[i] * facing / std::pow(p.z(), 3) * c.fx * c.fy;
     total += weight;
+
+    // The data there: hidden points do not count.
     const Eigen::Vector2d pixel = c.project(p);
     const int u = static_cast<int>(std::floor(pixel.x() + 0.5)), v = static_cast<int>(std::floor(pixel.y() + 0.5));
     if (!o.label.contains(u, v) || hidden.at(u, v)) continue;
     const double z_data = o.depth.at(u, v);
+
+    // Eq. 1.
     double d = std::abs(p.z() - z_data);
     if (o.label.at(u, v) != PixelLabel::hand) {
       if (o.label.at(u, v) == PixelLabel::unknown && !missing_is_background) continue;
       if (z_data > 0 && z_data < p.z()) continue;
-      d = (p - o.point(o.nearest_hand.at(u, v)).cast<double>()).norm();  // Eq. 1
+      d = (p - o.point(o.nearest_hand.at(u, v)).cast<double>()).norm();
     }
     distance += weight * std::min(d, cap);
     counted += weight;
@@ -41,7 +46,7 @@ PatchDistance reference_distance(const SegmentSurface& skin, const SE3& T, const
   return {static_cast<float>(distance), static_cast<float>(counted), static_cast<float>(total)};
 }
 
-/// Every label everywhere, with depths around the segment's; large enough that all skin stays within the image.
+/// Random labels, with depths around that of the segment, and large enough that all skin is within the image.
 HandObservation random_scene(std::uint64_t seed) {
   KeyedRandom random(seed, 3);
   return make_observation(small_camera(64, 64), [&](int, int) -> ScenePixel {
@@ -55,15 +60,18 @@ HandObservation random_scene(std::uint64_t seed) {
 }
 
 TEST(PatchDistance, AgreesWithTheEquationsPointByPoint) {
-  const SegmentSurface skin = make_cylinder_surface(capsule_profile(), 83)[kSegment];  // no multiple of a SIMD width
+  const SegmentSurface skin = make_cylinder_surface(capsule_profile(), 83)[kSegment];  // not a multiple of a SIMD width
   Workers workers(1);
   constexpr int kScenes = 24;
   double counted = 0;
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    // A random scene and pose.
     const HandObservation o = random_scene(seed);
     const bool missing_is_background = seed % 2;
     const double cap = seed % 4 < 2 ? 0.01 : std::numeric_limits<double>::infinity();
     PixelMap map = make_pixel_map(o, missing_is_background, workers);
+
+    // Random pixels are hidden from the segment.
     HiddenPixels hidden(64, 64, 0);
     KeyedRandom random(seed, 4);
     for (int v = 0; v < 64; ++v)
@@ -77,7 +85,7 @@ TEST(PatchDistance, AgreesWithTheEquationsPointByPoint) {
 
     const PatchDistance actual = patch_distance(skin, T, kSegment, map, static_cast<float>(cap));
     const PatchDistance expected = reference_distance(skin, T, o, hidden, missing_is_background, cap);
-    // A point within single precision of a pixel's edge or of the silhouette may fall either way.
+    // A point within single precision of a pixel's border or of the silhouette may fall either way.
     ASSERT_NEAR(actual.total, expected.total, 1e-3 * expected.total) << "seed " << seed;
     ASSERT_NEAR(actual.counted, expected.counted, 1e-3 * expected.total) << "seed " << seed;
     ASSERT_NEAR(actual.mean(), expected.mean(), 2e-5) << "seed " << seed;
@@ -94,14 +102,14 @@ PatchDistance compare_with(const std::function<ScenePixel(int, int)>& scene, con
 }
 
 TEST(PatchDistance, WeightsAddUpToTheCoveredPixels) {
-  // The silhouette of the tip: 16 mm by 30 mm and half a disc, nearly parallel to the image.
+  // The silhouette of the tip: a rectangle of 16 mm by 30 mm and half a disc, nearly parallel to the image.
   const double silhouette = (0.016 * 0.030 + std::numbers::pi * 0.008 * 0.008 / 2) * 525 * 525 / (0.4 * 0.4);
   const PatchDistance d = compare_with([](int, int) { return ScenePixel{0.4f, PixelLabel::hand}; }, upright_pose());
   EXPECT_NEAR(d.total, silhouette, 0.05 * silhouette);
 }
 
 TEST(PatchDistance, OnHandPixelsIsTheDepthDifference) {
-  // A wall of skin 30 mm behind the axis: the visible skin lies up to the radius in front of the axis.
+  // A wall of skin is 30 mm behind the axis; the visible skin is in front of the axis by up to the radius.
   const PatchDistance d = compare_with([](int, int) { return ScenePixel{0.43f, PixelLabel::hand}; }, upright_pose());
   EXPECT_GT(d.mean(), 0.030);
   EXPECT_LT(d.mean(), 0.038);

@@ -23,18 +23,21 @@ TEST(DrawSample, FirstOfEachKernelIsItsCentre) {
 }
 
 TEST(DrawSample, FillsTheKernelsBoxInTheSegmentsOwnAxes) {
+  // The extent of many samples in the kernel's frame.
   const auto kernels = two_kernels();
   Vector6d lo = Vector6d::Zero(), hi = Vector6d::Zero();
-  for (int i = 2; i < 2000; i += 2) {  // even ones belong to the first kernel
+  for (int i = 2; i < 2000; i += 2) {  // the even ones belong to the first kernel
     const SE3 sample = draw_sample(kernels, 4, i, {1, 2, 3, 6});
     const SE3 inside = kernels[0].T_camera_segment.inverse() * sample;
     Vector6d offset;
-    // R = Ry(y) Rz(z) Rx(-x), read as joint_angles() does.
+    // R = Ry(y) Rz(z) Rx(-x), decomposed as in joint_angles().
     offset << inside.t, std::atan2(inside.R(1, 2), inside.R(1, 1)), std::atan2(-inside.R(2, 0), inside.R(0, 0)),
         std::asin(inside.R(1, 0));
     lo = lo.cwiseMin(offset);
     hi = hi.cwiseMax(offset);
   }
+
+  // The samples stay within the box and fill it.
   for (int k = 0; k < 6; ++k) {
     EXPECT_LE(hi[k], kHalf[k] + 1e-9);
     EXPECT_GE(lo[k], -kHalf[k] - 1e-9);

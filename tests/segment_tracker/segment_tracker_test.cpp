@@ -15,7 +15,7 @@ SegmentTracker make_tracker(Workers& workers, const SegmentTrackerParams& params
   return {params, std::make_shared<HandSurface>(make_cylinder_surface(capsule_profile(), 150)), workers};
 }
 
-/// All segments predicted at the upright capsule: only kTip is looked at.
+/// All segments are predicted at the upright capsule; the tests look at kTip only.
 HandPose prediction() {
   HandPose pose;
   pose.fill(upright_pose());
@@ -30,8 +30,8 @@ Proposals boxes(double translation, double rotation) {
   return proposals;
 }
 
-/// The upright capsule, its left part up to column `covered_to` behind an object held 30 mm in front. A bit of hand in
-/// the corner keeps Eq. 1 defined where all else is covered.
+/// The upright capsule, whose left part up to column `covered_to` is behind an object 30 mm in front of it. A bit of
+/// hand in the corner keeps Eq. 1 defined where everything else is covered.
 HandObservation covered_capsule(int covered_to) {
   const Intrinsics camera = small_camera();
   return make_observation(camera, [&](int u, int v) {
@@ -58,7 +58,7 @@ TEST(SegmentTracker, TrueSampleBeatsDisplacedOnes) {
   EXPECT_LT(at_truth, 0.0007);
   for (int axis = 0; axis < 3; ++axis)
     for (const double offset : {-0.006, -0.003, 0.003, 0.006}) {
-      if (axis == 1 && offset > 0) continue;  // towards the palm end a tip slides within its own outline
+      if (axis == 1 && offset > 0) continue;  // towards the palm, a tip slides within its own outline
       SE3 T = upright_pose();
       T.t[axis] += offset;
       EXPECT_GT(tracker.compare(prepared, kTip, T).mean(), 1.5 * at_truth) << "axis " << axis << " by " << offset;
@@ -70,7 +70,7 @@ TEST(SegmentTracker, LikelihoodFollowsEquationThree) {
   SegmentTracker tracker = make_tracker(workers);
   const PreparedObservation prepared = tracker.prepare(covered_capsule(48), prediction());
   const SegmentSamples samples = tracker.sample(prepared, boxes(0.002, 0.1), {1, 0, 2, 5});
-  const double sigma_obs = 0.002;  // half way from 4 to 1 mm, geometrically
+  const double sigma_obs = 0.002;  // the geometric mean of 4 and 1 mm
   for (std::size_t i = 0; i < samples.poses[kTip].size(); ++i) {
     const double d = tracker.compare(prepared, kTip, samples.poses[kTip][i]).mean() / sigma_obs;
     EXPECT_NEAR(samples.log_likelihood[kTip][i], -samples.unoccluded[kTip] * d * d, 1e-9);
@@ -79,16 +79,19 @@ TEST(SegmentTracker, LikelihoodFollowsEquationThree) {
 }
 
 TEST(SegmentTracker, MoreOcclusionMakesTheLikelihoodFlatter) {
-  // Fig. 5: move the model along the viewing ray; the drop of the likelihood shrinks with alpha.
+  // Fig. 5: when the model moves along the viewing ray, the likelihood drops the less, the smaller alpha is.
   Workers workers(1);
   SegmentTracker tracker = make_tracker(workers);
   double last_drop = INFINITY;
   for (const int covered : {0, 42, 48, 54, 96}) {
     const PreparedObservation prepared = tracker.prepare(covered_capsule(covered), prediction());
+
+    // One sample at the prediction, and one displaced in depth.
     Proposals proposals = boxes(0, 0);
     SE3 displaced = upright_pose();
     displaced.t.z() += 0.004;
     proposals[kTip].push_back({displaced, Vector6d::Zero()});
+
     const auto log_l = tracker.sample(prepared, proposals, {1, 0, 0, 1}).log_likelihood[kTip];
     const double drop = log_l[0] - log_l[1];
     EXPECT_LT(drop, last_drop) << "covered up to column " << covered;
@@ -105,14 +108,15 @@ TEST(SegmentTracker, FullyHiddenSegmentIsFlat) {
 }
 
 TEST(SegmentTracker, SamplesThatMoveIntoOcclusionAreNotPunished) {
-  // The tip end is in the upper half of the image. Slid on by 5 mm, it leaves its own outline: into the open or
-  // behind an object that covers all above it.
+  // The tip's end is in the upper half of the image. When it slides on by 5 mm, it leaves its own outline, either into
+  // the open or behind an object that covers everything above.
   const Intrinsics camera = small_camera();
   const auto tip_below = [&](PixelLabel above, float z) {
     return make_observation(camera, [&, above, z](int u, int v) {
       return v < 24 ? ScenePixel{z, above} : upright_capsule(camera, u, v);
     });
   };
+
   Workers workers(1);
   SegmentTracker tracker = make_tracker(workers);
   SE3 slid = upright_pose();
@@ -120,6 +124,7 @@ TEST(SegmentTracker, SamplesThatMoveIntoOcclusionAreNotPunished) {
   const auto distance = [&](const HandObservation& o, const SE3& T) {
     return tracker.compare(tracker.prepare(o, prediction()), kTip, T).mean();
   };
+
   const HandObservation open = tip_below(PixelLabel::background, 1.0f), covered = tip_below(PixelLabel::object, 0.37f);
   EXPECT_NEAR(distance(covered, slid), distance(covered, upright_pose()), 0.0002);
   EXPECT_GT(distance(open, slid), distance(open, upright_pose()) + 0.0005);
@@ -130,7 +135,7 @@ TEST(SegmentTracker, SampleWithoutEvidenceGetsItsSiblingsMeanDistance) {
   SegmentTracker tracker = make_tracker(workers);
   const PreparedObservation prepared = tracker.prepare(covered_capsule(48), prediction());
   SE3 gone = upright_pose(), off = upright_pose();
-  gone.t.x() -= 0.03;  // wholly behind the object
+  gone.t.x() -= 0.03;  // completely behind the object
   off.t.z() += 0.006;
   Proposals proposals = boxes(0, 0);
   proposals[kTip] = {{upright_pose(), Vector6d::Zero()}, {gone, Vector6d::Zero()}, {off, Vector6d::Zero()}};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kTip = segment_of(1, 2), kOther = segment_of(2, 2);
 
-/// The upright segment at 0.4 m with everything else far outside the image.
+/// The upright segment at 0.4 m; all others are far outside the image.
 HandPose one_segment() {
   HandPose pose;
   for (SE3& T : pose) T = {upright_pose().R, {5, 0, 0.4}};
@@ -40,13 +40,15 @@ TEST(PredictedPatch, HoldsTheDepthOfTheSkinAndContinuesBeyondIt) {
                                                          return ScenePixel{0.4f, PixelLabel::hand};
                                                        }),
                                       false, workers);
+
+  // The depth at a pixel of the observation.
   PredictedPatch patch;
   patch.predict(make_cylinder_surface(capsule_profile(), 150)[kTip], upright_pose(), map, 0.010);
   const auto depth_at = [&](int u, int v) {
     return patch
         .z[static_cast<std::size_t>((v + 1 - patch.v0) / patch.cell) * patch.columns + (u + 1 - patch.u0) / patch.cell];
   };
-  EXPECT_NEAR(depth_at(48, 48), 0.392, 0.0007);       // front of the skin
+  EXPECT_NEAR(depth_at(48, 48), 0.392, 0.0007);       // the front of the skin
   EXPECT_NEAR(depth_at(48 + 18, 48), 0.399, 0.0025);  // 3 mm beside the outline
 }
 
@@ -59,7 +61,7 @@ TEST(SelfOcclusion, SkinInFrontByMoreThanTheThresholdHides) {
 TEST(SelfOcclusion, LabelsThePatchAroundTheSegmentOnly) {
   const PixelMap map = labelled(0.370f, PixelLabel::hand, one_segment(), "data");
   EXPECT_TRUE(hidden_at(map, kTip, 48 + 18, 48));   // within the margin
-  EXPECT_FALSE(hidden_at(map, kTip, 48 + 40, 48));  // far beside
+  EXPECT_FALSE(hidden_at(map, kTip, 48 + 40, 48));  // far outside the margin
   EXPECT_FALSE(hidden_at(map, kOther, 48, 48));
 }
 

@@ -34,7 +34,7 @@ Spread spread(const Image<float>& depth) {
   return {sum / n, std::sqrt(sum_sq / n - sum / n * sum / n), 1 - n / static_cast<double>(depth.size())};
 }
 
-/// The claim under test: this depth image of a flat wall has this axial sigma, within 5 %.
+/// The claim under test: the axial sigma of this depth image of a flat wall is `sigma` within 5 %.
 bool has_sigma(const Image<float>& depth, double sigma) { return std::abs(spread(depth).sigma / sigma - 1) < 0.05; }
 
 TEST(KinectNoise, HasThePublishedAxialSigma) {
@@ -60,12 +60,13 @@ TEST(KinectNoise, LateralJitterRoughensSlopes) {
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 0; u < kCamera.width; ++u)
       if (residual.at(u, v) > 0) residual.at(u, v) += 1 - slope.depth.at(u, v);
-  // 0.8 pixels of a slope of 3 mm a pixel, and the axial noise.
+  // 0.8 pixels on a slope of 3 mm per pixel, plus the axial noise.
   const double axial = kinect_axial_sigma({}, 0.74);
   EXPECT_NEAR(spread(residual).sigma, std::hypot(0.8 * 0.003, axial), 0.0005);
 }
 
 TEST(KinectNoise, LosesDarkAndGrazingSurfacesInPatches) {
+  // Dark and grazing surfaces lose more pixels.
   const DepthNoise noise;
   const double fair = spread(noise.kinect(kCamera, wall(0.6), kMaterials, {}, 5, 0)).missing;
   const auto dark = noise.kinect(kCamera, wall(0.6, {10, 10, 12}), kMaterials, {}, 5, 0);
@@ -73,7 +74,9 @@ TEST(KinectNoise, LosesDarkAndGrazingSurfacesInPatches) {
   EXPECT_LT(fair, 0.01);
   EXPECT_GT(spread(dark).missing, 0.1);
   EXPECT_GT(grazing, 0.3);
-  int lost = 0, beside_lost = 0;  // clustered: the neighbour of a lost pixel is lost far more often than any pixel
+
+  // The losses are clustered: the neighbour of a lost pixel is lost far more often than any other pixel.
+  int lost = 0, beside_lost = 0;
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 0; u + 1 < kCamera.width; ++u) {
       if (dark.at(u, v) != 0) continue;
@@ -84,11 +87,14 @@ TEST(KinectNoise, LosesDarkAndGrazingSurfacesInPatches) {
 }
 
 TEST(KinectNoise, LeavesABandWithoutDataBesideAnEdge) {
+  // A near surface in front of a wall.
   RenderedView step = wall(0.9);
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 80; u < 120; ++u) step.depth.at(u, v) = 0.5f;
   const auto depth = DepthNoise().kinect(kCamera, step, kMaterials, {}, 5, 0);
-  // The projector is on the right: its shadow falls to the left of the near surface, baseline * f * (1/0.5 - 1/0.9).
+
+  // The projector is on the right, so its shadow is to the left of the near surface: baseline * f * (1/0.5 - 1/0.9)
+  // wide.
   const int band = static_cast<int>(0.075 * kCamera.fx * (1 / 0.5 - 1 / 0.9));
   int in_band = 0, beyond = 0;
   for (int v = 0; v < kCamera.height; ++v) {
@@ -111,10 +117,13 @@ TEST(KinectNoise, IsAFunctionOfSeedAndFrame) {
 }
 
 TEST(TofNoise, HasFlyingPixelsBetweenTheSurfacesOfAnEdgeAndNowhereElse) {
+  // A near surface in front of a wall.
   RenderedView step = wall(0.9);
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 80; u < 120; ++u) step.depth.at(u, v) = 0.5f;
   const auto depth = DepthNoise().tof(step, {}, 5, 0);
+
+  // Pixels between both depths occur at the edges only.
   int flying_at_edge = 0, flying_elsewhere = 0;
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 0; u < kCamera.width; ++u) {

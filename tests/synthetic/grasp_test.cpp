@@ -25,10 +25,14 @@ TEST_F(Grasp, ClosesUntilTheSkinTouchesAndNotThrough) {
   const GraspPlanner planner(hand);
   const auto ball = sphere_distance(0.033);
   HandAngles closed = fist();
+
+  // The open hand touches the ball with the palm only.
   const SE3 T = planner.place_at_palm({Eigen::Matrix3d::Identity(), {-0.01, -0.1, -0.09}}, -Eigen::Vector3d::UnitY(),
                                       ball, open_spread());
   const auto open_gap = planner.clearance(open_spread(), T, ball);
   EXPECT_NEAR(*std::min_element(open_gap.begin(), open_gap.end()), 0.0005, 1e-4);
+
+  // The closed hand touches it with its fingers and does not pass through.
   const auto gap = planner.clearance(planner.close(open_spread(), closed, T, ball), T, ball);
   for (int finger = 1; finger <= 3; ++finger) {
     double nearest = 1;
@@ -38,7 +42,7 @@ TEST_F(Grasp, ClosesUntilTheSkinTouchesAndNotThrough) {
   for (int s = 0; s < kSegmentCount; ++s) EXPECT_GT(gap[s], -0.002) << kSegmentNames[s];
 }
 
-/// Smallest distance between skin and thing over a whole sequence, and while it is held.
+/// Smallest distance between skin and thing: over a whole sequence, and while the thing is held.
 struct Contact {
   double ever = 1, held = 1;
 };
@@ -47,6 +51,8 @@ Contact contact(const HandRig& hand, const std::string& name, const SignedDistan
   const Skinner skinner(hand.mesh);
   std::vector<Eigen::Vector3f> skin;
   Contact result;
+
+  // The distance over time.
   for (double time = 0; time < (*sequence)->duration(); time += 0.1) {
     const SceneState state = (*sequence)->at(time);
     skinner.deform(pose_segments(hand.profile, state.hands.front().skeleton), skin);

@@ -6,8 +6,8 @@
 namespace barehand::synthetic {
 namespace {
 
-/// Taken on the same mesh by an independent measurement of cross sections [mm]: length, half width and half thickness
-/// at both ends.
+/// An independent measurement of cross-sections on the same mesh [mm]: length, and half width and half thickness at
+/// both ends.
 struct Measured {
   const char* segment;
   double length, width[2], thickness[2];
@@ -43,11 +43,13 @@ TEST_F(MeasuredProfile, EllipsesLieOnTheSkin) {
     const SegmentProfile& p = profile.segments[s];
     double sum = 0;
     int n = 0;
+    // Distance of the skin beside the bone from the ellipse there.
     for (std::size_t v = 0; v < right_.vertices.size(); ++v) {
       if (right_.segment_weight(v, s) < 0.9f) continue;
       const Eigen::Vector3d q = p.T_hand_segment.inverse() * right_.vertices[v].cast<double>();
       const double t = -q.z() / p.length;
       if (t < 0 || t > 1) continue;
+
       const auto at = [&](const std::array<double, 2>& ends) { return (1 - t) * ends[0] + t * ends[1]; };
       const Eigen::Vector2d d(q.x() - at(p.flesh_offset_x), q.y() - at(p.flesh_offset_y));
       const double rho = std::hypot(d.x() / at(p.half_width), d.y() / at(p.half_thickness));

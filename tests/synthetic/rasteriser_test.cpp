@@ -17,7 +17,7 @@ SceneGeometry ball_at(const Eigen::Vector3d& centre, double radius) {
   return scene;
 }
 
-/// z of the first hit of the pixel's ray with a ball; 0 = missed.
+/// z where the ray of a pixel first hits a ball; 0 if it misses.
 double analytic_depth(int u, int v, const Eigen::Vector3d& centre, double radius) {
   const Eigen::Vector3d ray = kCamera.unproject(u, v, 1);
   const double a = ray.squaredNorm(), b = ray.dot(centre), c = centre.squaredNorm() - radius * radius;
@@ -26,11 +26,14 @@ double analytic_depth(int u, int v, const Eigen::Vector3d& centre, double radius
 }
 
 TEST(Rasteriser, DepthOfABallIsAnalytic) {
+  // Render a ball.
   const Eigen::Vector3d centre(0.05, -0.03, 0.5);
   const double radius = 0.08;
   const SceneGeometry scene = ball_at(centre, radius);
   Rasteriser rasteriser(kCamera);
   rasteriser.draw(scene.vertices, scene.triangles, 0);
+
+  // Compare with the exact intersection.
   int hits = 0, disagreeing = 0;
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 0; u < kCamera.width; ++u) {
@@ -42,7 +45,8 @@ TEST(Rasteriser, DepthOfABallIsAnalytic) {
       }
       if (expected == 0) continue;
       ++hits;
-      // On the ball to within the sagitta of its facets, and where it faces the camera also at the right depth.
+      // The points are on the ball within the sagitta of its facets; where the ball faces the camera, the depth is
+      // right, too.
       EXPECT_NEAR((kCamera.unproject(u, v, 1 / inverse) - centre).norm(), radius, 9e-5) << u << " " << v;
       if (expected < centre.z() - 0.85 * radius) {
         EXPECT_NEAR(1 / inverse, expected, 1.2e-4) << u << " " << v;
@@ -68,6 +72,7 @@ TEST(Rasteriser, DepthOfATiltedPlaneIsExact) {
 }
 
 TEST(Rasteriser, TrianglesThatShareEdgesLeaveNoGapAndNoOverlap) {
+  // A grid of vertices with random positions.
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Triangle> triangles;
   KeyedRandom random(3, 1);
@@ -79,11 +84,15 @@ TEST(Rasteriser, TrianglesThatShareEdgesLeaveNoGapAndNoOverlap) {
       vertices.emplace_back(static_cast<float>(-0.2 + 0.05 * i + random.uniform(-s, s)),
                             static_cast<float>(-0.2 + 0.05 * j + random.uniform(-s, s)), 0.5f);
     }
+
+  // Two triangles per cell.
   for (std::uint32_t j = 0; j + 1 < n; ++j)
     for (std::uint32_t i = 0; i + 1 < n; ++i) {
       triangles.push_back({j * n + i, (j + 1) * n + i + 1, j * n + i + 1});
       triangles.push_back({j * n + i, (j + 1) * n + i, (j + 1) * n + i + 1});
     }
+
+  // Each pixel is covered exactly once.
   Image<int> count(kCamera.width, kCamera.height, 0);
   for (const Triangle& t : triangles) {
     Rasteriser single(kCamera);
@@ -119,8 +128,8 @@ TEST(CoveredPixels, CountEachClassAloneAndOutsideTheView) {
   const TriangleMesh ball = make_sphere(0.05);
   SceneGeometry scene;
   scene.add(ball, SE3{Eigen::Matrix3d::Identity(), {0, 0, 0.5}}, 0);
-  scene.add(ball, SE3{Eigen::Matrix3d::Identity(), {0, 0, 0.5}}, 1);     // the same place: hidden by the first
-  scene.add(ball, SE3{Eigen::Matrix3d::Identity(), {0.35, 0, 0.5}}, 2);  // outside, within the margin
+  scene.add(ball, SE3{Eigen::Matrix3d::Identity(), {0, 0, 0.5}}, 1);     // at the same place: hidden by the first ball
+  scene.add(ball, SE3{Eigen::Matrix3d::Identity(), {0.35, 0, 0.5}}, 2);  // outside the image but within the margin
   const auto covered = covered_pixels(kCamera, 60, scene.vertices, scene.triangles, scene.surface);
   EXPECT_EQ(covered[0], covered[1]);
   EXPECT_NEAR(covered[0], 550, 20);

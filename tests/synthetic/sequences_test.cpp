@@ -27,11 +27,14 @@ TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
   const Intrinsics& camera = sim.camera();
   std::vector<HandTruth> before;
   for (std::int64_t i = 0; i < sim.frame_count(); ++i) {
+    // No segment moves faster than a hand can.
     const SimulatedFrame frame = sim.render(i);
     for (std::size_t hand = 0; hand < before.size(); ++hand)
       for (int s = 0; s < kSegmentCount; ++s)
         EXPECT_LT((frame.hands[hand].pose[s].t - before[hand].pose[s].t).norm() * sim.fps(), 2.0) << "m/s, frame " << i;
     before = frame.hands;
+
+    // The hand stays in the image and within the sensor's range.
     if (GetParam() == "wave" || GetParam() == "returns" || GetParam() == "two_hands") continue;
     ASSERT_TRUE(frame.hands.front().table.has_value());
     for (const TableRow& row : frame.hands.front().table->rows)
@@ -66,7 +69,7 @@ TEST(Returns, LeavesTheViewTenTimes) {
   Simulator sim = simulator(small("returns"));
   int departures = 0;
   bool was_there = true;
-  for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames it leaves for good
+  for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames the hand leaves for good
     const bool there = sim.render(i).hands.front().table.has_value();
     departures += was_there && !there;
     was_there = there;

@@ -36,9 +36,13 @@ TEST(Simulator, TruthIsTheKinematicsOfItsProfile) {
     const SimulatedFrame frame = sim.render(30);
     const HandProfile& profile = sim.hands().front().profile();
     EXPECT_EQ(to_string(profile.handedness), hand);
+
+    // The angles of the pose describe a fist.
     std::array<JointAngles, kSegmentCount> angles{};
     for (int s = 1; s < kSegmentCount; ++s) angles[s] = joint_angles(profile, frame.hands.front().pose, s);
     EXPECT_GT(angles[segment_of(2, 0)].flexion, 0.8) << "a fist is flexed, also a left one";
+
+    // Forward kinematics with these angles gives the truth.
     const HandPose again = forward_kinematics(profile, frame.hands.front().pose[kPalm], angles);
     for (int s = 0; s < kSegmentCount; ++s) {
       EXPECT_LT((frame.hands.front().table->rows[s].proximal - again[s].t).norm(), 1e-6);
@@ -62,7 +66,7 @@ TEST(Simulator, LeftHandIsTheMirrorImageOfARightOne) {
 TEST(Simulator, IsDeterministicInSeedAndFrameNumber) {
   for (const char* noise : {"none", "kinect", "tof"}) {
     Simulator once = simulator(small("grasp_ball", noise)), again = simulator(small("grasp_ball", noise));
-    again.render(7);  // the order of frames does not matter
+    again.render(7);  // the order of the frames does not matter
     const auto a = once.render(60), b = again.render(60);
     EXPECT_EQ(depth_of(a), depth_of(b));
     EXPECT_TRUE(
@@ -79,6 +83,8 @@ TEST(Simulator, DepthLiesOnTheHandWhereItIsVisible) {
     const int s = segment_of(finger, 1);
     const TableRow& row = f.hands.front().table->rows[s];
     ASSERT_GT(row.visible, 0.95);
+
+    // The depth at the middle of a phalanx differs from that of the bone by half of its thickness.
     const Eigen::Vector3d middle = 0.5 * (row.proximal + row.distal);
     const Eigen::Vector2d pixel = sim.camera().project(middle);
     const double z = f.frame->depth_unit * f.frame->depth.at(static_cast<int>(std::lround(pixel.x())),

@@ -29,10 +29,13 @@ TEST_F(Skinning, MovesRigidlyWithTheWrist) {
 }
 
 TEST_F(Skinning, AFlexedFingerTakesItsTipAndLeavesTheOthers) {
+  // Bend the index finger.
   SkeletonPose pose;
   pose.angles[1].flexion = {1.0, 0, 0};
   const auto vertices = deformed(pose);
   const Skinner skinner(right_);
+
+  // Its tip moves, that of the ring finger does not.
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const float moved = (vertices[v] - right_.vertices[v]).norm();
     if (skinner.vertex_segments()[v] == segment_of(1, 2)) {

@@ -23,6 +23,8 @@ TEST(SyntheticSource, DeliversEveryFrameOnceWithItsTruth) {
   const auto source = open("fist,frames=4", clock);
   EXPECT_FALSE(source->live());
   EXPECT_EQ(source->remaining(), 4);
+
+  // Frames come in order, each with its truth.
   for (std::int64_t i = 0; i < 4; ++i) {
     const FramePtr frame = frame_of(source->next(milliseconds(0)));
     ASSERT_TRUE(frame);

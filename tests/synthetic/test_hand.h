@@ -8,7 +8,7 @@
 
 namespace barehand::synthetic {
 
-/// The fetched hand mesh; a test without it fails and says what to run.
+/// A test with the fetched hand mesh; without the mesh it fails and says what to run.
 class HandTest : public testing::Test {
  protected:
   void SetUp() override {

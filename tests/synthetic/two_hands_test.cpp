@@ -35,7 +35,7 @@ Simulator simulator(const SimulatorParams& params) {
 
 SimulatedFrame at(Simulator& sim, double time) { return sim.render(std::lround(time * sim.fps())); }
 
-/// How much of its segments a hand shows, on average.
+/// Mean visible fraction of a hand's segments.
 double shown(const HandTruth& hand) {
   double sum = 0;
   for (const TableRow& row : hand.table->rows) sum += row.visible;
@@ -47,7 +47,7 @@ bool is_fist(const HandTruth& hand) {
   return (rows[segment_of(2, 2)].distal - rows[kPalm].proximal).norm() < 0.1;
 }
 
-/// Smallest distance between two surfaces' vertices [m]; anything above 0.1 if they are that far apart.
+/// Smallest distance between the vertices of two surfaces [m]; above 0.1 it is not exact.
 float gap(const SceneGeometry& a, const SceneGeometry& b) {
   Eigen::AlignedBox3f box;
   for (const auto& v : b.vertices) box.extend(v);
@@ -64,7 +64,9 @@ TEST(TwoHands, AreARightAndALeftOne) {
   ASSERT_EQ(sim.hands().size(), 2u);
   EXPECT_EQ(sim.hands()[kRight].profile().handedness, Handedness::right);
   EXPECT_EQ(sim.hands()[kLeft].profile().handedness, Handedness::left);
-  const SimulatedFrame frame = at(sim, 9.5);  // both open
+
+  // The truth is the kinematics of each profile.
+  const SimulatedFrame frame = at(sim, 9.5);  // both hands are open
   for (int hand : {kRight, kLeft}) {
     const HandProfile& profile = sim.hands()[hand].profile();
     std::array<JointAngles, kSegmentCount> angles{};
@@ -73,7 +75,9 @@ TEST(TwoHands, AreARightAndALeftOne) {
     for (int s = 0; s < kSegmentCount; ++s)
       EXPECT_LT((frame.hands[hand].table->rows[s].distal - distal_end(profile, again, s)).norm(), 1e-6);
   }
-  // Palms to the camera, fingers up: the right hand's thumb is on its right in the picture, the left one's on its left.
+
+  // With palms to the camera and fingers up, the right hand's thumb is on the right in the image and the left hand's
+  // on the left.
   const auto thumb_side = [&](int hand) {
     const auto& rows = frame.hands[hand].table->rows;
     return rows[segment_of(0, 2)].distal.x() - rows[segment_of(4, 2)].distal.x();
@@ -97,7 +101,8 @@ TEST(TwoHands, ComeAndGoOneByOne) {
     }
 }
 
-/// What a crossing does to the hand behind: worst case and time with more than a tenth hidden.
+/// What happens to the hand behind during a crossing: the smallest visible fraction, and the time with more than a
+/// tenth hidden.
 struct Crossing {
   double least_shown = 1, seconds = 0;
 };
@@ -127,12 +132,15 @@ TEST(TwoHands, TheNearerOneIsInThePicture) {
   Simulator sim = simulator(two_hands());
   const SimulatedFrame f = at(sim, 4.13);
   int hidden = 0, seen = 0;
+
+  // The nearer hand is in the depth image wherever the other one is hidden.
   for (const TableRow& row : f.hands[kLeft].table->rows) {
     const Eigen::Vector3d middle = 0.5 * (row.proximal + row.distal);
     const Eigen::Vector2d pixel = sim.camera().project(middle);
     const double in_front =
         middle.z() - f.frame->depth_unit * f.frame->depth.at(static_cast<int>(std::lround(pixel.x())),
                                                              static_cast<int>(std::lround(pixel.y())));
+
     if (row.visible < 0.05) {
       ++hidden;
       EXPECT_THAT(in_front, AllOf(Gt(0.06), Lt(0.16)));
@@ -149,6 +157,8 @@ TEST(TwoHands, NeverTouch) {
   Simulator sim = simulator(two_hands());
   const auto sequence = make_sequence("two_hands", sim.hands().front().rig(), 1);
   ASSERT_TRUE(sequence.has_value());
+
+  // The gap over time; for a moment the fists are side by side.
   for (double time = 0; time < (*sequence)->duration(); time += 0.1) {
     const SceneState state = (*sequence)->at(time);
     const auto geometry = [&](int hand, const std::string& sleeve) {
@@ -173,7 +183,7 @@ TEST(TwoHands, AreDeterministicInSeedAndFrameNumber) {
   };
   for (const char* noise : {"kinect", "tof"}) {
     Simulator once = simulator(two_hands(noise)), again = simulator(two_hands(noise));
-    again.render(250);  // the order of frames does not matter
+    again.render(250);  // the order of the frames does not matter
     const auto a = once.render(124), b = again.render(124);
     EXPECT_EQ(depth(a), depth(b));
     Simulator other = simulator(two_hands(noise, 2));

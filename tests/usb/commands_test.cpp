@@ -1,4 +1,4 @@
-// The program as a user runs it, on a USB tree of umockdev's.
+// Runs the program like a user, with a USB tree simulated by umockdev.
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -27,7 +27,7 @@ TEST(UsbCommands, TrackingNoticesASensorThatIsPluggedIn) {
   ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "openni2", "--no-publish"});
   ASSERT_TRUE(track.wait_for("no sensor yet")) << track.output();
   usb.plug({.port = "1-2"});
-  // OpenNI2's own driver finds it and cannot talk to it, as the tree is only painted.
+  // OpenNI2's own driver finds the sensor and cannot talk to it, since the tree is only simulated.
   EXPECT_TRUE(track.wait_for("1d27/0601@1/4 cannot be opened")) << track.output();
   track.signal(SIGTERM);
   EXPECT_EQ(track.finish(), 0) << track.output();

@@ -1,4 +1,4 @@
-// The real libusb over a USB tree of umockdev's.
+// Tests the real libusb with a USB tree simulated by umockdev.
 #include "drivers/usb/libusb_bus.h"
 
 #include <gmock/gmock.h>
@@ -39,6 +39,7 @@ TEST_F(LibUsb, AnEmptyBusHasNoSensors) {
 }
 
 TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
+  // Three sensors among other devices.
   usb_.plug({.port = "1-2", .number = 4});
   usb_.plug({.port = "1-3", .number = 9, .vendor = 0x1d6b, .product = 2});  // a hub
   usb_.plug(
@@ -46,7 +47,11 @@ TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
   usb_.plug({.port = "1-4", .number = 6, .vendor = 0x046d, .product = 0xc077, .megabits = 12});
   usb_.plug({.port = "1-5", .number = 7, .vendor = 0x045e, .product = 0x02ae});
   usb_.plug({.port = "1-6", .number = 8, .vendor = 0x045e, .product = 0x0745});
-  usb_.plug({.port = "1-7", .number = 10, .vendor = 0x045e, .product = 0x02b0, .megabits = 12});  // a Kinect's motor
+
+  // The motor of a Kinect.
+  usb_.plug({.port = "1-7", .number = 10, .vendor = 0x045e, .product = 0x02b0, .megabits = 12});
+
+  // Only the sensors are listed.
   const auto sensors = bus_.sensors();
   ASSERT_TRUE(sensors);
   std::vector<std::string> texts;
@@ -55,6 +60,8 @@ TEST_F(LibUsb, TellsPortAndSpeedOfEverySensorAndNothingOfOtherDevices) {
     EXPECT_FALSE(sensor.obstacle) << sensor.obstacle->message();
     EXPECT_FALSE(sensor.held_back) << texts.back();
   }
+
+  // Their texts state port and speed.
   EXPECT_THAT(texts,
               ::testing::UnorderedElementsAre("PrimeSense or Asus Xtion 1d27:0601 at USB port 1-2, USB 2 (480 Mb/s)",
                                               "Orbbec 2bc5:0402 at USB port 1-3.1, USB 3 (5000 Mb/s)",
@@ -71,6 +78,7 @@ TEST_F(LibUsb, ASensorInASlowPortIsHeldBack) {
 }
 
 TEST_F(LibUsb, SaysThatThisUserMayNotOpenIt) {
+  // A sensor whose device file this user may not open.
   usb_.plug({.port = "1-2"});
   for (const char* place : {"", "/ioctl/_default"})  // umockdev's own sockets
     std::filesystem::permissions(usb_.root() + place, std::filesystem::perms::all);
@@ -78,6 +86,8 @@ TEST_F(LibUsb, SaysThatThisUserMayNotOpenIt) {
   chmod(file.c_str(), 0600);
   if (geteuid() != 0) chmod(file.c_str(), 0);
   const OrdinaryUser user;
+
+  // It is listed with the reason and the remedy.
   const auto sensors = bus_.sensors();
   ASSERT_TRUE(sensors) << sensors.error().message();
   ASSERT_EQ(sensors->size(), 1u);
@@ -120,7 +130,7 @@ TEST_F(LibUsb, TheWatchTellsOfEveryPlug) {
   EXPECT_TRUE(comes_true([&] { return changes == 3; }));
 }
 
-/// Counts the resets that reach the kernel's side of a device and answers them.
+/// Counts and answers the resets that reach the kernel's side of a device.
 class Resets {
  public:
   Resets(MockBus& bus, const char* device, int error)

@@ -9,8 +9,8 @@
 
 namespace barehand::test {
 
-/// A USB tree that umockdev makes: libusb and everything else in this process and its children see this one instead of
-/// the machine's. Needs libumockdev-preload.so.0 loaded first (umockdev-wrapper).
+/// A USB tree simulated by umockdev: libusb and everything else in this process and its children see it instead of the
+/// machine's bus. libumockdev-preload.so.0 must be loaded first (umockdev-wrapper).
 class MockBus {
  public:
   MockBus() : testbed_(umockdev_testbed_new()) {}
@@ -19,14 +19,15 @@ class MockBus {
   MockBus& operator=(const MockBus&) = delete;
 
   struct Device {
-    std::string port;  ///< "1-2"
+    std::string port;  ///< for example "1-2"
     int bus = 1, number = 4;
     std::uint16_t vendor = 0x1d27, product = 0x0601;
     int megabits = 480;
-    std::uint16_t usb_version = 0x0200;  ///< as the device says
+    std::uint16_t usb_version = 0x0200;  ///< as the device states it
   };
 
   void plug(const Device& device) {
+    // The device as umockdev's text format describes it.
     char text[1500];
     std::snprintf(
         text, sizeof(text),
@@ -37,6 +38,8 @@ class MockBus {
         path(device.port).c_str(), device.bus, device.number, device.bus, device.number, device.bus, device.number,
         device.bus, device.number, device.megabits, device.vendor, device.product, little(device.usb_version).c_str(),
         64, little(device.vendor).c_str(), little(device.product).c_str());
+
+    // Add it and announce it.
     GError* error = nullptr;
     if (!umockdev_testbed_add_from_string(testbed_, text, &error)) throw std::runtime_error(error->message);
     umockdev_testbed_uevent(testbed_, ("/sys" + path(device.port)).c_str(), "add");
@@ -46,7 +49,7 @@ class MockBus {
     umockdev_testbed_remove_device(testbed_, ("/sys" + path(port)).c_str());
   }
 
-  /// Where the tree's root ("/dev", "/sys") really is.
+  /// The real path of the tree's root ("/dev", "/sys").
   std::string root() const {
     char* root = umockdev_testbed_get_root_dir(testbed_);
     const std::string text = root;

@@ -11,9 +11,9 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kUnregisteredShift = 12;  // [px] between the cameras
-constexpr int kUnsyncedIndex = 3;       // cameras that count on their own
-/// The sensor's clock has its own zero.
+constexpr int kUnregisteredShift = 12;  // px, between the cameras
+constexpr int kUnsyncedIndex = 3;       // offset of the indices if the cameras count separately
+/// The sensor's clock has its own zero [us].
 constexpr std::int64_t kClockAtOpen = 5'000'000;
 
 }  // namespace
@@ -82,12 +82,15 @@ OniStatus Device::getProperty(int id, void* data, int* size) {
 void Device::expose_pictures(std::stop_token stop) {
   const auto opened = SteadyClock::now();
   auto due = opened;
+
+  // Wait until the next image is due.
   while (!stop.stop_requested()) {
     const auto now = settings_();
     const auto period = std::chrono::nanoseconds(std::llround(1e9 / now->fps));
     due += period;
+
     const auto late = SteadyClock::now() - due;
-    if (late > period) {  // what nobody had time to expose is left out, but numbered
+    if (late > period) {  // images that there was no time to expose are left out, but numbered
       const auto missed = late / period;
       due += missed * period;
       index_ += static_cast<int>(missed);
@@ -103,11 +106,14 @@ std::string Device::fault(const Settings& now) const {
 }
 
 void Device::expose(const Settings& now, std::int64_t since_open_us) {
+  // A sensor that was unplugged or stalls delivers nothing.
   const std::string trouble = fault(now);
   ++index_;
   unplugged_ |= !now.plugged;
   if (unplugged_ || trouble == "stall" || trouble == "hang") return;
   if (trouble != "frozen" || frozen_at_ < 0) frozen_at_ = index_;
+
+  // What is exposed now.
   Exposure exposure;
   exposure.picture = &pictures_.at(frozen_at_);
   exposure.device_us = static_cast<std::uint64_t>(
@@ -116,6 +122,8 @@ void Device::expose(const Settings& now, std::int64_t since_open_us) {
   exposure.index = index_;
   exposure.fault = trouble;
   exposure.colour_shift = registered_ ? 0 : kUnregisteredShift;
+
+  // Every stream delivers it; unsynchronised cameras count separately.
   const std::lock_guard lock(streams_mutex_);
   for (const auto& stream : streams_) {
     const bool depth = stream->sensor() == ONI_SENSOR_DEPTH;

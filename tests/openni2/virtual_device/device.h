@@ -12,7 +12,7 @@
 
 namespace barehand::virtual_openni {
 
-/// An opened virtual sensor: a thread exposes pictures at the sensor's rate and hands them to its streams.
+/// An open virtual sensor: a thread exposes images at the sensor's rate and passes them to its streams.
 class Device : public oni::driver::DeviceBase {
  public:
   using CurrentSettings = std::function<std::shared_ptr<const Settings>()>;
@@ -42,10 +42,12 @@ class Device : public oni::driver::DeviceBase {
   std::mutex streams_mutex_;
   std::vector<std::unique_ptr<Stream>> streams_;
   std::atomic<bool> registered_ = false;
-  bool unplugged_ = false;  // for good: a re-plugged sensor is another device; of the exposing thread, as is the next
+  // Permanent, as a sensor that is plugged in again is another device; like the next members, used by the exposing
+  // thread only.
+  bool unplugged_ = false;
   int index_ = 0;
   std::int64_t frozen_at_ = -1;
-  std::jthread exposing_;  // last: it uses everything above
+  std::jthread exposing_;  // last, as it uses everything above
 };
 
 }  // namespace barehand::virtual_openni

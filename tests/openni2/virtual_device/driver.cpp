@@ -1,5 +1,5 @@
-// A plug-in that OpenNI2 loads like the driver of a real sensor: simulated hands before a virtual depth camera, with
-// every fault that its control file asks for.
+// A plug-in that OpenNI2 loads like the driver of a real sensor. It simulates hands in front of a depth camera, with
+// all faults that its control file requests.
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -28,11 +28,14 @@ class Driver : public oni::driver::DriverBase {
   }
 
   oni::driver::DeviceBase* deviceOpen(const char*, const char*) override {
+    // A device that is unplugged or busy cannot be opened.
     const auto now = settings();
     if (!now->plugged || now->fault == "open") {
       getServices().errorLoggerAppend("virtual device: %s", now->plugged ? "busy" : "unplugged");
       return nullptr;
     }
+
+    // Render the images once for each scene.
     const std::lock_guard lock(pictures_mutex_);
     const std::string key = now->sim + "/" + std::to_string(now->frames);
     if (!pictures_.contains(key)) {
@@ -43,6 +46,7 @@ class Driver : public oni::driver::DriverBase {
       }
       pictures_[key] = std::move(*rendered);
     }
+
     return new Device(pictures_[key], [this] { return settings(); });
   }
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
@@ -65,6 +69,7 @@ class Driver : public oni::driver::DriverBase {
   }
 
   void follow_settings() {
+    // Read the control file.
     auto now = read_settings();
     std::vector<std::string> wanted;
     if (now->plugged) wanted.push_back(now->uri);
@@ -73,7 +78,8 @@ class Driver : public oni::driver::DriverBase {
       const std::lock_guard lock(settings_mutex_);
       settings_ = std::move(now);
     }
-    // No lock is held while OpenNI2 tells its listeners, who may open a device from there.
+
+    // No lock is held while OpenNI2 calls its listeners, because they may open a device.
     for (const std::string& uri : std::vector(present_))
       if (std::ranges::find(wanted, uri) == wanted.end()) unplug(uri);
     for (const std::string& uri : wanted)
@@ -100,10 +106,10 @@ class Driver : public oni::driver::DriverBase {
 
   mutable std::mutex settings_mutex_;
   std::shared_ptr<const Settings> settings_;
-  std::vector<std::string> present_;  // first of initialize(), then of the watching thread
+  std::vector<std::string> present_;  // used first by initialize(), then by the watching thread
   std::mutex pictures_mutex_;
   std::map<std::string, Pictures> pictures_;
-  std::jthread watching_;  // last: it uses everything above
+  std::jthread watching_;  // last, as it uses everything above
 };
 
 }  // namespace barehand::virtual_openni

@@ -18,6 +18,7 @@ bool yes(const std::string& text) {
 using Setter = std::function<void(Settings&, const std::string&)>;
 
 std::map<std::string, Setter> setters() {
+  // How a value of each type is set.
   const auto text = [](auto member) -> Setter { return [=](Settings& s, const std::string& v) { s.*member = v; }; };
   const auto flag = [](auto member) -> Setter {
     return [=](Settings& s, const std::string& v) { s.*member = yes(v); };
@@ -25,6 +26,8 @@ std::map<std::string, Setter> setters() {
   const auto real = [](auto member) -> Setter {
     return [=](Settings& s, const std::string& v) { s.*member = std::stod(v); };
   };
+
+  // What each key sets.
   return {{"sim", text(&Settings::sim)},
           {"frames", [](Settings& s, const std::string& v) { s.frames = std::stoi(v); }},
           {"colour", flag(&Settings::colour)},
@@ -46,7 +49,7 @@ std::map<std::string, Setter> setters() {
 }
 
 void set(Settings& settings, const std::string& line) {
-  // Never destroyed: the driver's thread may outlive the end of main.
+  // Never destroyed, since the driver's thread may outlive the end of main.
   static const auto& known = *new std::map<std::string, Setter>(setters());
   const auto equals = line.find('=');
   const auto setter = known.find(line.substr(0, equals));

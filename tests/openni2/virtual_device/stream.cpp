@@ -31,7 +31,7 @@ Stream::Stream(OniSensorType sensor, const Intrinsics& camera, const Settings& s
       field_of_view_(settings.field_of_view),
       mirror_fixed_(settings.mirror_fixed),
       mode_(best_mode(sensor, camera, settings.fps)) {
-  if (sensor == ONI_SENSOR_DEPTH) mode_.pixelFormat = ONI_PIXEL_FORMAT_DEPTH_1_MM;  // as a PrimeSense starts
+  if (sensor == ONI_SENSOR_DEPTH) mode_.pixelFormat = ONI_PIXEL_FORMAT_DEPTH_1_MM;  // like a PrimeSense after its start
 }
 
 OniVideoMode Stream::best_mode(OniSensorType sensor, const Intrinsics& camera, double fps) {
@@ -110,6 +110,8 @@ void Stream::deliver(const Exposure& exposure) {
   OniFrame* frame = getServices().acquireFrame();
   if (!frame) return;
   const int pixel_bytes = sensor_ == ONI_SENSOR_DEPTH ? 2 : 3;
+
+  // Describe the frame.
   frame->sensorType = sensor_;
   frame->timestamp = exposure.device_us;
   frame->frameIndex = exposure.index;
@@ -120,17 +122,22 @@ void Stream::deliver(const Exposure& exposure) {
   frame->croppingEnabled = FALSE;
   frame->cropOriginX = frame->cropOriginY = 0;
   frame->dataSize = frame->stride * frame->height;
+
+  // Fill in the pixels.
   if (sensor_ == ONI_SENSOR_DEPTH) {
     paint_depth(exposure, static_cast<std::uint16_t*>(frame->data));
   } else {
     paint_colour(exposure, static_cast<std::uint8_t*>(frame->data));
   }
+
+  // Deliver it.
   if (exposure.fault == "short") frame->dataSize /= 2;
   raiseNewFrame(frame);
   getServices().releaseFrame(frame);
 }
 
 void Stream::paint_depth(const Exposure& exposure, std::uint16_t* out) const {
+  // The faults.
   const Image<std::uint16_t>& depth = exposure.picture->depth;
   if (exposure.fault == "black") {
     std::fill_n(out, depth.size(), std::uint16_t{0});
@@ -138,10 +145,12 @@ void Stream::paint_depth(const Exposure& exposure, std::uint16_t* out) const {
     std::minstd_rand noise(static_cast<unsigned>(exposure.index) + 1);
     for (std::size_t i = 0; i < depth.size(); ++i) out[i] = static_cast<std::uint16_t>(noise() >> 8);
   } else {
+    // Depth in the unit of the mode.
     const int per_count = mode_.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 1 : 10;
     for (std::size_t i = 0; i < depth.size(); ++i)
       out[i] = static_cast<std::uint16_t>((std::min<int>(depth[i], 65534) + per_count / 2) / per_count);
   }
+
   if (mirrored_)
     for (int v = 0; v < depth.height(); ++v)
       std::reverse(out + depth.index(0, v), out + depth.index(0, v) + depth.width());

@@ -8,16 +8,16 @@
 
 namespace barehand::virtual_openni {
 
-/// One exposure, as a stream delivers it.
+/// One exposure as a stream delivers it.
 struct Exposure {
   const RgbdFrame* picture = nullptr;
-  std::uint64_t device_us = 0;  ///< by the sensor's clock
+  std::uint64_t device_us = 0;  ///< by the sensor's clock [us]
   int index = 0;
   std::string fault;
-  int colour_shift = 0;  ///< [px] to the right: colour that is not registered to depth
+  int colour_shift = 0;  ///< px to the right, for colour that is not registered to depth
 };
 
-/// Depth or colour of the virtual sensor.
+/// The depth or the colour stream of the virtual sensor.
 class Stream : public oni::driver::StreamBase {
  public:
   Stream(OniSensorType sensor, const Intrinsics& camera, const Settings& settings);
@@ -42,9 +42,10 @@ class Stream : public oni::driver::StreamBase {
   const Intrinsics camera_;
   const double fps_;
   const bool field_of_view_, mirror_fixed_;
-  mutable std::mutex mutex_;  // of what follows; also held while a frame is handed over, so that stop() waits for it
+  // Protects the members below; also held while a frame is delivered, so that stop() waits for it.
+  mutable std::mutex mutex_;
   OniVideoMode mode_;
-  bool mirrored_ = true;  // as a PrimeSense starts
+  bool mirrored_ = true;  // like a PrimeSense after its start
   bool running_ = false, refuse_start_ = false;
 };
 
