@@ -11,8 +11,13 @@ namespace {
 std::vector<Eigen::Vector3d> hard_rotations() {
   using Eigen::Vector3d;
   const double pi = std::numbers::pi;
-  return {Vector3d::Zero(), {1e-12, 0, 0}, {1e-7, -1e-7, 1e-8}, {0.3, -0.2, 0.7}, {pi - 1e-7, 0, 0},
-          {0, pi * 0.99999, 0}, Vector3d(1, 1, 1).normalized() * 3.0};
+  return {Vector3d::Zero(),
+          {1e-12, 0, 0},
+          {1e-7, -1e-7, 1e-8},
+          {0.3, -0.2, 0.7},
+          {pi - 1e-7, 0, 0},
+          {0, pi * 0.99999, 0},
+          Vector3d(1, 1, 1).normalized() * 3.0};
 }
 
 TEST(SE3, LogInvertsExp) {

@@ -30,7 +30,7 @@ TEST(WatchedDevice, IsKeptWhileItIsFaster) {
 }
 
 TEST(WatchedDevice, FailsWhereItIsSlowerForLong) {
-  EXPECT_EQ(good_calls({35'000}), 14);    // 33.4 ms lost in each call
+  EXPECT_EQ(good_calls({35'000}), 14);         // 33.4 ms lost in each call
   EXPECT_NEAR(good_calls({1'700}), 5'000, 2);  // 0.1 ms
 }
 
