@@ -27,10 +27,12 @@ const std::vector<std::size_t>& DistinctChoice::best(const std::vector<SE3>& pos
     return log_belief[a] > log_belief[b] || (log_belief[a] == log_belief[b] && a < b);
   });
 
-  // Take samples that are far enough from all earlier ones.
+  // Take the best samples.
   chosen_.clear();
   for (const std::size_t i : order_) {
     if (static_cast<int>(chosen_.size()) == count) break;
+
+    // The sample must be distinct from all that were chosen before.
     const bool distinct = std::all_of(chosen_.begin(), chosen_.end(), [&](std::size_t k) {
       return box_distance(poses[k], poses[i], half_width) >= separation;
     });
