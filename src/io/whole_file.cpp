@@ -118,6 +118,11 @@ Result<void> WholeFile::finish() {
   return {};
 }
 
+std::string WholeFile::keep() {
+  if (lock_ >= 0) close(std::exchange(lock_, -1));
+  return std::exchange(draft_, {});
+}
+
 void WholeFile::discard() {
   if (!direct_ && !draft_.empty()) (void)unlink(draft_.c_str());
   draft_.clear();

@@ -28,6 +28,8 @@ class WholeFile {
   /// After everything is handed to the operating system: the file is on the disk and has its name when this returns. An
   /// error leaves the draft where it is and names it.
   Result<void> finish();
+  /// Leaves the draft where it is, with what it holds; nothing remains to be finished. Returns its path.
+  std::string keep();
   /// Removes the draft; nothing remains to be finished.
   void discard();
 
