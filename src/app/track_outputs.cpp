@@ -1,5 +1,7 @@
 #include "app/track_outputs.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "io/path_of_hand.h"
@@ -25,9 +27,11 @@ Output of_network(const std::string& url) {
   return {"--lcm-url", writes ? url.substr(file.size(), url.find('?') - file.size()) : ""};
 }
 
+/// A video, whose name ends like one, is a file.
 Kind kind_of_overlay(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".mp4" || ending == ".avi" ? Kind::file : Kind::pictures;
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".mp4" || ending == ".avi" || ending == ".mkv" || ending == ".webm" ? Kind::file : Kind::pictures;
 }
 
 std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profiles& hands) {
@@ -41,7 +45,8 @@ std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profil
 }
 
 std::string numbered(const std::string& path, int number) {
-  const std::filesystem::path whole(path);
+  std::filesystem::path whole(path);
+  if (!whole.has_filename()) whole = whole.parent_path();  // "folder/"
   return whole.parent_path() / (whole.stem().string() + "-" + std::to_string(number) + whole.extension().string());
 }
 
