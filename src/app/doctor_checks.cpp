@@ -12,6 +12,8 @@
 #include "drivers/usb/libusb_bus.h"
 #include "io/hand_json.h"
 #include "io/lcm_bus.h"
+#include "observe/egl/egl_observer.h"
+#include "stages/segment_tracker/cpu_observer.h"
 
 namespace barehand {
 namespace {
@@ -129,12 +131,13 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
 
 Finding check_graphics(const std::string& egl_library) {
   const std::string subject = "graphics";
-  const auto device = find_graphics_device(DeviceChoice::any, egl_library);
-  if (!device)
-    return {Level::note, subject, device.error().message() + "; the CPU compares samples",
+  const auto observer = EglObserver::open(distance_cap({}), DeviceChoice::any, egl_library);
+  if (!observer)
+    return {Level::note, subject, observer.error().message() + "; the CPU compares samples",
             "only with a GPU: install its driver and libegl1"};
-  const std::string name = device->renderer + ", " + device->version;
-  if (device->software) return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU", ""};
+  const GraphicsDevice& device = (*observer)->device();
+  const std::string name = device.renderer + ", " + device.version;
+  if (device.software) return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU", ""};
   return {Level::ok, subject, name + ": a GPU, which observer: auto takes", ""};
 }
 

@@ -29,7 +29,9 @@ constexpr int kSuspected = 3;  // searches in a row that must find the profile's
 ProfileCheck::ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
                            Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params), profile_(profile), seed_(seed), workers_(workers), log_(std::move(log)) {
-  params_.shape_fit.scans = 0;  // of what is only tried
+  // Of what is only tried: neither a skin nor a GPU is worth its start.
+  params_.shape_fit.scans = 0;
+  params_.segment_tracker.observer = "cpu";
 }
 
 HandTracker ProfileCheck::tracker_of(const HandProfile& profile) const {

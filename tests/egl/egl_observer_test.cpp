@@ -2,57 +2,22 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <limits>
 #include <thread>
 
-#include "stages/segment_tracker/cpu_observer.h"
+#include "tests/egl/agreement.h"
 #include "tests/egl/random_batch.h"
 
 namespace barehand {
 namespace {
 
-constexpr float kCap = 0.008f, kUncapped = std::numeric_limits<float>::infinity();
+constexpr float kUncapped = std::numeric_limits<float>::infinity();
 
 std::unique_ptr<EglObserver> open(float cap = kCap) {
   auto observer = EglObserver::open(cap, DeviceChoice::any);
   if (!observer) throw std::runtime_error(observer.error().message());
   return std::move(*observer);
 }
-
-PatchDistances by_egl(EglObserver& observer, const SampleBatch& batch) {
-  PatchDistances distances;
-  const auto done = observer.compare(batch, distances);
-  EXPECT_TRUE(done) << done.error().message();
-  return distances;
-}
-
-PatchDistances by_cpu(const RandomBatch& world, float cap = kCap, int first_segment = 0) {
-  Workers workers(1);
-  PatchDistances distances;
-  CpuObserver(cap, workers).compare(world.batch(1, first_segment), distances);
-  return distances;
-}
-
-/// The tolerance between observers: mean distances within 0.1 um and weights within 1e-5 of the sample's whole, save
-/// for samples with a point so near to a pixel's edge or the silhouette that single precision decides its side.
-bool agree(const PatchDistance& a, const PatchDistance& b) {
-  const double weight = 1e-5 * std::max(a.total, b.total);
-  return std::abs(a.mean() - b.mean()) <= 1e-7 && std::abs(a.counted - b.counted) <= weight &&
-         std::abs(a.total - b.total) <= weight;
-}
-
-/// Share of the samples that differ.
-double disagreement(const PatchDistances& a, const PatchDistances& b) {
-  int samples = 0, different = 0;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    if (a[s].size() != b[s].size()) return 1;
-    for (std::size_t i = 0; i < a[s].size(); ++i) different += !agree(a[s][i], b[s][i]);
-    samples += static_cast<int>(a[s].size());
-  }
-  return static_cast<double>(different) / samples;
-}
-constexpr double kNearAnEdge = 0.002;  // share of samples
 
 TEST(EglObserver, AgreesWithTheCpu) {
   for (const auto& [cap, skin_points] : {std::pair{kCap, 83}, {kUncapped, 83}, {kCap, 3}, {kCap, 256}}) {
@@ -110,6 +75,13 @@ TEST(EglObserver, WithoutEglThereIsNone) {
   const auto observer = EglObserver::open(kCap, DeviceChoice::any, "libnone.so.1");
   ASSERT_FALSE(observer);
   EXPECT_THAT(observer.error().message(), ::testing::HasSubstr("libnone.so.1"));
+  EXPECT_THAT(observer.error().remedy, ::testing::HasSubstr("libegl1"));
+}
+
+TEST(EglObserver, SaysWhatItRunsOn) {
+  const auto observer = open();
+  EXPECT_FALSE(observer->device().renderer.empty());
+  EXPECT_THAT(observer->device().version, ::testing::HasSubstr("OpenGL ES 3"));
 }
 
 }  // namespace

@@ -1,20 +1,21 @@
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <sstream>
 
-#include "observe/egl/egl_functions.h"
 #include "observe/egl/egl_observer.h"
 #include "observe/fallback_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 #include "stages/segment_tracker/make_observer.h"
 #include "support/text_logger.h"
+#include "tests/egl/agreement.h"
+#include "tests/egl/faulty_driver.h"
 #include "tests/egl/random_batch.h"
 
 namespace barehand {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr float kCap = 0.008f;
 
 /// The lines logged so far.
 struct Log {
@@ -35,14 +36,6 @@ bool same(const PatchDistances& a, const PatchDistances& b) {
         }))
       return false;
   return true;
-}
-
-/// Every graphics device drops out of this process, as far as EGL is concerned.
-void take_displays_away() {
-  const auto egl = load_egl(kEglLibrary);
-  ASSERT_TRUE(egl);
-  const auto terminate = reinterpret_cast<PFNEGLTERMINATEPROC>(egl->GetProcAddress("eglTerminate"));
-  for (EGLDisplay display : find_displays(*egl, true)) ASSERT_TRUE(terminate(display));
 }
 
 class LostDevice : public ::testing::Test {
@@ -85,16 +78,76 @@ TEST_F(LostDevice, ItsBatchAndAllLaterOnesGoToTheOtherObserver) {
   EXPECT_THAT(log_.text.str(), HasSubstr("device: gone"));
 }
 
-TEST_F(LostDevice, ContextThatIsLostInMidStream) {
-  SegmentTrackerParams params;
-  params.observer = "egl";
-  params.pixel_distance_cap = kCap;
-  const auto observer = make_observer(params, workers_, log_.logger);
-  compared(*observer);
-  EXPECT_EQ(log_.warnings(), 0) << log_.text.str();
-  take_displays_away();
-  EXPECT_TRUE(same(compared(*observer), by_cpu()));
+/// Tracks with a real driver until something happens to it.
+class LostDriver : public LostDevice {
+ protected:
+  /// The second of three batches is the first that meets `trouble`.
+  void expect_fallback(const std::function<void()>& trouble, const std::string& reason) {
+    auto device = EglObserver::open(kCap, DeviceChoice::any, FaultyDriver::load, {});
+    ASSERT_TRUE(device) << device.error().message();
+    FallbackObserver observer(std::move(*device), std::make_unique<CpuObserver>(kCap, workers_), log_.logger);
+    EXPECT_LE(disagreement(compared(observer), by_cpu()), kNearAnEdge);
+    EXPECT_EQ(driver_.dispatched, 1);
+    EXPECT_EQ(log_.warnings(), 0) << log_.text.str();
+    trouble();
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(same(compared(observer), by_cpu()));
+    EXPECT_EQ(log_.warnings(), 1) << log_.text.str();
+    EXPECT_THAT(log_.text.str(), HasSubstr(reason));
+  }
+  FaultyDriver driver_;
+};
+
+TEST_F(LostDriver, ContextThatIsLost) {
+  expect_fallback([&] { driver_.reset = GL_GUILTY_CONTEXT_RESET; }, "context was lost");
+  EXPECT_EQ(driver_.threads_released, 1) << "the thread of a lost context ends";
+}
+
+TEST_F(LostDriver, ContextThatIsLostWithoutAResetStatus) {
+  expect_fallback([&] { driver_.error = GL_CONTEXT_LOST; }, "context was lost");
+}
+
+TEST_F(LostDriver, ErrorOfTheDriver) {
+  expect_fallback([&] { driver_.error = GL_OUT_OF_MEMORY; }, "error 0x0505");
+  EXPECT_EQ(driver_.threads_released, 1);
+}
+
+TEST_F(LostDriver, FenceThatHangs) {
+  expect_fallback([&] { driver_.fences_hang = true; }, "has not finished within 2.0 s");
+  EXPECT_EQ(driver_.threads_released, 1);
+}
+
+TEST_F(LostDriver, CallThatDoesNotReturnIsAbandonedAndItsThreadEndsLater) {
+  DeviceLimits limits;
+  limits.call = std::chrono::milliseconds(1000);
+  limits.close = std::chrono::milliseconds(1);
+  driver_.dispatch_blocks = true;
+  auto device = EglObserver::open(kCap, DeviceChoice::any, FaultyDriver::load, limits);
+  ASSERT_TRUE(device) << device.error().message();
+  auto observer = std::make_unique<FallbackObserver>(std::move(*device), std::make_unique<CpuObserver>(kCap, workers_),
+                                                     log_.logger);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(same(compared(*observer), by_cpu()));
   EXPECT_EQ(log_.warnings(), 1) << log_.text.str();
+  EXPECT_THAT(log_.text.str(), HasSubstr("has not returned from a call within 1.0 s"));
+  observer.reset();
+  EXPECT_EQ(driver_.threads_released, 0) << "the driver still has it";
+
+  // Everything that the call works on is still there when it goes on.
+  driver_.let_go();
+  driver_.wait_for_thread_release();
+  EXPECT_EQ(driver_.dispatched, 1);
+  EXPECT_EQ(driver_.released, 1);
+}
+
+TEST_F(LostDriver, BuffersThatCannotBeMapped) {
+  driver_.mapping_fails = true;
+  const auto device = EglObserver::open(kCap, DeviceChoice::any, FaultyDriver::load, {});
+  ASSERT_TRUE(device);
+  PatchDistances distances;
+  for (int i = 0; i < 2; ++i) {  // the reason stays
+    const auto done = (*device)->compare(world_.batch(), distances);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message(), HasSubstr("a buffer cannot be mapped"));
+  }
 }
 
 TEST_F(LostDevice, AutoNeverTakesSoftware) {
@@ -102,7 +155,7 @@ TEST_F(LostDevice, AutoNeverTakesSoftware) {
   ASSERT_EQ(params.observer, "auto");
   params.pixel_distance_cap = kCap;
   const auto observer = make_observer(params, workers_, log_.logger);
-  const bool gpu = find_graphics_device(DeviceChoice::hardware).has_value();
+  const bool gpu = EglObserver::open(kCap, DeviceChoice::hardware).has_value();
   EXPECT_EQ(dynamic_cast<CpuObserver*>(observer.get()) == nullptr, gpu);
   EXPECT_EQ(log_.text.str().empty(), !gpu);
 }

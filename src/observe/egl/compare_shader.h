@@ -14,6 +14,8 @@ enum ShaderBuffer {
   kShaderBufferCount
 };
 
+inline constexpr int kFloatsPerPoint = 8, kFloatsPerPose = 12, kFloatsPerResult = 3;
+
 /// Where its uniforms are.
 enum ShaderUniform {
   kCameraUniform,        ///< vec4: fx, fy, cx, cy of the map [pixel]

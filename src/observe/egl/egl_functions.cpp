@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace barehand {
@@ -60,12 +61,16 @@ std::vector<EGLDisplay> find_displays(const Egl& egl, bool with_software) {
   egl.QueryDevicesEXT(0, nullptr, &count);
   std::vector<EGLDeviceEXT> devices(count);
   egl.QueryDevicesEXT(count, devices.data(), &count);
+  devices.resize(count);
+
+  // Hardware first, so that the first display that works is the right one.
+  const auto hardware_end = std::stable_partition(devices.begin(), devices.end(), [&](EGLDeviceEXT device) {
+    return !has_extension(egl.QueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+  });
+  if (!with_software) devices.erase(hardware_end, devices.end());
   std::vector<EGLDisplay> displays;
-  for (EGLDeviceEXT device : devices) {
-    const char* extensions = egl.QueryDeviceStringEXT(device, EGL_EXTENSIONS);
-    if (!with_software && has_extension(extensions, "EGL_MESA_device_software")) continue;
+  for (EGLDeviceEXT device : devices)
     displays.push_back(egl.GetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
-  }
   return displays;
 }
 

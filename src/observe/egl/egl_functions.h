@@ -34,8 +34,8 @@ Result<Egl> load_egl(const std::string& library);
 /// Whether a blank-separated list of extensions (may be null) has this one.
 bool has_extension(const char* list, const std::string& name);
 
-/// One display per device, software devices only if asked for; the default display (EGL_PLATFORM decides what that is)
-/// where devices cannot be listed.
+/// One display per device, hardware first, software devices only if asked for; the default display (EGL_PLATFORM
+/// decides what that is) where devices cannot be listed.
 std::vector<EGLDisplay> find_displays(const Egl& egl, bool with_software);
 
 }  // namespace barehand

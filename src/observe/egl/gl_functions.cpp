@@ -19,6 +19,8 @@ Result<Gl> load_gl(const Egl& egl) {
     const std::string name = std::string("glGetGraphicsResetStatus") + suffix;
     gl.GetGraphicsResetStatus = reinterpret_cast<PFNGLGETGRAPHICSRESETSTATUSPROC>(egl.GetProcAddress(name.c_str()));
   }
+  if (has_extension(extensions, "GL_EXT_buffer_storage"))
+    gl.BufferStorageEXT = reinterpret_cast<PFNGLBUFFERSTORAGEEXTPROC>(egl.GetProcAddress("glBufferStorageEXT"));
   return gl;
 }
 

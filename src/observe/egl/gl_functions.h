@@ -2,32 +2,58 @@
 
 #include <GLES3/gl32.h>
 
+#include <GLES2/gl2ext.h>  // needs the types of the other one
+
 #include "core/error.h"
 #include "observe/egl/egl_functions.h"
 
 namespace barehand {
 
-// What compute shaders and their buffers need of OpenGL ES 3.1.
-#define BAREHAND_GL_FUNCTIONS(f)                                                                                       \
-  f(PFNGLATTACHSHADERPROC, AttachShader) f(PFNGLBINDBUFFERPROC, BindBuffer) f(PFNGLBINDBUFFERBASEPROC, BindBufferBase) \
-      f(PFNGLBUFFERDATAPROC, BufferData) f(PFNGLCOMPILESHADERPROC, CompileShader)                                      \
-          f(PFNGLCREATEPROGRAMPROC, CreateProgram) f(PFNGLCREATESHADERPROC, CreateShader)                              \
-              f(PFNGLDELETESHADERPROC, DeleteShader) f(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute) f(                   \
-                  PFNGLGENBUFFERSPROC, GenBuffers) f(PFNGLGETERRORPROC, GetError) f(PFNGLGETINTEGERVPROC, GetIntegerv) \
-                  f(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog) f(PFNGLGETPROGRAMIVPROC, GetProgramiv)              \
-                      f(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog) f(PFNGLGETSHADERIVPROC, GetShaderiv)              \
-                          f(PFNGLGETSTRINGPROC, GetString) f(PFNGLLINKPROGRAMPROC, LinkProgram)                        \
-                              f(PFNGLMAPBUFFERRANGEPROC, MapBufferRange) f(PFNGLMEMORYBARRIERPROC, MemoryBarrier)      \
-                                  f(PFNGLSHADERSOURCEPROC, ShaderSource) f(PFNGLUNIFORM1FPROC, Uniform1f)              \
-                                      f(PFNGLUNIFORM1IPROC, Uniform1i) f(PFNGLUNIFORM2IPROC, Uniform2i)                \
-                                          f(PFNGLUNIFORM2IVPROC, Uniform2iv) f(PFNGLUNIFORM4FPROC, Uniform4f)          \
-                                              f(PFNGLUNMAPBUFFERPROC, UnmapBuffer) f(PFNGLUSEPROGRAMPROC, UseProgram)
+// What compute shaders, their buffers and fences need of OpenGL ES 3.1.
+// clang-format off
+#define BAREHAND_GL_FUNCTIONS(f) \
+  f(PFNGLATTACHSHADERPROC, AttachShader) \
+  f(PFNGLBINDBUFFERPROC, BindBuffer) \
+  f(PFNGLBINDBUFFERBASEPROC, BindBufferBase) \
+  f(PFNGLBUFFERDATAPROC, BufferData) \
+  f(PFNGLBUFFERSUBDATAPROC, BufferSubData) \
+  f(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync) \
+  f(PFNGLCOMPILESHADERPROC, CompileShader) \
+  f(PFNGLCOPYBUFFERSUBDATAPROC, CopyBufferSubData) \
+  f(PFNGLCREATEPROGRAMPROC, CreateProgram) \
+  f(PFNGLCREATESHADERPROC, CreateShader) \
+  f(PFNGLDELETEBUFFERSPROC, DeleteBuffers) \
+  f(PFNGLDELETESHADERPROC, DeleteShader) \
+  f(PFNGLDELETESYNCPROC, DeleteSync) \
+  f(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute) \
+  f(PFNGLFENCESYNCPROC, FenceSync) \
+  f(PFNGLGENBUFFERSPROC, GenBuffers) \
+  f(PFNGLGETERRORPROC, GetError) \
+  f(PFNGLGETINTEGERVPROC, GetIntegerv) \
+  f(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog) \
+  f(PFNGLGETPROGRAMIVPROC, GetProgramiv) \
+  f(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog) \
+  f(PFNGLGETSHADERIVPROC, GetShaderiv) \
+  f(PFNGLGETSTRINGPROC, GetString) \
+  f(PFNGLLINKPROGRAMPROC, LinkProgram) \
+  f(PFNGLMAPBUFFERRANGEPROC, MapBufferRange) \
+  f(PFNGLMEMORYBARRIERPROC, MemoryBarrier) \
+  f(PFNGLSHADERSOURCEPROC, ShaderSource) \
+  f(PFNGLUNIFORM1FPROC, Uniform1f) \
+  f(PFNGLUNIFORM1IPROC, Uniform1i) \
+  f(PFNGLUNIFORM2IPROC, Uniform2i) \
+  f(PFNGLUNIFORM2IVPROC, Uniform2iv) \
+  f(PFNGLUNIFORM4FPROC, Uniform4f) \
+  f(PFNGLUNMAPBUFFERPROC, UnmapBuffer) \
+  f(PFNGLUSEPROGRAMPROC, UseProgram)
+// clang-format on
 
 /// Functions of OpenGL ES; to be called where a context is current.
 struct Gl {
 #define BAREHAND_GL_MEMBER(type, name) type name = nullptr;
   BAREHAND_GL_FUNCTIONS(BAREHAND_GL_MEMBER)
 #undef BAREHAND_GL_MEMBER
+  PFNGLBUFFERSTORAGEEXTPROC BufferStorageEXT = nullptr;              ///< null: buffers cannot stay mapped
   PFNGLGETGRAPHICSRESETSTATUSPROC GetGraphicsResetStatus = nullptr;  ///< null: the driver does not tell
 };
 

@@ -4,8 +4,6 @@
 #include <array>
 #include <cctype>
 
-#include "observe/egl/headless_context.h"
-
 namespace barehand {
 
 bool is_software_renderer(std::string_view renderer) {
@@ -14,10 +12,6 @@ bool is_software_renderer(std::string_view renderer) {
   constexpr std::array kNames{"llvmpipe",    "softpipe", "swrast", "software rasterizer",
                               "swiftshader", "lavapipe", "swr ",   "basic render driver"};
   return std::any_of(kNames.begin(), kNames.end(), [&](const char* name) { return lower.find(name) != lower.npos; });
-}
-
-Result<GraphicsDevice> find_graphics_device(DeviceChoice choice, const std::string& egl_library) {
-  return HeadlessContext::open(choice, egl_library).map([](const auto& context) { return context->device(); });
 }
 
 }  // namespace barehand

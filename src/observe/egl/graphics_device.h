@@ -3,8 +3,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
-
 namespace barehand {
 
 inline constexpr const char* kEglLibrary = "libEGL.so.1";
@@ -23,8 +21,5 @@ enum class DeviceChoice {
 
 /// Whether a GL_RENDERER string names a renderer that runs on the CPU.
 bool is_software_renderer(std::string_view renderer);
-
-/// What a headless context would run on. Error: no EGL, no device, or none that can do OpenGL ES 3.1.
-Result<GraphicsDevice> find_graphics_device(DeviceChoice choice, const std::string& egl_library = kEglLibrary);
 
 }  // namespace barehand

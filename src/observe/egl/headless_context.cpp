@@ -1,23 +1,12 @@
 #include "observe/egl/headless_context.h"
 
+#include <optional>
 #include <vector>
 
 #include "core/format.h"
 
 namespace barehand {
 namespace {
-
-/// Ends what EGL keeps for the calling thread.
-class ThreadRelease {
- public:
-  explicit ThreadRelease(const Egl& egl) : egl_(egl) {}
-  ThreadRelease(const ThreadRelease&) = delete;
-  ThreadRelease& operator=(const ThreadRelease&) = delete;
-  ~ThreadRelease() { egl_.ReleaseThread(); }
-
- private:
-  const Egl& egl_;
-};
 
 tl::unexpected<Error> egl_failure(const Egl& egl, const std::string& what) {
   return fail(formatted("%s (EGL error 0x%04x)", what.c_str(), egl.GetError()), "EGL");
@@ -35,20 +24,18 @@ EGLContext create_context(const Egl& egl, EGLDisplay display) {
 
 }  // namespace
 
-Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open(DeviceChoice choice, const std::string& egl_library) {
-  const auto egl = load_egl(egl_library);
-  if (!egl) return tl::unexpected(egl.error());
-  const ThreadRelease at_end(*egl);
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open(const Egl& egl, DeviceChoice choice) {
   const bool with_software = choice == DeviceChoice::any;
-  Result<std::unique_ptr<HeadlessContext>> best =
-      fail(with_software ? "no graphics device" : "no hardware graphics device", "EGL",
-           "install the GPU's driver; its user needs access to /dev/dri (group render)");
-  for (EGLDisplay display : find_displays(*egl, with_software)) {
-    auto context = open_on(*egl, display);
-    if (context && !(*context)->device().software) return context;
-    if (!best && (!context || with_software)) best = std::move(context);
+  std::optional<Error> reason;
+  for (EGLDisplay display : find_displays(egl, with_software)) {
+    auto context = open_on(egl, display);
+    if (context && (with_software || !(*context)->device().software)) return context;
+    if (!context && !reason) reason = context.error();
   }
-  return best;
+  egl.ReleaseThread();
+  if (reason) return tl::unexpected(*reason);
+  return fail(with_software ? "no graphics device" : "no hardware graphics device", "EGL",
+              "install the GPU's driver; its user needs access to /dev/dri (group render)");
 }
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open_on(const Egl& egl, EGLDisplay display) {
@@ -59,19 +46,14 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::open_on(const Egl& egl
   EGLContext handle = create_context(egl, display);
   if (handle == EGL_NO_CONTEXT) return egl_failure(egl, "no OpenGL ES 3.1 context without a window");
   std::unique_ptr<HeadlessContext> context(new HeadlessContext(egl, display, handle));
-  const auto seen = context->look_around();
-  if (!seen) return tl::unexpected(seen.error());
+  const auto current = context->make_current();
+  if (!current) return tl::unexpected(current.error());
   return context;
 }
 
-HeadlessContext::~HeadlessContext() {
-  const ThreadRelease at_end(egl_);
-  egl_.DestroyContext(display_, context_);
-}
-
-Result<void> HeadlessContext::look_around() {
-  const auto current = make_current();
-  if (!current) return tl::unexpected(current.error());
+Result<void> HeadlessContext::make_current() {
+  if (!egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    return egl_failure(egl_, "the context cannot be used");
   auto gl = load_gl(egl_);
   if (!gl) return tl::unexpected(gl.error());
   gl_ = *gl;
@@ -83,16 +65,10 @@ Result<void> HeadlessContext::look_around() {
   return {};
 }
 
-Result<HeadlessContext::Current> HeadlessContext::make_current() const {
-  if (egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return Current(*this);
-  const ThreadRelease at_end(egl_);
-  return egl_failure(egl_, "the context cannot be used");
-}
-
-HeadlessContext::Current::~Current() {
-  if (!context_) return;
-  const ThreadRelease at_end(context_->egl_);
-  context_->egl_.MakeCurrent(context_->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+HeadlessContext::~HeadlessContext() {
+  egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  egl_.DestroyContext(display_, context_);
+  egl_.ReleaseThread();
 }
 
 }  // namespace barehand

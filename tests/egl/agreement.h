@@ -1,0 +1,49 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/segment_tracker/cpu_observer.h"
+#include "tests/egl/random_batch.h"
+
+namespace barehand {
+
+inline constexpr float kCap = 0.008f;  // m
+
+inline PatchDistances by_egl(DeviceObserver& observer, const SampleBatch& batch) {
+  PatchDistances distances;
+  const auto done = observer.compare(batch, distances);
+  EXPECT_TRUE(done) << done.error().message();
+  return distances;
+}
+
+inline PatchDistances by_cpu(const RandomBatch& world, float cap = kCap, int first_segment = 0) {
+  Workers workers(1);
+  PatchDistances distances;
+  CpuObserver(cap, workers).compare(world.batch(1, first_segment), distances);
+  return distances;
+}
+
+/// The tolerance between observers: mean distances within 0.1 um and weights within 1e-5 of the sample's whole, save
+/// for samples with a point so near to a pixel's edge or the silhouette that single precision decides its side.
+inline bool agree(const PatchDistance& a, const PatchDistance& b) {
+  const double weight = 1e-5 * std::max(a.total, b.total);
+  return std::abs(a.mean() - b.mean()) <= 1e-7 && std::abs(a.counted - b.counted) <= weight &&
+         std::abs(a.total - b.total) <= weight;
+}
+
+/// Share of the samples that differ.
+inline double disagreement(const PatchDistances& a, const PatchDistances& b) {
+  int samples = 0, different = 0;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (a[s].size() != b[s].size()) return 1;
+    for (std::size_t i = 0; i < a[s].size(); ++i) different += !agree(a[s][i], b[s][i]);
+    samples += static_cast<int>(a[s].size());
+  }
+  return static_cast<double>(different) / samples;
+}
+inline constexpr double kNearAnEdge = 0.002;  // share of samples
+
+}  // namespace barehand
