@@ -30,6 +30,9 @@ struct SampleBatch {
   std::uint64_t map_id;                                      ///< equal ids with one skin, equal maps: no need to copy
   const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, equally many per segment
   int first_segment = 0;                                     ///< those before it are not looked at
+
+  /// Of all segments that are looked at.
+  int sample_count() const { return (kSegmentCount - first_segment) * static_cast<int>(poses[first_segment].size()); }
 };
 /// In the order of the poses; all zero for a segment that was not looked at.
 using PatchDistances = std::array<std::vector<PatchDistance>, kSegmentCount>;
@@ -39,6 +42,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void compare(const SampleBatch& batch, PatchDistances& distances) = 0;
+  /// Whether a device does it, as far as is known; it may be lost in the next call.
+  virtual bool on_device() const { return false; }
 };
 
 /// The same on a device that may be lost at any time. After an error `distances` holds nothing of use.

@@ -2,15 +2,17 @@
 
 #include "observe/egl/egl_observer.h"
 #include "observe/fallback_observer.h"
+#include "observe/faster_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 
 namespace barehand {
 
 std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
-                                        std::shared_ptr<spdlog::logger> log) {
+                                        std::shared_ptr<spdlog::logger> log, std::shared_ptr<const Clock> clock) {
   const float cap = distance_cap(params);
   auto cpu = std::make_unique<CpuObserver>(cap, workers);
   if (params.observer == "cpu") return cpu;
+
   const bool by_name = params.observer == "egl";
   auto device = EglObserver::open(cap, by_name ? DeviceChoice::any : DeviceChoice::hardware);
   if (!device) {
@@ -18,7 +20,11 @@ std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Work
              device.error().message());
     return cpu;
   }
-  const GraphicsDevice& found = (*device)->device();
+
+  const GraphicsDevice found = (*device)->device();
+  if (!by_name)
+    return std::make_unique<FasterObserver>(std::move(*device), found.renderer, std::move(cpu), std::move(log),
+                                            std::move(clock));
   log->info("samples are compared on {}, {}{}", found.renderer, found.version, found.software ? " (software)" : "");
   return std::make_unique<FallbackObserver>(std::move(*device), std::move(cpu), std::move(log));
 }

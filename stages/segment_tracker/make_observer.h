@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/clock.h"
 #include "core/parallel.h"
 #include "observe/observer.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
@@ -11,8 +12,9 @@
 namespace barehand {
 
 /// The observer that `params.observer` asks for; the CPU where that is not to be had, with a warning if it was asked
-/// for by name. `workers` outlives it.
+/// for by name. `workers` outlives it; `clock` measures which one is faster.
 std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
-                                        std::shared_ptr<spdlog::logger> log);
+                                        std::shared_ptr<spdlog::logger> log,
+                                        std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>());
 
 }  // namespace barehand

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/clock.h"
+#include "observe/observer.h"
+
+namespace barehand {
+
+/// A batch of so many samples that nobody looks at.
+struct EmptyBatch {
+  explicit EmptyBatch(int per_segment) {
+    for (auto& of_segment : poses) of_segment.resize(per_segment);
+  }
+  SampleBatch batch(std::uint64_t map_id = 1) const { return {surface, map, map_id, poses, 0}; }
+
+  std::shared_ptr<const HandSurface> surface;
+  PixelMap map;
+  std::array<std::vector<SE3>, kSegmentCount> poses;
+};
+
+/// What the observers below say of every sample.
+inline constexpr float kByCpu = 1, kByDevice = 2;
+
+inline void say(float distance, const SampleBatch& batch, PatchDistances& distances) {
+  for (int s = 0; s < kSegmentCount; ++s) distances[s].assign(batch.poses[s].size(), {distance, 1, 1});
+}
+
+/// Takes given times for its calls, the last one for all later calls.
+class Stopwatch {
+ public:
+  Stopwatch(std::shared_ptr<ManualClock> clock, std::deque<std::int64_t> call_us)
+      : clock_(std::move(clock)), call_us_(std::move(call_us)) {}
+  void pass() {
+    clock_->advance(call_us_.front());
+    if (call_us_.size() > 1) call_us_.pop_front();
+  }
+
+ private:
+  std::shared_ptr<ManualClock> clock_;
+  std::deque<std::int64_t> call_us_;
+};
+
+class TimedCpu final : public Observer {
+ public:
+  explicit TimedCpu(Stopwatch time) : time_(std::move(time)) {}
+  void compare(const SampleBatch& batch, PatchDistances& distances) override {
+    time_.pass();
+    say(kByCpu, batch, distances);
+  }
+
+ private:
+  Stopwatch time_;
+};
+
+class TimedDevice final : public DeviceObserver {
+ public:
+  /// Fails in call number `failing`, from 0; never if negative.
+  explicit TimedDevice(Stopwatch time, int failing = -1, std::vector<std::uint64_t>* map_ids = nullptr)
+      : time_(std::move(time)), calls_left_(failing), map_ids_(map_ids) {}
+  Result<void> compare(const SampleBatch& batch, PatchDistances& distances) override {
+    time_.pass();
+    if (map_ids_) map_ids_->push_back(batch.map_id);
+    say(kByDevice, batch, distances);
+    if (calls_left_-- == 0) return fail("gone", "device");
+    return {};
+  }
+
+ private:
+  Stopwatch time_;
+  int calls_left_;
+  std::vector<std::uint64_t>* map_ids_;
+};
+
+}  // namespace barehand
