@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 set(data share/barehand)  # src/app/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
-install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json")
+install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json" PATTERN "*.onnx")
 install(DIRECTORY lcmtypes DESTINATION ${data} FILES_MATCHING PATTERN "*.lcm" PATTERN foreign EXCLUDE)
 install(PROGRAMS deploy/fetch_hand_mesh.sh DESTINATION ${data}/deploy)
 install(DIRECTORY deploy/batch DESTINATION ${data}/deploy USE_SOURCE_PERMISSIONS)

@@ -6,6 +6,7 @@
 #include "io/config_file.h"
 #include "io/config_writer.h"
 #include "math/given_intrinsics.h"
+#include "stages/detection/params.h"
 #include "stages/preprocess/params.h"
 #include "stages/publish/publish_params.h"
 
@@ -14,6 +15,7 @@ namespace barehand {
 /// Everything a configuration file says: one group per stage.
 struct Config {
   RunParams run;
+  DetectionParams detection;
   PreprocessParams preprocess;
   TrackerParams tracker;
   PublishParams publish;
@@ -23,6 +25,7 @@ struct Config {
 template <class V>
 void visit(V& v, Config& c) {
   v("run", c.run, "the run as a whole");
+  v("detection", c.detection, "hands found by networks");
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("publish", c.publish, "from estimates to LCM messages");

@@ -9,6 +9,7 @@
 #include "app/relaxed_pose.h"
 #include "stages/prediction/crossed_fingers.h"
 #include "stages/prediction/hidden_fingers.h"
+#include "stages/prediction/inverse_kinematics.h"
 #include "stages/segment_tracker/make_observer.h"
 
 namespace barehand {
@@ -123,8 +124,9 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
                                    TrackEvidence evidence) {
   ++frame_;
   if (std::exchange(searched_, false)) ++search_frames_;
-  const bool unconfirmed = fit && needs_confirmation(*fit);
-  if (fit && !unconfirmed && !unlike_before(fit->refined.score)) evidence.score = fit->refined.score;
+  const double score = fit ? judged_score(observation, fit->refined) : INFINITY;
+  const bool unconfirmed = fit && needs_confirmation(*fit, score);
+  if (fit && !unconfirmed && !unlike_before(score)) evidence.score = score;
   const TrackStatus status = loss_.update(evidence);
   unconfirmed_ = unconfirmed && status == TrackStatus::lost;
   const bool tracked = status == TrackStatus::tracking && fit;
@@ -150,7 +152,8 @@ HandEstimatePtr HandTracker::judge(const HandObservation& observation, const std
 std::optional<HandTracker::Fit> HandTracker::explain(const HandObservation& observation, double bad_score) {
   std::optional<Fit> fit, found;
   if (motion_.has_pose()) fit = follow(observation);
-  if (fit && fit->refined.score < bad_score && !unlike_before(fit->refined.score)) {
+  const double score = fit ? judged_score(observation, fit->refined) : INFINITY;
+  if (fit && score < bad_score && !unlike_before(score)) {
     search_frames_ = 0;
     uncross(observation, *fit);
     const bool doubt = doubtful(fit->refined.score);  // asked always: it learns what is usual
@@ -180,6 +183,7 @@ void HandTracker::uncross(const HandObservation& observation, Fit& fit) {
 std::optional<HandTracker::Fit> HandTracker::search_doubtful(const HandObservation& observation,
                                                              const HandPose& followed) {
   ++doubtful_frames_;
+  if (observation.detected) return propose_detected(observation);
   const int first = (params_.doubt_every + 1) / 2;
   // A hand that is taken for something else looks wrong from its start on; later doubts are mostly about fingers.
   if (doubtful_frames_ == first) return search_once(observation, Effort::full, 1);
@@ -199,9 +203,8 @@ bool HandTracker::unlike_before(double score) const {
 }
 
 // Found again, and explained somewhat worse than usual, even if convincing: half of a hand fits many poses a little.
-bool HandTracker::needs_confirmation(const Fit& found) const {
+bool HandTracker::needs_confirmation(const Fit& found, double score) const {
   const bool confirms = unconfirmed_ && found.prediction;
-  const double score = found.refined.score;
   return loss_.status() == TrackStatus::lost && !confirms && score > kUnsure * usual_score_.level() &&
          !unlike_before(score);
 }
@@ -348,13 +351,24 @@ bool HandTracker::lies_elsewhere(const RefinedPose& refined, const HandPose& sam
 std::optional<HandTracker::Fit> HandTracker::look(const HandObservation& observation, Effort effort, int attempts) {
   searched_ = true;
   if (static_cast<int>(observation.hand_pixels.size()) < params_.loss.min_hand_pixels) return std::nullopt;
-  std::optional<Fit> best;
+  std::optional<Fit> best = propose_detected(observation);
+  if (best && judged_score(observation, best->refined) < params_.loss.recovered_score) return best;
   FoundPoses poses(*model_->profile, params_.search_settled, params_.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
     auto found = search_once(observation, effort, attempt);
-    if (found && poses.add(found->refined.pose, found->refined.score)) best = std::move(found);
+    if (!found) continue;
+    const bool better = poses.add(found->refined.pose, found->refined.score);
+    if (better && (!best || found->refined.score < best->refined.score)) best = std::move(found);
   }
   return best;
+}
+
+/// The detected hand as a start: inverse kinematics of its joints, then the ordinary refinement.
+std::optional<HandTracker::Fit> HandTracker::propose_detected(const HandObservation& observation) const {
+  if (!observation.detected) return std::nullopt;
+  const auto detected = fit_to_joints(*model_->profile, observation.detected->joints);
+  if (!detected) return std::nullopt;
+  return best_of(observation, {{"detected", detected->pose}}, params_.search_iterations);
 }
 
 std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& observation, Effort effort,
@@ -367,6 +381,16 @@ std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& 
       params_.search_iterations);
   if (best) best->refined = relaxed_pose(observation, best->refined, *model_->profile, model_->refinement, params_);
   return best;
+}
+
+// Refinement and detection err in different ways: where they agree, the frame may be explained half as well, as with a
+// sensor or a hand that the skin model knows badly.
+double HandTracker::judged_score(const HandObservation& observation, const RefinedPose& refined) const {
+  constexpr double kAgreement = 0.02;  // m, mean over the joints; the detection is 13 mm off on its own test images
+  constexpr double kConfirmed = 0.5;
+  const bool confirmed =
+      observation.detected && mean_distance(*model_->profile, refined.pose, observation.detected->joints) < kAgreement;
+  return confirmed ? kConfirmed * refined.score : refined.score;
 }
 
 std::optional<HandTracker::Fit> HandTracker::search_near(const HandObservation& observation, const HandPose& followed) {

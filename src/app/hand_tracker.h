@@ -77,7 +77,7 @@ class HandTracker {
   bool was_followed() const { return last_good_ || motion_.has_pose(); }
   bool doubtful(double score);
   bool unlike_before(double score) const;
-  bool needs_confirmation(const Fit& found) const;
+  bool needs_confirmation(const Fit& found, double score) const;
   /// By `factor`, and not convincing.
   bool worse_than_usual(double score, double factor) const;
   bool lies_elsewhere(const RefinedPose& refined, const HandPose& sampled) const;
@@ -85,6 +85,8 @@ class HandTracker {
   std::optional<Fit> search_once(const HandObservation& observation, Effort effort, int attempt);
   void uncross(const HandObservation& observation, Fit& fit);
   std::optional<Fit> search_doubtful(const HandObservation& observation, const HandPose& followed);
+  double judged_score(const HandObservation& observation, const RefinedPose& refined) const;
+  std::optional<Fit> propose_detected(const HandObservation& observation) const;
   std::optional<Fit> search_near(const HandObservation& observation, const HandPose& followed);
   std::optional<Fit> best_of(const HandObservation& observation, const std::vector<StartCandidate>& starts,
                              int iterations) const;

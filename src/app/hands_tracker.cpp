@@ -149,7 +149,8 @@ bool HandsTracker::searched(int k, const HandObservation& observation) const {
 void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Fit> found;
   const Effort effort = hands_[k]->effort();
-  if (frame_ % kSearchEvery == 0) found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
+  if (observations[k]->detected || frame_ % kSearchEvery == 0)
+    found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/frame_memory.h"
 #include "math/frame.h"
+#include "observe/detection.h"
 
 namespace barehand {
 
@@ -24,10 +25,11 @@ struct HandObservation {
   Image<PixelLabel> label;
   Image<Eigen::Vector3f> normal;     ///< unit normals of hand pixels, towards the camera; zero where undefined
   Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
-  Image<std::int32_t> nearest_object;     ///< the same for the nearest object pixel
-  std::vector<std::int32_t> hand_pixels;  ///< indices of the hand pixels
-  std::vector<Eigen::Vector3f> cloud;     ///< evenly thinned hand points for ICP
-  double noise = 0.001;                   ///< 1-sigma axial noise of this sensor at the hand's distance [m]
+  Image<std::int32_t> nearest_object;            ///< the same for the nearest object pixel
+  std::vector<std::int32_t> hand_pixels;         ///< indices of the hand pixels
+  std::vector<Eigen::Vector3f> cloud;            ///< evenly thinned hand points for ICP
+  std::shared_ptr<const DetectedHand> detected;  ///< what the detection says of this hand; null: nothing
+  double noise = 0.001;                          ///< 1-sigma axial noise of this sensor at the hand's distance [m]
 
   /// The 3D point of pixel (u, v), or of the pixel with index i, in the camera frame [m]; zero without measurement.
   Eigen::Vector3f point(int u, int v) const {

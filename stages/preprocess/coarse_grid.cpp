@@ -4,13 +4,13 @@
 #include <array>
 #include <cstdlib>
 
+#include "math/tint.h"
+
 namespace barehand {
 namespace {
 
 constexpr int kCellsAcross = 160;  // fingers at arm's length are still two cells wide
-constexpr int kGreyTolerance = 6;  // channels of a grey image differ by less (compression)
 constexpr float kClearOdds = 2.f;  // of one pixel: the rest of its cell need not be asked
-constexpr double kFewestTinted = 0.01;
 
 constexpr int kSamples = 5;
 
@@ -52,8 +52,6 @@ class CellSamples {
   std::array<std::uint32_t, kSamples> words_;
   int count_ = 0;
 };
-
-bool tinted(Rgb c) { return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > kGreyTolerance; }
 
 }  // namespace
 

@@ -22,6 +22,11 @@ struct CoarseGrid {
     return {static_cast<float>((c - camera.cx) / camera.fx) * depth,
             static_cast<float>((r - camera.cy) / camera.fy) * depth, depth};
   }
+  /// Frame pixel in the middle of a cell.
+  Eigen::Vector2d frame_pixel(int c, int r) const {
+    const double centre = 0.5 * (step - 1);
+    return {c * step + centre, r * step + centre};
+  }
   /// Area [m^2] that a cell covers at depth z, facing the camera.
   float cell_area(float depth) const { return static_cast<float>(depth * depth / (camera.fx * camera.fy)); }
 };

@@ -9,13 +9,14 @@ namespace {
 constexpr float kOnModel = 0.02f;  // m between data and the moved hint that still means "this is it"
 constexpr float kOwnShare = 0.3f;  // share of a surface that must lie on the hint, unless the surface is large
 constexpr int kOwnCells = 8;
-constexpr float kLeakReach = 0.03f;     // m around the hint kept of a surface that runs on into table or object
-constexpr float kLeakFactor = 0.6f;     // cells off the hint against cells on it; a fist that opens stays below
-constexpr float kLoosePart = 0.12f;     // share of the hand that a finger cut off by another one may have
-constexpr float kHandRadius = 0.13f;    // m from a hand's centre to its farthest parts
-constexpr float kSearchRadius = 0.22f;  // m around the hand that is looked at cell by cell
-constexpr float kSideBySide = 0.10f;    // m of depth within which two candidates count as equally near
-constexpr float kForearm = 0.35f;       // m behind a hand's wrist, and around its arm's axis, that is its forearm
+constexpr float kLeakReach = 0.03f;      // m around the hint kept of a surface that runs on into table or object
+constexpr float kLeakFactor = 0.6f;      // cells off the hint against cells on it; a fist that opens stays below
+constexpr float kLoosePart = 0.12f;      // share of the hand that a finger cut off by another one may have
+constexpr float kHandRadius = 0.13f;     // m from a hand's centre to its farthest parts
+constexpr float kDetectedReach = 0.17f;  // m from the middle of a palm to the farthest fingertip
+constexpr float kSearchRadius = 0.22f;   // m around the hand that is looked at cell by cell
+constexpr float kSideBySide = 0.10f;     // m of depth within which two candidates count as equally near
+constexpr float kForearm = 0.35f;        // m behind a hand's wrist, and around its arm's axis, that is its forearm
 constexpr float kForearmRadius = 0.07f;
 constexpr double kMetresAtRest = 0.06;  // m, motion allowed whatever the time between
 constexpr double kCloseBy = 0.05;       // m, motion allowed for a hand that touches something large
@@ -23,8 +24,9 @@ constexpr double kCloseBy = 0.05;       // m, motion allowed for a hand that tou
 }  // namespace
 
 std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints,
-                                             double hint_age) {
+                                             double hint_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
+  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // of a tracked hand, colour tells more
   const auto tracked = [&](std::size_t k) { return hints_[k] && hints[k]->status == TrackStatus::tracking; };
   hints_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < hints.size(); ++k) hints_[k] = PredictedHand::from(hints[k].get());
@@ -32,6 +34,7 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     hand.found = hand.followed = false;
     hand.prediction.reset();
     hand.wrist.reset();
+    hand.detected = nullptr;
     hand.cells.reset(grid.z.width(), grid.z.height());
   }
   for (std::size_t k = 0; k < hands_.size(); ++k) {
@@ -40,7 +43,7 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     for (std::size_t other = 0; other < hands_.size(); ++other)
       if (other != k && tracked(other)) leave_to(grid, *hints_[other], *hints_[k]);
     split_surfaces(grid, candidates_, surfaces_);
-    hands_[k].found = hands_[k].followed = follow(grid, *hints_[k], hint_age, hands_[k]);
+    hands_[k].found = hands_[k].followed = follow(grid, *hints_[k], hint_age, detection, hands_[k]);
   }
   if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
   candidates_ = all_candidates_;
@@ -50,16 +53,86 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     CoarseHand& hand = hands_[k];
     if (hand.found || !hints_[k] || tracked(k)) continue;
     split_surfaces(grid, candidates_, surfaces_);
-    hand.found = hand.followed = follow(grid, *hints_[k], hint_age, hand);
+    hand.found = hand.followed = follow(grid, *hints_[k], hint_age, detection, hand);
     if (hand.found) take_away(grid, hand);
   }
   for (CoarseHand& hand : hands_) {  // only now: a hand that is held may be the nearest of all
     if (hand.found) continue;
-    split_surfaces(grid, candidates_, surfaces_);
-    hand.found = start(grid, hand);
+    if (detection && detection->whole_frame) {
+      const DetectedHand* const detected = choose_detected(*detection);
+      hand.found = detected && start_at(grid, *detected, hand);
+    } else {
+      split_surfaces(grid, candidates_, surfaces_);
+      hand.found = start(grid, hand);
+    }
     if (hand.found) take_away(grid, hand);
   }
   return hands_;
+}
+
+/// Takes out of the candidates what the detection has looked at and calls no hand.
+void HandSearch::leave_labelled(const CoarseGrid& grid, const Detection& detection) {
+  for (int v = 0; v < grid.z.height(); ++v)
+    for (int u = 0; u < grid.z.width(); ++u) {
+      std::uint8_t& candidate = all_candidates_.at(u, v);
+      if (!candidate) continue;
+      const Eigen::Vector2d pixel = grid.frame_pixel(u, v);
+      bool covered = false, is_hand = false;
+      for (const DetectedHand& hand : detection.hands) {
+        if (!hand.labels.covers(pixel.x(), pixel.y())) continue;
+        covered = true;
+        is_hand |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand;
+      }
+      if (covered && !is_hand) candidate = 0;
+    }
+}
+
+const DetectedHand* HandSearch::detected_near(const Detection& detection, const Eigen::Vector3f& centre,
+                                              double reach) const {
+  const DetectedHand* nearest = nullptr;
+  for (const DetectedHand& hand : detection.hands) {
+    const double distance = (hand.centre - centre.cast<double>()).norm();
+    if (distance >= reach) continue;
+    reach = distance;
+    nearest = &hand;
+  }
+  return nearest;
+}
+
+/// The most probable detected hand within the working range that no hand of this frame is yet.
+const DetectedHand* HandSearch::choose_detected(const Detection& detection) const {
+  const auto taken = [&](const DetectedHand& detected) {
+    return std::ranges::any_of(hands_, [&](const CoarseHand& hand) {
+      if (hand.detected) return hand.detected == &detected;
+      return hand.prediction && (hand.prediction->centre().cast<double>() - detected.centre).norm() < kHandRadius;
+    });
+  };
+  for (const DetectedHand& hand : detection.hands)
+    if (hand.centre.z() >= params_.min_depth && hand.centre.z() <= params_.max_depth && !taken(hand)) return &hand;
+  return nullptr;
+}
+
+/// Takes the detected hand's cells: what is labelled so within a hand's reach and before its wrist. In depth a palm may
+/// look like a held object; where its colour is clear, it is none.
+bool HandSearch::start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand) {
+  hand.detected = &detected;
+  const Eigen::Vector3f wrist = detected.joints[kWristLandmark].position.cast<float>();
+  const Eigen::Vector3f knuckle = detected.joints[kMiddleKnuckleLandmark].position.cast<float>();
+  const Eigen::Vector3f axis = (wrist - knuckle).normalized();
+  hand.wrist = WristPlane{wrist + static_cast<float>(params_.wrist_margin) * axis, axis};
+
+  const Eigen::Vector3f centre = detected.centre.cast<float>();
+  for (int v = 0; v < grid.z.height(); ++v)
+    for (int u = 0; u < grid.z.width(); ++u) {
+      const Eigen::Vector2d pixel = grid.frame_pixel(u, v);
+      if (!candidates_.at(u, v) || !detected.labels.covers(pixel.x(), pixel.y())) continue;
+      const SurfaceLabel label = detected.labels.at(pixel.x(), pixel.y());
+      const bool skin = grid.coloured && grid.odds.at(u, v) > params_.skin_odds;
+      const bool is_hand = label == SurfaceLabel::hand || (skin && label == SurfaceLabel::object);
+      const Eigen::Vector3f p = grid.point(u, v);
+      hand.cells.at(u, v) = is_hand && hand.wrist->behind(p) <= 0 && (p - centre).norm() < kDetectedReach;
+    }
+  return hand_area(grid, hand) >= params_.min_hand_area;
 }
 
 /// Takes out of the candidates what is nearer to the other hand than to this one.
@@ -114,7 +187,8 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
   return translation_.find(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
-bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_age, CoarseHand& hand) {
+bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_age, const Detection* detection,
+                        CoarseHand& hand) {
   const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(hint_age, 0.0, 0.5));
   if (!step) return false;
   body.translate(*step);
@@ -145,6 +219,7 @@ bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_
     return false;
   }
   hand.prediction = body;
+  if (detection) hand.detected = detected_near(*detection, body.centre(), kHandRadius);
   hand.wrist = WristPlane{body.wrist() + margin * body.arm_axis(), body.arm_axis()};
   return true;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "observe/detection.h"
 #include "stages/preprocess/alignment.h"
 #include "stages/preprocess/components.h"
 #include "stages/preprocess/predicted_hand.h"
@@ -19,6 +20,7 @@ struct CoarseHand {
   std::optional<PredictedHand> prediction;  ///< the hint, moved to where the hand is now; none if it did not help
   Image<float> distance;                    ///< [m] from candidates to the prediction's skin; infinite far away
   std::optional<WristPlane> wrist;          ///< what lies behind is forearm
+  const DetectedHand* detected = nullptr;   ///< the detected hand that this is; null: none
 };
 
 /// Looks for one or several hands, each where its hint says, moved by up to max_speed * age of the hint: tracked ones
@@ -28,14 +30,22 @@ class HandSearch {
  public:
   HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
   /// `hints`: one a hand or none at all; each may be null. `hint_age`: seconds between the hints' frame and this one.
-  /// One result a hand, in the order of the hints; they live until the next call.
-  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints, double hint_age);
+  /// `detection`: of this frame; where it has looked, its labels tell a hand from arm, object and background, and
+  /// where it has looked at everything, nothing else is a hand. Null: surfaces and colours alone decide.
+  /// One result a hand, in the order of the hints; they live until the next call and as long as `detection`.
+  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints, double hint_age,
+                                   const Detection* detection = nullptr);
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
   void leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
-  bool follow(const CoarseGrid& grid, PredictedHand body, double hint_age, CoarseHand& hand);
+  bool follow(const CoarseGrid& grid, PredictedHand body, double hint_age, const Detection* detection,
+              CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
+  void leave_labelled(const CoarseGrid& grid, const Detection& detection);
+  const DetectedHand* detected_near(const Detection& detection, const Eigen::Vector3f& centre, double reach) const;
+  const DetectedHand* choose_detected(const Detection& detection) const;
+  bool start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand);
   void take_away(const CoarseGrid& grid, const CoarseHand& hand);
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;

@@ -82,9 +82,19 @@ void HandMask::find_supported(const Image<float>& depth) {
   }
 }
 
-void HandMask::judge_depth(const Image<float>& depth) {
+void HandMask::judge_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected) {
   for (std::size_t i = 0; i < depth.size(); ++i)
     evidence_[i] = depth[i] <= 0 ? Evidence::none : (supported_[i] ? Evidence::hand : Evidence::other);
+  if (!detected) return;
+
+  // Depth alone does not tell a hand from the arm or the object that it touches: labels do.
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u) {
+      Evidence& evidence = evidence_.at(u, v);
+      const int frame_u = u + region.u0, frame_v = v + region.v0;
+      if (evidence != Evidence::hand || !detected->labels.covers(frame_u, frame_v)) continue;
+      if (detected->labels.hand_odds_at(frame_u, frame_v) < 0) evidence = Evidence::other;
+    }
 }
 
 void HandMask::judge_colour(const Image<float>& depth) {
@@ -131,7 +141,7 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     const float fx = static_cast<float>(frame.camera.fx);
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
   } else {
-    judge_depth(depth);
+    judge_depth(depth, region, hand.detected);
   }
   mask.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {

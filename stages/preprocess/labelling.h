@@ -17,7 +17,8 @@ class HandMask {
   explicit HandMask(const PreprocessParams& params) : params_(params) {}
   /// `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel lies at the depth of a
   /// neighbouring hand cell, on the hand's side of the wrist; its colour, averaged over `skew_px`, is skin. Beside
-  /// depth edges and without colour, the depth-connected neighbours decide. Cells of the other `hands` are theirs.
+  /// depth edges and without colour, the depth-connected neighbours decide; without colour in the whole frame, the
+  /// labels of the detected hand where there are some. Cells of the other `hands` are theirs.
   void compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
                const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask);
@@ -27,7 +28,7 @@ class HandMask {
   void support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
   void find_supported(const Image<float>& depth);
-  void judge_depth(const Image<float>& depth);
+  void judge_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected);
   void judge_colour(const Image<float>& depth);
 
   PreprocessParams params_;

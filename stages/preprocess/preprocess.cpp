@@ -47,22 +47,24 @@ void thin_cloud(int many, HandObservation& out) {
 Preprocessor::Preprocessor(const PreprocessParams& params, int hands)
     : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {}
 
-Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> hints) {
+Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> hints,
+                                               const DetectionPtr& detection) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
   sample_coarsely(*frame, params_, skin_, grid_);
   const double age = hints.empty() ? 0 : std::abs(static_cast<double>(frame->utime - hints[0]->utime)) * 1e-6;
-  const std::span<const CoarseHand> hands = search_.find(grid_, hints, age);
+  const std::span<const CoarseHand> hands = search_.find(grid_, hints, age, detection.get());
   HandObservations result;
   if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
-  for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands));
+  for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands, detection));
   learn_skin(hands, hints, result);
   return result;
 }
 
 HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand& hand,
-                                         std::span<const CoarseHand> hands) {
+                                         std::span<const CoarseHand> hands, const DetectionPtr& detection) {
   const std::shared_ptr<HandObservation> out = pool_.take();
   out->frame = frame;
+  out->detected = hand.found && hand.detected ? std::shared_ptr<const DetectedHand>(detection, hand.detected) : nullptr;
   const Region region = hand.found ? region_of_interest(*frame, hand) : Region{};
   out->u0 = region.u0;
   out->v0 = region.v0;

@@ -23,13 +23,16 @@ class Preprocessor {
   /// `hints`: the tracker's estimates of an earlier frame, typically two before, one a hand; empty while nothing is
   /// tracked. They may be stale: they are moved to where their hands are now, and not used if that fails. With status
   /// `tracking` the skin model learns from them. Without hints the nearest hand-like things in the image are the hands,
-  /// whichever they are. One observation a hand, in the order of the hints; no pixel is a hand in two of them.
-  /// Errors: frame without valid intrinsics, or depth or colour of another size than they say.
-  /// A frame without hand is no error: hand_present is false and the maps are empty.
-  Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> hints);
+  /// whichever they are. `detection`: what networks say of this frame; null: they were not asked. One observation a
+  /// hand, in the order of the hints; no pixel is a hand in two of them. Errors: frame without valid intrinsics, or
+  /// depth or colour of another size than they say. A frame without hand is no error: hand_present is false and the
+  /// maps are empty.
+  Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> hints,
+                                   const DetectionPtr& detection = nullptr);
 
  private:
-  HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands);
+  HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands,
+                             const DetectionPtr& detection);
   void leave_out_taken(const HandObservation& out);
   Region region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const;
   void describe_hand(HandObservation& out);

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/image.h"
+#include "hand/segments.h"
+
+namespace barehand {
+
+/// What the detection networks call a pixel.
+enum class SurfaceLabel : std::uint8_t { background = 0, hand = 1, arm = 2, object = 3 };
+inline constexpr int kSurfaceLabelCount = 4;
+
+/// The labels of a window of the frame, on a grid coarser than its pixels. Frame pixel of the centre of cell (c, r):
+/// (u0 + c * step_u, v0 + r * step_v).
+struct LabelMap {
+  Image<SurfaceLabel> label;
+  Image<float> hand_log_odds;  ///< of hand against all the rest
+  double u0 = 0, v0 = 0, step_u = 1, step_v = 1;
+
+  /// Whether frame pixel (u, v) lies in the window.
+  bool covers(double u, double v) const {
+    const double c = (u - u0) / step_u, r = (v - v0) / step_v;
+    return c >= -0.5 && r >= -0.5 && c < label.width() - 0.5 && r < label.height() - 0.5;
+  }
+  /// Of the cell that frame pixel (u, v) lies in; the window must cover it.
+  SurfaceLabel at(double u, double v) const {
+    return label.at(static_cast<int>(std::lround((u - u0) / step_u)), static_cast<int>(std::lround((v - v0) / step_v)));
+  }
+  /// Interpolated at frame pixel (u, v); outside of the window that of its border.
+  float hand_odds_at(double u, double v) const;
+};
+
+/// The hand's 21 joints in the usual order of landmarks: wrist; thumb carpometacarpal, metacarpophalangeal,
+/// interphalangeal, tip; then index, middle, ring and little finger, each metacarpophalangeal, proximal and distal
+/// interphalangeal, tip. A tip is the centre of the end cap, like the distal end of a segment.
+inline constexpr int kLandmarkCount = 21;
+inline constexpr int kWristLandmark = 0;
+inline constexpr int kMiddleKnuckleLandmark = 9;
+/// Landmark `k` (0 nearest the wrist, 3 the tip) of a finger (0 the thumb).
+constexpr int landmark_of(int finger, int k) { return 1 + 4 * finger + k; }
+
+/// Where the detection says that a joint is, hidden or not. Camera frame.
+struct DetectedJoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< [m]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< [m^2]
+};
+
+/// One hand that a detection found. Camera frame, metres.
+struct DetectedHand {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the palm, between wrist and middle knuckle
+  double palm = 0;            ///< probability of a palm in the whole frame's heat map; 1 where a hand was followed
+  double right_log_odds = 0;  ///< of a right hand against a left one
+  std::array<DetectedJoint, kLandmarkCount> joints;
+  LabelMap labels;  ///< of a window of about 0.34 m around the hand
+
+  Handedness side() const { return right_log_odds >= 0 ? Handedness::right : Handedness::left; }
+};
+
+/// What the detection says of one frame. Immutable once shared.
+struct Detection {
+  bool whole_frame = false;            ///< what is not among `hands` is no hand; false: it was not looked at
+  std::vector<DetectedHand> hands;     ///< most probable first; apart from each other
+  std::vector<LabelMap> frame_labels;  ///< coarse, of the whole frame; empty where only windows were looked at
+};
+using DetectionPtr = std::shared_ptr<const Detection>;
+
+}  // namespace barehand

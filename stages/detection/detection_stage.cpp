@@ -1,0 +1,76 @@
+#include "stages/detection/detection_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/tint.h"
+
+namespace barehand {
+namespace {
+
+// Beside a tracked hand the other one is searched for in every so many frames only, as the tracker does.
+constexpr int kBesideTracked = 3;
+constexpr double kLongestPrediction = 0.2;  // s
+
+bool is_tracked(const HandEstimatePtr& hint) { return hint && hint->status == TrackStatus::tracking; }
+
+/// Where the palm of a tracked hand should be in a frame.
+HandDetector::Expected expected(const HandEstimate& hint, const RgbdFrame& frame) {
+  const SegmentState& palm = hint.segments[kPalm];
+  const Eigen::Vector3d bone = hint.profile ? hint.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
+  const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - hint.utime)) * 1e-6);
+  return {palm.T_camera_segment * (0.5 * bone) + age * palm.velocity.head<3>(), hint.handedness};
+}
+
+}  // namespace
+
+DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
+                               std::shared_ptr<spdlog::logger> log)
+    : params_(params), use_colour_(use_colour), log_(std::move(log)) {
+  if (!params.enabled) return;
+  auto detector = HandDetector::load(folder, params);
+  if (!detector) {
+    log_->warn("hands are found without networks: {}", detector.error().message());
+    return;
+  }
+  detector_.emplace(std::move(*detector));
+  log_->info("hands are found by networks of version {}", detector_->version());
+}
+
+DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const HandEstimatePtr> hints) {
+  const bool valid =
+      frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
+  if (!detector_ || !valid) return nullptr;  // preprocessing says what is wrong with the frame
+  const std::int64_t turn = frame_++;
+  const auto tracked = std::ranges::count_if(hints, is_tracked);
+  const bool all_tracked = !hints.empty() && tracked == static_cast<std::ptrdiff_t>(hints.size());
+  const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
+  const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
+  if (all_tracked && !windows) return nullptr;
+
+  Result<Detection> detection = Detection{};
+  if (whole)
+    detection = detector_->detect(frame);
+  else if (windows)
+    detection = detect_tracked(frame, hints);
+  if (!detection) {
+    log_->warn("hands are found without networks from now on: {}", detection.error().message());
+    detector_.reset();
+    return nullptr;
+  }
+  // Between two looks at the whole frame, nothing else is taken for the hand that is searched for.
+  detection->whole_frame = !all_tracked;
+  return std::make_shared<const Detection>(std::move(*detection));
+}
+
+Result<Detection> DetectionStage::detect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> hints) {
+  places_.clear();
+  for (const HandEstimatePtr& hint : hints) {
+    if (!is_tracked(hint)) continue;
+    const HandDetector::Expected place = expected(*hint, frame);
+    if (place.centre.z() > 0) places_.push_back(place);
+  }
+  return detector_->detect_at(frame, places_);
+}
+
+}  // namespace barehand

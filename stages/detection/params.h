@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+namespace barehand {
+
+/// How hands are detected without knowing where they are.
+struct DetectionParams {
+  bool enabled = true;
+  std::string networks = "nets";
+  int every = 1;
+  int every_tracked = 1;
+  double least_palm = 0.2;
+  bool operator==(const DetectionParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, DetectionParams& p) {
+  v.user("enabled", p.enabled, "find hands by networks that were trained on depth images");
+  v.user("networks", p.networks,
+         "folder with nets.json and the networks; a bare name is a folder of the shipped configs/");
+  v("every", p.every, 1, 1000, "frames between two detections in the whole image while a hand is searched for");
+  v("every_tracked", p.every_tracked, 1, 1000,
+    "frames between two detections around each tracked hand where there is no colour");
+  v("least_palm", p.least_palm, 0.01, 0.99, "a palm is followed up if the network holds it for at least so probable");
+}
+
+}  // namespace barehand

@@ -1,0 +1,54 @@
+#include "stages/detection/weights.h"
+
+#include <zlib.h>
+
+#include "core/format.h"
+#include "io/file_bytes.h"
+#include "io/json_fields.h"
+
+namespace barehand {
+namespace {
+
+constexpr const char* kInterface = "1";  // of the networks: what goes in and comes out (docs/nets.md)
+constexpr const char* kRemedy = "install Barehand again, or give nets.json the checksum of the file that is meant";
+
+Result<std::string> checked_file(const std::string& folder, const json_fields::Object& manifest, const char* key) {
+  if (!manifest.has(key)) return fail("says nothing of \"" + std::string(key) + "\"", manifest.where, kRemedy);
+  const json_fields::Object entry{manifest.json[key], manifest.where + ": " + key};
+  const auto file = entry.text("file"), checksum = entry.text("crc32");
+  if (!file) return tl::unexpected(file.error());
+  if (!checksum) return tl::unexpected(checksum.error());
+  if (file->find('/') != std::string::npos)
+    return fail("names a file of another folder, " + *file, entry.where, "give the name of a file beside nets.json");
+
+  const std::string path = folder + "/" + *file;
+  auto bytes = read_file(path);
+  if (!bytes) return bytes;
+  const auto* data = reinterpret_cast<const Bytef*>(bytes->data());
+  const std::string found = formatted("%08lx", crc32_z(0, data, bytes->size()));
+  if (found != *checksum) return fail("has checksum " + found + ", nets.json says " + *checksum, path, kRemedy);
+  return bytes;
+}
+
+}  // namespace
+
+Result<DetectionWeights> load_weights(const std::string& folder) {
+  const std::string where = folder + "/nets.json";
+  const auto json = json_fields::read_json(where);
+  if (!json) return tl::unexpected(json.error());
+  if (!json->is_object()) return fail("is no JSON object", where, kRemedy);
+  const json_fields::Object manifest{*json, where};
+  const auto version = manifest.text("version"), interface = manifest.text("interface");
+  if (!version) return tl::unexpected(version.error());
+  if (!interface) return tl::unexpected(interface.error());
+  if (*interface != kInterface)
+    return fail("is of interface " + *interface + ", this program knows " + kInterface, where,
+                "use the networks that came with this version of Barehand");
+
+  auto full = checked_file(folder, manifest, "full"), crop = checked_file(folder, manifest, "crop");
+  if (!full) return tl::unexpected(full.error());
+  if (!crop) return tl::unexpected(crop.error());
+  return DetectionWeights{*version, std::move(*full), std::move(*crop), folder + "/full", folder + "/crop"};
+}
+
+}  // namespace barehand

@@ -1,0 +1,91 @@
+#include "stages/detection/detection_stage.h"
+
+#include "support/rendered_person.h"
+
+namespace barehand {
+namespace {
+
+/// When the stage looks, and where.
+class DetectionStageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    test::RenderedPerson person(test::vga_camera());
+    pose_ = test::facing_pose(*profile_, 0.6);
+    person.hand(*profile_, pose_, pose_[kPalm].t + Eigen::Vector3d(0.05, 0.14, 0.17));
+    frame_ = person.frame();
+  }
+  static DetectionStage stage(DetectionParams params = {}) {
+    params.enabled = true;
+    return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
+  }
+  HandEstimatePtr hint(TrackStatus status) const {
+    auto estimate = std::make_shared<HandEstimate>();
+    estimate->status = status;
+    estimate->profile = profile_;
+    for (int s = 0; s < kSegmentCount; ++s) estimate->segments[s].T_camera_segment = pose_[s];
+    return estimate;
+  }
+  void paint(Rgb colour) { frame_->colour.reset(640, 480, colour); }
+
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  HandPose pose_;
+  std::shared_ptr<RgbdFrame> frame_;
+};
+
+TEST_F(DetectionStageTest, IsOffUnlessAsked) {
+  DetectionStage off({}, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
+  EXPECT_EQ(off.process(*frame_, {}), nullptr);
+}
+
+TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
+  DetectionStage searching = stage();
+  for (const TrackStatus status : {TrackStatus::searching, TrackStatus::holding, TrackStatus::lost}) {
+    const std::vector<HandEstimatePtr> hints = {hint(status)};
+    const DetectionPtr detection = searching.process(*frame_, hints);
+    ASSERT_TRUE(detection);
+    EXPECT_TRUE(detection->whole_frame);
+    EXPECT_EQ(detection->hands.size(), 1u);
+  }
+}
+
+TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereThereIsNoColour) {
+  DetectionStage tracking = stage();
+  const std::vector<HandEstimatePtr> hints = {hint(TrackStatus::tracking)};
+  const DetectionPtr without_colour = tracking.process(*frame_, hints);
+  ASSERT_TRUE(without_colour);
+  EXPECT_FALSE(without_colour->whole_frame);
+  EXPECT_EQ(without_colour->hands.size(), 1u);
+  paint({200, 150, 120});
+  EXPECT_EQ(tracking.process(*frame_, hints), nullptr);
+  paint({120, 120, 120});
+  EXPECT_TRUE(tracking.process(*frame_, hints));
+}
+
+TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
+  paint({200, 150, 120});
+  DetectionStage both = stage();
+  const std::vector<HandEstimatePtr> hints = {hint(TrackStatus::tracking), hint(TrackStatus::searching)};
+  int looked = 0;
+  for (int i = 0; i < 9; ++i) looked += both.process(*frame_, hints)->hands.size() == 1;
+  EXPECT_EQ(looked, 3);
+}
+
+TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {
+  DetectionParams params;
+  params.every = 2;
+  DetectionStage searching = stage(params);
+  EXPECT_EQ(searching.process(*frame_, {})->hands.size(), 1u);
+  const DetectionPtr between = searching.process(*frame_, {});
+  ASSERT_TRUE(between);
+  EXPECT_TRUE(between->whole_frame);
+  EXPECT_TRUE(between->hands.empty());
+}
+
+TEST_F(DetectionStageTest, AFrameWithoutIntrinsicsIsLeftToPreprocessing) {
+  DetectionStage searching = stage();
+  frame_->camera = {};
+  EXPECT_EQ(searching.process(*frame_, {}), nullptr);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,114 @@
+// What the labels of a detection change: depth alone does not tell a hand from what it touches.
+#include <gtest/gtest.h>
+
+#include "preprocess/painted_scene.h"
+#include "stages/preprocess/preprocess.h"
+
+namespace barehand {
+namespace {
+
+using test::label_at;
+using test::PaintedScene;
+
+constexpr double kZ = 0.5;
+
+/// A hand whose forearm and body lie at its own depth: one surface of a fifth of a square metre.
+PaintedScene person() {
+  PaintedScene scene;
+  scene.patch(-0.02, -0.05, 0.3, 1, kZ, test::kBlue).hand(-0.1, 0.05, kZ).forearm(-0.1, 0.05, kZ, test::kBlue);
+  return scene.no_colour();
+}
+
+/// What an ideal detection says of that hand: its own label above the wrist at y = 0.05 within the hand's outline.
+DetectionPtr detected(const PaintedScene& scene, double x = -0.1) {
+  const Intrinsics camera = scene.share()->camera;
+  DetectedHand hand;
+  hand.centre = {x, 0, kZ};
+  for (DetectedJoint& joint : hand.joints) joint.position = {x, 0, kZ};
+  hand.joints[kWristLandmark].position = {x, 0.05, kZ};
+  hand.joints[kMiddleKnuckleLandmark].position = {x, -0.04, kZ};
+  LabelMap& labels = hand.labels;
+  labels.step_u = labels.step_v = 4;
+  const Eigen::Vector2d corner = camera.project({x - 0.17, -0.17, kZ});
+  labels.u0 = corner.x();
+  labels.v0 = corner.y();
+  labels.label.reset(42, 42);
+  labels.hand_log_odds.reset(42, 42, -4.f);
+  for (int r = 0; r < 42; ++r)
+    for (int c = 0; c < 42; ++c) {
+      const Eigen::Vector3d p = camera.unproject(labels.u0 + 4 * c, labels.v0 + 4 * r, kZ);
+      const bool is_hand = p.y() < 0.05 && p.y() > -0.14 && std::abs(p.x() - x) < 0.045;
+      labels.label.at(c, r) = is_hand ? SurfaceLabel::hand : p.y() < 0.1 ? SurfaceLabel::background : SurfaceLabel::arm;
+      labels.hand_log_odds.at(c, r) = is_hand ? 4.f : -4.f;
+    }
+  auto detection = std::make_shared<Detection>();
+  detection->whole_frame = true;
+  detection->hands.push_back(hand);
+  return detection;
+}
+
+class DetectionMask : public ::testing::Test {
+ protected:
+  HandObservationPtr observe(const PaintedScene& scene, const DetectionPtr& detection,
+                             std::vector<HandEstimatePtr> hints = {}, int number = 0) {
+    const auto result = preprocessor_.process(scene.share(number), hints, detection);
+    EXPECT_TRUE(result);
+    return result->front();
+  }
+  static void expect_hand_alone(const HandObservation& o) {
+    ASSERT_TRUE(o.hand_present);
+    EXPECT_EQ(label_at(o, -0.1, 0.0, kZ), PixelLabel::hand);       // palm
+    EXPECT_EQ(label_at(o, -0.1315, -0.08, kZ), PixelLabel::hand);  // index finger
+    EXPECT_NE(label_at(o, -0.1, 0.09, kZ), PixelLabel::hand);      // forearm
+    EXPECT_NE(label_at(o, -0.01, 0.03, kZ), PixelLabel::hand);     // body
+  }
+  Preprocessor preprocessor_{PreprocessParams{}};
+};
+
+TEST_F(DetectionMask, AHandThatIsOneSurfaceWithArmAndBodyIsFoundByItsLabelsOnly) {
+  EXPECT_FALSE(observe(person(), nullptr)->hand_present);
+  const auto observation = observe(person(), detected(person()));
+  expect_hand_alone(*observation);
+  ASSERT_TRUE(observation->detected);
+  EXPECT_EQ(observation->detected->centre.x(), -0.1);
+}
+
+TEST_F(DetectionMask, ItStaysSoWhileItIsTracked) {
+  const auto hint = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
+  const auto detection = std::make_shared<Detection>(*detected(person()));
+  detection->whole_frame = false;
+  const auto observation = observe(person(), detection, {hint}, 2);
+  EXPECT_TRUE(observation->followed);
+  expect_hand_alone(*observation);
+  EXPECT_TRUE(observation->detected);
+}
+
+TEST_F(DetectionMask, WhereTheWholeFrameShowsNoHandASurfaceOfItsSizeIsNone) {
+  PaintedScene alone;
+  alone.hand(0, 0.05, kZ).no_colour();
+  EXPECT_TRUE(observe(alone, nullptr)->hand_present);
+  auto nothing = std::make_shared<Detection>();
+  nothing->whole_frame = true;
+  EXPECT_FALSE(observe(alone, nothing)->hand_present);
+}
+
+TEST_F(DetectionMask, TwoHandsThatAreSearchedForGetOneDetectedHandEach) {
+  PaintedScene scene;
+  scene.hand(-0.1, 0.05, kZ).hand(0.15, 0.05, kZ).no_colour();
+  auto detection = std::make_shared<Detection>(*detected(scene, -0.1));
+  detection->hands.push_back(detected(scene, 0.15)->hands[0]);
+  Preprocessor both(PreprocessParams{}, 2);
+  const auto result = both.process(scene.share(), {}, detection);
+  ASSERT_TRUE(result);
+  ASSERT_TRUE((*result)[0]->detected && (*result)[1]->detected);
+  EXPECT_NE((*result)[0]->detected, (*result)[1]->detected);
+}
+
+TEST_F(DetectionMask, ADetectedHandOutOfTheWorkingRangeIsNotTaken) {
+  auto detection = std::make_shared<Detection>(*detected(person()));
+  detection->hands[0].centre.z() = 2;
+  EXPECT_FALSE(observe(person(), detection)->hand_present);
+}
+
+}  // namespace
+}  // namespace barehand
