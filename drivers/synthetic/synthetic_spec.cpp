@@ -71,6 +71,7 @@ class SpecReader : public ConfigVisitor {
  protected:
   void begin_group(const char*, const char*) override {}
   void end_group() override {}
+  void retired(const char*, const char*) override {}
 
  private:
   std::optional<std::string> take(const char* key) {
@@ -128,6 +129,7 @@ class SpecLister : public ConfigVisitor {
  protected:
   void begin_group(const char*, const char*) override {}
   void end_group() override {}
+  void retired(const char*, const char*) override {}
 
  private:
   std::ostringstream out_;
