@@ -1,10 +1,10 @@
 #include "app/track_outputs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "io/path_of_hand.h"
+#include "io/video/video_file.h"
 
 namespace barehand {
 namespace {
@@ -27,17 +27,10 @@ Output of_network(const std::string& url) {
   return {"--lcm-url", writes ? url.substr(file.size(), url.find('?') - file.size()) : ""};
 }
 
-/// A video, whose name ends like one, is a file.
-Kind kind_of_overlay(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".mp4" || ending == ".avi" || ending == ".mkv" || ending == ".webm" ? Kind::file : Kind::pictures;
-}
-
 std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profiles& hands) {
   std::vector<Output> outputs = of_hands("--result", o.result, hands);
   outputs.push_back({"--states-log", o.states_log});
-  outputs.push_back({"--overlay", o.overlay, kind_of_overlay(o.overlay)});
+  outputs.push_back({"--overlay", o.overlay, video_format(o.overlay) ? Kind::file : Kind::pictures});
   for (Output& profile : of_hands("--save-hand", o.save_hand, hands)) outputs.push_back(std::move(profile));
   outputs.push_back({"--out", o.saved_later});
   if (!o.no_publish) outputs.push_back(of_network(o.lcm_url));

@@ -24,7 +24,7 @@ class InputFile {
 };
 
 int copy_packets(const InputFile& input, OutputFile& output) {
-  const PacketPtr packet(av_packet_alloc());
+  const AvPacketPtr packet(av_packet_alloc());
   if (!packet) return AVERROR(ENOMEM);
   const AVStream* from = input->streams[0];
   for (;;) {

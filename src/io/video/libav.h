@@ -22,8 +22,8 @@ struct FreeByAddress {
     function(&object);
   }
 };
-using FramePtr = std::unique_ptr<AVFrame, FreeByAddress<av_frame_free>>;
-using PacketPtr = std::unique_ptr<AVPacket, FreeByAddress<av_packet_free>>;
+using AvFramePtr = std::unique_ptr<AVFrame, FreeByAddress<av_frame_free>>;
+using AvPacketPtr = std::unique_ptr<AVPacket, FreeByAddress<av_packet_free>>;
 
 /// libav takes names for URLs otherwise, and what stands before a colon for a protocol.
 inline std::string file_url(const char* path) { return std::string("file:") + path; }

@@ -14,8 +14,8 @@ struct Codec {
   const char* options;
 };
 
-/// The first encoder of a format that is installed is taken. None holds pictures back, so that all of them are in the
-/// file if the program is killed.
+/// The first encoder of a format that is installed is taken. None holds pictures back, so that a program that is killed
+/// loses no more than the container's last fragment.
 constexpr Codec kCodecs[] = {
     {"mp4", "libx264", AV_PIX_FMT_YUV420P, "preset=veryfast:tune=zerolatency:crf=20"},
     {"mp4", "mpeg4", AV_PIX_FMT_YUV420P, "flags=+qscale:global_quality=354"},
@@ -118,7 +118,7 @@ class Video {
     return avcodec_open2(encoder_.get(), found, Options(codec->options).get());
   }
 
-  int allocate(FramePtr& frame, AVPixelFormat pixels) const {
+  int allocate(AvFramePtr& frame, AVPixelFormat pixels) const {
     frame.reset(av_frame_alloc());
     if (!frame) return AVERROR(ENOMEM);
     frame->format = pixels;
@@ -156,8 +156,8 @@ class Video {
   std::int64_t pictures_ = 0;
   OutputFile file_;
   std::unique_ptr<AVCodecContext, FreeByAddress<avcodec_free_context>> encoder_;
-  FramePtr picture_, frame_;
-  PacketPtr packet_;
+  AvFramePtr picture_, frame_;
+  AvPacketPtr packet_;
   std::unique_ptr<SwsContext, FreeScaler> scaler_;
 };
 
