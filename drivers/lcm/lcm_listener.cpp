@@ -15,7 +15,7 @@ void LcmListener::hand_on(const lcm_recv_buf_t* buffer, const char* channel, voi
 LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler)
     : bus_(std::move(bus)), handler_(std::move(handler)) {
   subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, this);
-  broken_ = subscription_ == nullptr;  // liblcm cannot listen to what is no UTF-8
+  broken_ = subscription_ == nullptr;  // liblcm refused the pattern
   thread_ = std::thread([this] { run(); });
 }
 

@@ -21,7 +21,7 @@ class LcmListener {
   /// Called on the listener's thread; the bytes are valid during the call.
   using Handler = std::function<void(const std::string& channel, WireBytes message)>;
 
-  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". Without UTF-8 the connection is broken.
+  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". A glob that liblcm refuses leaves the connection broken.
   LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler);
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;

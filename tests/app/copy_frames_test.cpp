@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "drivers/folder/folder_source.h"
@@ -194,7 +195,7 @@ TEST_F(CopyFrames, OniFilesAndExistingLogsAreRefused) {
   const auto oni = open_frame_writer(folder_ / "a.oni", {});
   ASSERT_FALSE(oni);
   EXPECT_NE(oni.error().message().find(".oni"), std::string::npos);
-  writer("a.lcmlog");
+  std::ofstream(folder_ / "a.lcmlog") << "precious";
   EXPECT_FALSE(open_frame_writer(folder_ / "a.lcmlog", {}));
   EXPECT_TRUE(open_frame_writer(folder_ / "a.lcmlog", {.overwrite = true}));
 }

@@ -32,8 +32,8 @@ class DetectionStageTest : public ::testing::Test {
   std::shared_ptr<RgbdFrame> frame_;
 };
 
-TEST_F(DetectionStageTest, IsOffUnlessAsked) {
-  DetectionStage off({}, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
+TEST_F(DetectionStageTest, SwitchedOffItFindsNothing) {
+  DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
   EXPECT_EQ(off.process(*frame_, {}), nullptr);
 }
 

@@ -246,16 +246,16 @@ TEST_F(LcmLog, AFolderPlaysOnWhereAFileIsNoLog) {
 
 TEST_F(LcmLog, ASetOfLcmLoggerPlaysInItsOrder) {
   int number = 1;
-  for (const char* name : {"take.lcmlog.00", "take.lcmlog.01", "other.lcmlog", "old.2", "old.1", "old.0"}) {
+  for (const char* name : {"old.2", "old.1", "old.0", "other.lcmlog", "take.lcmlog.00", "take.lcmlog.01"}) {
     const auto log = LcmLogWriter::create(folder_ / name, false).value();
     ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number++), 42));
   }
   path_ = folder_ / "take.lcmlog";
-  EXPECT_EQ(play(), "1 2 end");
+  EXPECT_EQ(play(), "5 6 end");
   path_ = folder_ / "old";
-  EXPECT_EQ(play(), "4 5 6 end");
+  EXPECT_EQ(play(), "1 2 3 end");
   path_ = folder_.path();
-  EXPECT_EQ(play(), "4 5 6 3 1 2 end");
+  EXPECT_EQ(play(), "1 2 3 4 5 6 end");
 }
 
 TEST_F(LcmLog, AChannelsNameIsItselfWhateverIsInIt) {
