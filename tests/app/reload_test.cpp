@@ -37,7 +37,7 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   Config wanted;
   wanted.run.channel_prefix = "LEFT_";
   wanted.tracker.shape_fit.enabled = !wanted.tracker.shape_fit.enabled;
-  wanted.tracker.loss.hold_time = 2;
+  wanted.tracker.loss.hold_time = wanted.publish.hold_time = 2;  // as reading the one key sets both
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.loss.hold_time: 0.5 -> 2"));
   EXPECT_THAT(changes.for_restart,
