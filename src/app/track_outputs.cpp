@@ -27,10 +27,13 @@ Output of_network(const std::string& url) {
   return {"--lcm-url", writes ? url.substr(file.size(), url.find('?') - file.size()) : ""};
 }
 
+/// A video, whose name ends like one, is a file; anything else is a folder of pictures.
+Kind kind_of_overlay(const std::string& path) { return video_format(path) ? Kind::file : Kind::pictures; }
+
 std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profiles& hands) {
   std::vector<Output> outputs = of_hands("--result", o.result, hands);
   outputs.push_back({"--states-log", o.states_log});
-  outputs.push_back({"--overlay", o.overlay, video_format(o.overlay) ? Kind::file : Kind::pictures});
+  outputs.push_back({"--overlay", o.overlay, kind_of_overlay(o.overlay)});
   for (Output& profile : of_hands("--save-hand", o.save_hand, hands)) outputs.push_back(std::move(profile));
   outputs.push_back({"--out", o.saved_later});
   if (!o.no_publish) outputs.push_back(of_network(o.lcm_url));
