@@ -159,7 +159,7 @@ TEST_F(Service, RefusesABrokenConfigurationAndGoesOnWithTheOldOne) {
     ASSERT_TRUE(child.wait_for_more()) << child.output();
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
-  EXPECT_THAT(child.output(), AllOf(HasSubstr("key 'run.seed' is missing"), HasSubstr(" 0 failed")));
+  EXPECT_THAT(child.output(), AllOf(HasSubstr("unknown key 'run.sed'"), HasSubstr(" 0 failed")));
 }
 
 TEST_F(Service, ReloadsWhatCanChangeAndSaysWhatCannot) {

@@ -2,12 +2,14 @@
 
 #include <random>
 
-#include "support/rendered_person.h"
 #include "math/angles.h"
 #include "stages/prediction/initialiser.h"
+#include "support/rendered_person.h"
 
 namespace barehand {
 namespace {
+
+double square(double x) { return x * x; }
 
 class InverseKinematicsTest : public ::testing::Test {
  protected:
@@ -41,33 +43,38 @@ class InverseKinematicsTest : public ::testing::Test {
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
 };
 
-/// Largest relative difference between the equations' gradient and a numeric one of their energy, over all segments
-/// and the scale.
+/// Largest relative difference between the equations' gradient and a numeric one of their energy: over the shift and
+/// the turn of every segment, which are of different sizes, and the scale.
 double gradient_error(const KinematicEquations& equations, const std::function<double(const HandPose&, double)>& energy,
                       const HandPose& pose, double scale) {
   constexpr double kStep = 1e-6;
-  double worst = 0, largest = 0;
-  const auto compare = [&](double gradient, double numeric) {
-    worst = std::max(worst, std::abs(gradient + 0.5 * numeric));
-    largest = std::max(largest, std::abs(gradient));
-  };
+  double worst = 0;
   for (int s = 0; s < kSegmentCount; ++s)
-    for (int i = 0; i < 6; ++i) {
-      HandPose above = pose, below = pose;
-      above[s] = boxplus(pose[s], kStep * Vector6d::Unit(i));
-      below[s] = boxplus(pose[s], -kStep * Vector6d::Unit(i));
-      compare(equations.tree.g[s][i], (energy(above, scale) - energy(below, scale)) / (2 * kStep));
+    for (int part = 0; part < 2; ++part) {
+      Eigen::Vector3d numeric;  // of minus half the energy
+      for (int i = 0; i < 3; ++i) {
+        HandPose above = pose, below = pose;
+        above[s] = boxplus(pose[s], kStep * Vector6d::Unit(3 * part + i));
+        below[s] = boxplus(pose[s], -kStep * Vector6d::Unit(3 * part + i));
+        numeric[i] = -0.5 * (energy(above, scale) - energy(below, scale)) / (2 * kStep);
+      }
+      worst = std::max(worst, (equations.tree.g[s].segment<3>(3 * part) - numeric).norm() / numeric.norm());
     }
-  compare(equations.scale_gradient,
-          (energy(pose, scale * std::exp(kStep)) - energy(pose, scale * std::exp(-kStep))) / (2 * kStep));
-  return worst / largest;
+  const double of_scale =
+      -0.5 * (energy(pose, scale * std::exp(kStep)) - energy(pose, scale * std::exp(-kStep))) / (2 * kStep);
+  return std::max(worst, std::abs(equations.scale_gradient - of_scale) / std::abs(of_scale));
 }
 
 TEST_F(InverseKinematicsTest, TheGradientIsTheEnergysAndAWrongOneIsNoticed) {
   const auto limits = widened_limits(*profile_, 0);
   const DetectedJoints joints = joints_of(*profile_, random_pose(*profile_), 0.02);
   HandPose pose = random_pose(*profile_);
-  for (SE3& T : pose) T = boxplus(T, 0.02 * Vector6d::Random());  // joints open and beyond their limits
+  std::uniform_real_distribution<double> shift(-0.02, 0.02);
+  for (SE3& T : pose) {  // joints open and beyond their limits
+    Vector6d step;
+    for (double& x : step) x = shift(random_);
+    T = boxplus(T, step);
+  }
   const auto energy = [&](const HandPose& p, double scale) {
     return kinematic_equations(*profile_, limits, joints, p, scale).energy;
   };
@@ -108,11 +115,15 @@ TEST_F(InverseKinematicsTest, JointsWithTheDetectionsNoiseGiveAPoseThatIsBetterT
 TEST_F(InverseKinematicsTest, AMeanHandIsGivenTheDetectedSize) {
   const HandProfile child = scaled(*profile_, 0.8);
   const HandPose truth = random_pose(child);
-  const auto fit = fit_to_joints(*profile_, joints_of(child, truth, 0.001));
+  DetectedJoints joints = joints_of(child, truth, 0);
+  for (DetectedJoint& joint : joints) joint.covariance = square(0.003) * Eigen::Matrix3d::Identity();
+  const auto fit = fit_to_joints(*profile_, joints);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->scale, 0.8, 0.01);
+  double apart = 0;  // of the flexions, which a weak pull draws to that of a hand at rest [rad]
   for (int s = 1; s < kSegmentCount; ++s)
-    EXPECT_NEAR(joint_angles(*profile_, fit->pose, s).flexion, joint_angles(child, truth, s).flexion, 0.06);
+    apart += std::abs(joint_angles(*profile_, fit->pose, s).flexion - joint_angles(child, truth, s).flexion) / 15;
+  EXPECT_LT(apart, 0.1);
   const auto middle = [](const HandProfile& hand, const HandPose& pose) -> Eigen::Vector3d {
     return pose[kPalm] * (0.5 * hand.segments[kPalm].distal);
   };
