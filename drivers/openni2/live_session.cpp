@@ -113,10 +113,12 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
 
 void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
   const openni::VideoMode& mode = sensor_->colour_mode();
+  frame.colour_fault = picture ? "it is incomplete" : "";  // that colour stopped is said by watch_colour()
   if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
     frame.colour.reset(0, 0);
     return;
   }
+  frame.colour_fault.clear();
   copy_colour(*picture, sensor_->mirrored(true), frame.colour);
   const auto* pixels = frame.colour.data();
   const bool black = std::all_of(pixels, pixels + frame.colour.size(), [](const Rgb& p) { return p == Rgb{}; });

@@ -90,6 +90,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     const auto config = read_configuration(request.config);
     if (!config) return refuse(config.error());
     input.openni2 = config->openni2;
+    input.depth = {config->preprocess.min_depth, config->preprocess.max_depth};
     if (!input.foreign.any()) input.foreign = config->foreign_camera;
   }
   if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
@@ -100,7 +101,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     return kExitFailure;
   }
   if (!source) return refuse(source.error());
-  if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
+  for (const std::string& warning : source->warnings) std::cerr << command << ": " << warning << "\n";
   auto writer = open_frame_writer(request.out, writer_options(request, source->fps, clock));
   if (!writer) return refuse(writer.error());
 

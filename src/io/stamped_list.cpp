@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "math/frame_order.h"
+
 namespace barehand {
 
 Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
@@ -20,7 +22,10 @@ Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
     if (!(words >> stamp)) continue;
     double seconds = 0;
     const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), seconds);
-    const bool number = error == std::errc{} && end == stamp.data() + stamp.size() && std::abs(seconds) < 9e12;
+    const bool number = error == std::errc{} && end == stamp.data() + stamp.size() && std::isfinite(seconds);
+    if (number && std::abs(seconds) * 1e6 > static_cast<double>(kLatestUtime))
+      return fail("line " + std::to_string(line) + " has the time stamp " + stamp, path,
+                  too_late(seconds, StampUnit::seconds));
     if (!number || !(words >> file))
       return fail("line " + std::to_string(line) + " is \"" + text + "\"", path,
                   "a line holds a time stamp in seconds and a file name");
