@@ -20,19 +20,20 @@ class SizeCheck {
 
   /// Looks at a tracked frame at its refined pose, which explains it with `score`, with one of the copies in turn.
   /// After enough looks, once: size of the hand in view by that of the profile, if another one explains most of them
-  /// clearly better.
+  /// clearly better. A few are enough where it explains all of them far better.
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
-  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kIterations = 10;
+  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kFew = 3, kIterations = 10;
 
   struct Candidate {
     double size;
     std::unique_ptr<Refinement> refinement;
-    int better = 0;  // frames that it explains clearly better
-    double sum = 0;  // of its scores
+    int better = 0, much_better = 0;  // frames that it explains clearly better, and far better
+    double sum = 0;                   // of its scores
   };
   void make_candidates();
+  std::optional<double> conclude();
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -18,10 +19,13 @@ inline constexpr double kConfidenceRadius = 0.010;
 
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
+/// A velocity needs two poses of one track, not too far apart in time.
+inline Vector6d unknown_velocity() { return Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
 /// What is known of one segment in one frame. Camera frame, metres, radians.
 struct SegmentState {
   SE3 T_camera_segment;
-  Vector6d velocity = Vector6d::Zero();        ///< per second: of the origin, then angular, camera frame
+  Vector6d velocity = unknown_velocity();  ///< per second: of the origin, then angular, camera frame; NaN: not known
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
   double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius
   double visible = 0;                          ///< fraction of its own projected pixels that are front-most
