@@ -19,9 +19,8 @@ SourceEvent FolderSource::next(std::chrono::milliseconds) {
   const std::int64_t number = next_;
   next_ += step_;
   const RecordingEntry& entry = recording_.entries[number];
-  if (entry.repeats_stamp)
-    return SkippedFrame{{"frame " + std::to_string(number) + " has the time stamp of the frame before it",
-                         entry.depth_file, "the frame is not used"}};
+  if (!entry.fault.empty())
+    return SkippedFrame{{"frame " + std::to_string(number) + ": " + entry.fault, entry.depth_file, ""}};
   auto frame = read_frame(recording_, number);
   if (!frame) return SkippedFrame{frame.error()};
   return *frame;

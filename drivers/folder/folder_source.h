@@ -16,7 +16,8 @@ struct FolderRange {
 };
 
 /// Plays a recording folder (docs/formats.md). Frames keep the recording's own numbers and time stamps, also
-/// backwards, where time runs back. Unreadable images and repeated stamps come as SkippedFrame; play goes on.
+/// backwards, where time runs back. Unreadable depth and frames that FrameOrder does not use come as SkippedFrame; play
+/// goes on.
 class FolderSource : public FrameSource {
  public:
   /// Errors: those of open_recording, a start outside the recording, a step of 0.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/format.h"
 #include "drivers/lcm/depth_codec.h"
 #include "io/image_codec.h"
 
@@ -11,23 +12,30 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-Result<FramePtr> make_frame(std::int64_t utime, std::int64_t number, const GivenIntrinsics& camera,
-                            Result<Image<std::uint16_t>> depth, Result<Image<Rgb>> colour) {
+Result<std::shared_ptr<RgbdFrame>> make_frame(std::int64_t utime, std::int64_t number, const GivenIntrinsics& camera,
+                                              Result<Image<std::uint16_t>> depth, Result<Image<Rgb>> colour) {
   if (!camera.any()) {
     return fail("this message type carries no intrinsics", "",
                 "set fx, fy, cx and cy of the depth camera in the configuration");
   }
   if (auto possible = check(camera); !possible) return tl::unexpected(possible.error());
   if (!depth) return tl::unexpected(depth.error());
-  if (!colour) return tl::unexpected(colour.error());
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = utime;
   frame->number = number;
   frame->camera = camera.of_size(depth->width(), depth->height());
   frame->depth_unit = 0.001;
   frame->depth = std::move(*depth);
-  frame->colour = std::move(*colour);
-  return FramePtr(std::move(frame));
+  if (colour)
+    frame->colour = std::move(*colour);
+  else
+    frame->colour_fault = colour.error().message();
+  return frame;
+}
+
+tl::unexpected<Error> other_size(ImageSize colour, ImageSize depth) {
+  return fail(formatted("is %dx%d, depth is %dx%d", colour.width, colour.height, depth.width, depth.height), "",
+              "register colour to depth: the same pixel must be the same ray");
 }
 
 /// Rows of `stride` bytes; 0 = without gaps. `red` is the byte of red in a pixel of `channels` bytes.
@@ -49,8 +57,9 @@ Result<Image<Rgb>> raw_colour(Bytes data, ImageSize size, std::int64_t stride, i
 }
 
 Result<Image<Rgb>> kinect_colour(const kinect::image_msg_t& image, ImageSize size) {
-  const bool same_size = ImageSize{image.width, image.height} == size;
-  if (!same_size || image.image_data_format == kinect::image_msg_t::VIDEO_NONE) return Image<Rgb>();
+  if (image.image_data_format == kinect::image_msg_t::VIDEO_NONE) return Image<Rgb>();
+  const ImageSize own{image.width, image.height};
+  if (own != size) return other_size(own, size);
   if (image.image_data_format == kinect::image_msg_t::VIDEO_RGB_JPEG) return decode_image(image.image_data, size);
   if (image.image_data_format == kinect::image_msg_t::VIDEO_RGB) return raw_colour(image.image_data, size, 0, 3, 0);
   return fail("colour format " + std::to_string(image.image_data_format) + " is not supported", "",
@@ -59,7 +68,8 @@ Result<Image<Rgb>> kinect_colour(const kinect::image_msg_t& image, ImageSize siz
 
 Result<Image<Rgb>> bot_colour(const bot_core::image_t& image, ImageSize size) {
   using bot_core::image_t;
-  if (ImageSize{image.width, image.height} != size) return Image<Rgb>();
+  const ImageSize own{image.width, image.height};
+  if (own != size) return other_size(own, size);
   switch (image.pixelformat) {
     case image_t::PIXEL_FORMAT_MJPEG:
       return decode_image(image.data, size);
@@ -76,7 +86,8 @@ Result<Image<Rgb>> bot_colour(const bot_core::image_t& image, ImageSize size) {
 
 }  // namespace
 
-Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera, std::int64_t number) {
+Result<std::shared_ptr<RgbdFrame>> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera,
+                                                 std::int64_t number) {
   using kinect::depth_msg_t;
   const depth_msg_t& depth = message.depth;
   if (depth.depth_data_format != depth_msg_t::DEPTH_MM && depth.depth_data_format != depth_msg_t::DEPTH_REGISTERED) {
@@ -92,7 +103,8 @@ Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const GivenIn
                     kinect_colour(message.image, {depth.width, depth.height}));
 }
 
-Result<FramePtr> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera, std::int64_t number) {
+Result<std::shared_ptr<RgbdFrame>> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera,
+                                                 std::int64_t number) {
   using bot_core::images_t;
   const auto find = [&](std::int16_t type) {
     const auto at = std::find(message.image_types.begin(), message.image_types.end(), type);

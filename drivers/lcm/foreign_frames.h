@@ -9,11 +9,14 @@ namespace barehand {
 
 // Other projects' frame types leave out the intrinsics: without `camera` their frames are errors.
 
-/// Depth in millimetres, raw or zlib; colour raw RGB or JPEG of the same size (colour of another size cannot be
-/// registered to the depth and is left out). Anything else is an error.
-Result<FramePtr> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera, std::int64_t number);
+// Colour that is damaged, or of another size and so not registered to depth, is left out, and the frame says why.
 
-/// The images DEPTH_MM or DEPTH_MM_ZIPPED and, where there is one of the same size, LEFT as RGB, BGR, grey or JPEG.
-Result<FramePtr> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera, std::int64_t number);
+/// Depth in millimetres, raw or zlib; anything else is an error. Colour raw RGB or JPEG.
+Result<std::shared_ptr<RgbdFrame>> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera,
+                                                 std::int64_t number);
+
+/// The images DEPTH_MM or DEPTH_MM_ZIPPED and, where there is one, LEFT as RGB, BGR, grey or JPEG.
+Result<std::shared_ptr<RgbdFrame>> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera,
+                                                 std::int64_t number);
 
 }  // namespace barehand

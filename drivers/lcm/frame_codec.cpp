@@ -93,13 +93,11 @@ Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& e
   return message;
 }
 
-Result<FramePtr> decode_frame(const rgbd_frame_t& message) {
+Result<std::shared_ptr<RgbdFrame>> decode_frame(const rgbd_frame_t& message) {
   if (auto numbers = check_numbers(message); !numbers) return tl::unexpected(numbers.error());
   auto depth =
       decode_depth(message.depth, static_cast<DepthEncoding>(message.depth_encoding), message.width, message.height);
   if (!depth) return tl::unexpected(depth.error());
-  auto colour = decode_colour(message);
-  if (!colour) return tl::unexpected(colour.error());
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = message.utime;
   frame->number = message.seq;
@@ -107,8 +105,11 @@ Result<FramePtr> decode_frame(const rgbd_frame_t& message) {
   frame->camera = {message.width, message.height, message.fx, message.fy, message.cx, message.cy};
   frame->depth_unit = message.depth_unit;
   frame->depth = std::move(*depth);
-  frame->colour = std::move(*colour);
-  return FramePtr(std::move(frame));
+  if (auto colour = decode_colour(message))
+    frame->colour = std::move(*colour);
+  else
+    frame->colour_fault = colour.error().message();
+  return frame;
 }
 
 }  // namespace barehand

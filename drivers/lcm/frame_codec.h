@@ -20,7 +20,8 @@ struct FrameEncoding {
 /// intrinsics is an error.
 Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& encoding);
 
-/// The frame of a message. Sizes, intrinsics, depth unit and both images are checked; what lies is an error.
-Result<FramePtr> decode_frame(const rgbd_frame_t& message);
+/// The frame of a message. Sizes, intrinsics, depth unit and depth are checked; what lies is an error. Colour that lies
+/// is left out, and the frame says why.
+Result<std::shared_ptr<RgbdFrame>> decode_frame(const rgbd_frame_t& message);
 
 }  // namespace barehand

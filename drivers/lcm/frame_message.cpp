@@ -10,12 +10,8 @@ bool carries_frames(std::int64_t hash) {
          hash == bot_core::images_t::getHash();
 }
 
-bool is_stale(std::int64_t utime, std::int64_t last) {
-  constexpr std::uint64_t kOvertaken = 1'000'000;
-  return utime <= last && static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(utime) < kOvertaken;
-}
-
-Result<FramePtr> decode_frame_message(WireBytes message, const GivenIntrinsics& camera, std::int64_t number) {
+Result<std::shared_ptr<RgbdFrame>> decode_frame_message(WireBytes message, const GivenIntrinsics& camera,
+                                                        std::int64_t number) {
   const std::int64_t hash = message_hash(message);
   if (hash == rgbd_frame_t::getHash()) {
     const auto decoded = decode_message<rgbd_frame_t>(message);

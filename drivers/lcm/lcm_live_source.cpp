@@ -51,6 +51,7 @@ void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
 }
 
 SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
+  if (!to_come_.empty()) return take_next();
   Letter letter;
   {
     std::unique_lock lock(mutex_);
@@ -78,14 +79,24 @@ SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
     return SkippedFrame{std::move(error)};
   }
   choose(letter.channel);
+  FrameOrder& order = orders_.try_emplace(letter.channel, StampUnit::microseconds).first->second;
+  const auto number = order.number((*frame)->utime, (*frame)->number);
+  for (const std::string& doubt : order.take_doubts())
+    to_come_.push_back(SourceNotice{{doubt, name_of(letter.channel), ""}});
   ++foreign_number_;
-  const std::int64_t utime = (*frame)->utime;
-  const auto [last, first] = last_utime_.try_emplace(letter.channel, utime);
-  if (!first && is_stale(utime, last->second)) {
-    return SkippedFrame{{"its time is not later than that of the frame before", name_of(letter.channel), ""}};
+  if (number) {
+    (*frame)->number = *number;
+    to_come_.push_back(FramePtr(*std::move(frame)));
+  } else {
+    to_come_.push_back(SkippedFrame{{number.error().what, name_of(letter.channel), number.error().remedy}});
   }
-  last->second = utime;
-  return *frame;
+  return take_next();
+}
+
+SourceEvent LcmLiveSource::take_next() {
+  SourceEvent event = std::move(to_come_.front());
+  to_come_.pop_front();
+  return event;
 }
 
 /// Frames of two sensors make no sequence. What else waits is no longer counted as received.

@@ -11,6 +11,7 @@
 
 #include "drivers/lcm/foreign_frames.h"
 #include "drivers/lcm/lcm_listener.h"
+#include "math/frame_order.h"
 #include "math/source.h"
 
 namespace barehand {
@@ -30,8 +31,8 @@ struct LcmLiveCounts {
 };
 
 /// Frames from a live LCM bus. A thread receives and keeps the newest messages; `next` decodes the oldest of them. A
-/// message of a wrong type, a damaged one and one that repeats or precedes the last frame come as SkippedFrame. Frames
-/// of channels that were not chosen are told of once.
+/// message of a wrong type, a damaged one and one that FrameOrder does not use come as SkippedFrame. Frames of channels
+/// that were not chosen are told of once.
 class LcmLiveSource : public FrameSource {
  public:
   static Result<std::unique_ptr<LcmLiveSource>> open(const std::string& url, const LcmLiveOptions& options = {});
@@ -53,14 +54,16 @@ class LcmLiveSource : public FrameSource {
   void receive(const std::string& channel, WireBytes message);
   void count_lost(const std::string& channel, std::int64_t seq);
   SourceEvent open_letter(const Letter& letter);
+  SourceEvent take_next();
   void choose(const std::string& channel);
   std::string pattern() const { return options_.channel.empty() ? "*RGBD_FRAME" : options_.channel; }
   std::string name_of(const std::string& channel) const { return "lcm:" + bus_->url() + " " + channel; }
 
   std::shared_ptr<LcmBus> bus_;
   LcmLiveOptions options_;
-  std::map<std::string, std::int64_t> last_utime_;  ///< per channel, of the last frame delivered; used by `next` only
+  std::map<std::string, FrameOrder> orders_;  ///< per channel; this and what follows is used by `next` only
   std::int64_t foreign_number_ = 0;
+  std::deque<SourceEvent> to_come_;  ///< before anything new is read
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable arrived_;

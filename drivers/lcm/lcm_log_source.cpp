@@ -4,11 +4,13 @@
 #include <map>
 #include <set>
 
+#include "barehand/rgbd_frame_t.hpp"
 #include "core/comma_list.h"
 #include "core/quote.h"
 #include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_message.h"
 #include "io/log_names.h"
+#include "math/frame_order.h"
 
 namespace barehand {
 namespace {
@@ -38,7 +40,7 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
     return fail("there is no frame " + std::to_string(source->next_), path,
                 "the log holds frames 0 to " + std::to_string(count - 1));
   }
-  source->find_stale();
+  source->put_in_order();
   return source;
 }
 
@@ -52,7 +54,7 @@ Result<void> LcmLogSource::open_files() {
       left_out_.push_back(reader.error());
       continue;
     }
-    for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry});
+    for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
     reader->close();
     files_.push_back(std::move(*reader));
   }
@@ -86,15 +88,23 @@ Result<void> LcmLogSource::choose() {
   return {};
 }
 
-void LcmLogSource::find_stale() {
-  std::map<std::string, std::int64_t> last;
-  for (const auto& [file, frame] : frames_) {
-    stale_.push_back(false);
-    if (!carries_frames(frame.hash)) continue;
-    const auto [at, first] = last.try_emplace(frame.channel, frame.utime);
-    stale_.back() = !first && is_stale(frame.utime, at->second);
-    if (!stale_.back()) at->second = frame.utime;
+/// As the frames were recorded, whichever way they are played.
+void LcmLogSource::put_in_order() {
+  std::map<std::string, FrameOrder> orders;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    Event& event = frames_[i];
+    if (!carries_frames(event.entry.hash)) continue;
+    const auto position = static_cast<std::int64_t>(i);
+    const bool own = event.entry.hash == rgbd_frame_t::getHash();
+    FrameOrder& order = orders.try_emplace(event.entry.channel, StampUnit::microseconds).first->second;
+    const auto number = order.number(event.entry.utime, own ? event.entry.third : position);
+    if (number)
+      event.number = *number;
+    else
+      unused_.emplace(position, number.error());
   }
+  for (auto& [channel, order] : orders)
+    for (const std::string& doubt : order.take_last_doubts()) doubts_.push_back(path_ + " " + channel + ": " + doubt);
 }
 
 std::int64_t LcmLogSource::damaged_bytes() const {
@@ -117,20 +127,21 @@ SourceEvent LcmLogSource::next(std::chrono::milliseconds) {
 }
 
 SourceEvent LcmLogSource::read(std::int64_t position) {
-  const auto& [file, entry] = frames_[static_cast<std::size_t>(position)];
+  const auto& [file, entry, number] = frames_[static_cast<std::size_t>(position)];
   const std::string where = path_ + " frame " + std::to_string(position) + " (" + entry.channel + ")";
-  if (stale_[static_cast<std::size_t>(position)]) {
-    return SkippedFrame{{"its time is not later than that of the frame before", where, ""}};
-  }
+  const auto skipped = [&](Error error) {
+    error.where = where;
+    return SkippedFrame{std::move(error)};
+  };
+  if (const auto unused = unused_.find(position); unused != unused_.end()) return skipped(unused->second);
   if (file != open_) files_[open_].close();
   open_ = file;
   const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
-  auto frame = decode_frame_message(*message, options_.foreign, position);
-  if (frame) return *frame;
-  Error error = frame.error();
-  error.where = where;
-  return SkippedFrame{std::move(error)};
+  auto frame = decode_frame_message(*message, options_.foreign, number);
+  if (!frame) return skipped(frame.error());
+  (*frame)->number = number;
+  return FramePtr(*std::move(frame));
 }
 
 }  // namespace barehand

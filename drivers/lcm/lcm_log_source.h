@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,8 +23,8 @@ struct LcmLogOptions {
 
 /// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of a folder or set of
 /// logs (find_logs) one after the other, never dropping one. A cut or damaged log replays every whole event; one of
-/// several without any is left out. Messages of another type, damaged messages and frames that are stale (is_stale)
-/// come as SkippedFrame. Own frames keep their numbers, foreign ones get their position.
+/// several without any is left out. Messages of another type, damaged messages and frames that FrameOrder does
+/// not use come as SkippedFrame. Own frames keep their numbers as far as these rise, foreign ones get their position.
 class LcmLogSource : public FrameSource {
  public:
   /// Errors: no LCM log, a folder without any, no matching channel (names those there are), several channels with
@@ -40,25 +41,29 @@ class LcmLogSource : public FrameSource {
   std::int64_t damaged_bytes() const;
   /// What was wrong with each of several logs that cannot be read, or holds nothing.
   const std::vector<Error>& left_out() const { return left_out_; }
+  /// What is to be said of the frames' times, in sentences.
+  const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
   /// One event, and which of the files it is in.
   struct Event {
     std::size_t file;
     LogEntry entry;
+    std::int64_t number = 0;  ///< that the frame gets
   };
   LcmLogSource(std::string path, const LcmLogOptions& options) : path_(std::move(path)), options_(options) {}
   Result<void> open_files();
   Result<void> choose();
-  void find_stale();
+  void put_in_order();
   SourceEvent read(std::int64_t position);
 
   std::string path_;
   LcmLogOptions options_;
   std::vector<LcmLogReader> files_;
   std::vector<Error> left_out_;
-  std::vector<Event> frames_;  ///< of the chosen channels, in file order
-  std::vector<bool> stale_;    ///< is_stale, played forwards
+  std::vector<Event> frames_;             ///< of the chosen channels, in file order
+  std::map<std::int64_t, Error> unused_;  ///< by position: why FrameOrder does not use it
+  std::vector<std::string> doubts_;
   std::int64_t next_ = 0;
   std::size_t open_ = 0;  ///< the only one of the files that may be open
 };

@@ -123,10 +123,12 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
 void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
   // A frame without usable colour is delivered without it.
   const openni::VideoMode& mode = sensor_->colour_mode();
+  frame.colour_fault = picture ? "it is incomplete" : "";  // that colour stopped is said by watch_colour()
   if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
     frame.colour.reset(0, 0);
     return;
   }
+  frame.colour_fault.clear();
 
   // Report colour that stays black.
   copy_colour(*picture, sensor_->mirrored(true), frame.colour);

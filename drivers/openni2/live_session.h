@@ -8,8 +8,8 @@
 #include "drivers/openni2/colour_pairing.h"
 #include "drivers/openni2/device_clock.h"
 #include "drivers/openni2/live_output.h"
-#include "drivers/openni2/picture_check.h"
 #include "drivers/openni2/sensor.h"
+#include "math/picture_check.h"
 
 namespace barehand {
 

@@ -109,6 +109,8 @@ SourceEvent OpenNiFilePlayer::frame_of(const Pairing::Pair& pair) {
   const openni::VideoMode& mode = sensor_->colour_mode();
   if (pair.colour && complete(*pair.colour, mode, colour_bytes_per_pixel(mode.getPixelFormat())))
     copy_colour(*pair.colour, sensor_->mirrored(true), frame->colour);
+  else if (sensor_->has_colour())
+    frame->colour_fault = pair.colour ? "it is incomplete" : "the recording has none at this time";
   return FramePtr(std::move(frame));
 }
 

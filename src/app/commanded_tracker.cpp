@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hand/profile_doubts.h"
 #include "io/hand_json.h"
 
 namespace barehand {
@@ -65,6 +66,7 @@ void CommandedTracker::follow(const Command& command) {
   } else {
     auto profile = parse_profile(command.profile, "command");
     if (!profile) return log_.warn("command", "ignored a hand profile: " + profile.error().message());
+    for (const std::string& doubt : profile_doubts(*profile)) log_.warn("profile", "the given hand profile: " + doubt);
     use(hands, std::move(*profile));
   }
 }

@@ -19,6 +19,15 @@ double confidence(const HandProfile& profile, const SegmentState& state, int seg
 
 }  // namespace
 
+// A hand of another size than its profile's may well be one that is seen in a wrong scale, so that its place is wrong
+// by as much along the way from the camera.
+Matrix6d HandTracker::scale_doubt(const SE3& T_camera_segment) const {
+  Matrix6d doubt = Matrix6d::Zero();
+  const Eigen::Vector3d off = (size_in_view_ - 1) * T_camera_segment.t;
+  doubt.topLeftCorner<3, 3>() = off * off.transpose();
+  return doubt;
+}
+
 HandEstimatePtr HandTracker::estimate(const HandObservation& observation, const std::optional<Fit>& fit) {
   auto out = std::allocate_shared<HandEstimate>(FrameAllocator<HandEstimate>());
   out->utime = observation.frame->utime;
@@ -52,6 +61,7 @@ void HandTracker::fill_segments(HandEstimate& out, const Fit& fit) {
     SegmentState& state = out.segments[s];
     state.T_camera_segment = refined.pose[s];
     state.covariance = covariance[s];
+    if (size_in_view_ != 1) state.covariance += scale_doubt(refined.pose[s]);
     state.visible = refined.visible[s];
     state.seen = !hidden[s];
     state.confidence = confidence(*model_->profile, state, s);
@@ -65,7 +75,7 @@ void HandTracker::fill_held(HandEstimate& out) const {
   out.segments = last_tracked_->segments;
   out.score = last_tracked_->score;
   for (SegmentState& state : out.segments) {
-    state.velocity.setZero();
+    state.velocity = unknown_velocity();
     state.seen = false;
     state.visible = 0;
   }

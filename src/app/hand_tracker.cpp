@@ -234,13 +234,18 @@ void HandTracker::greet_new_hand() {
   hand_id_ = hand_id_ ? hand_id_ + ids_.step : ids_.first;
   doubtful_frames_ = 0;
   if (scan_) scan_->restart();
-  if (person_ && model_->profile->scanned_skin) size_check_.emplace(params_.refinement, model_->profile, model_->skin);
+  const bool doubted = std::exchange(size_in_view_, 1) != 1;  // it may be somebody else's now
+  if (doubted || (person_ && model_->profile->scanned_skin))
+    size_check_.emplace(params_.refinement, model_->profile, model_->skin);
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
   const auto size = size_check_->look(observation, refined.pose, refined.score);
   if (!size) return;
-  if (!person_) return log_->warn("{}", other_size(*size, *model_->profile));
+  if (!person_) {
+    size_in_view_ = *size;
+    return log_->warn("{}", other_size(*size, *model_->profile));
+  }
   log_->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
   forget_person();
 }
@@ -248,6 +253,7 @@ void HandTracker::check_size(const HandObservation& observation, const RefinedPo
 void HandTracker::meet_person() {
   person_.reset();
   size_check_.reset();
+  size_in_view_ = 1;
   if (!given_->scanned_skin) scan_ = std::make_unique<PersonScan>(params_, given_, workers_);
   if (given_->origin == ProfileOrigin::mean)
     person_.emplace(params_.shape_fit, given_);

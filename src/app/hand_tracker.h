@@ -103,6 +103,7 @@ class HandTracker {
   void use_scan();
   HandEstimatePtr estimate(const HandObservation& observation, const std::optional<Fit>& fit);
   void fill_segments(HandEstimate& out, const Fit& fit);
+  Matrix6d scale_doubt(const SE3& T_camera_segment) const;
   void fill_held(HandEstimate& out) const;
   double interval_factor(double dt) const;
   double raw_gap(const HandPose& pose) const;
@@ -117,6 +118,7 @@ class HandTracker {
   std::optional<PersonFit> person_;      // if the given hand is a mean hand
   std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before
   std::optional<SizeCheck> size_check_;  // of a hand that is not fitted, or no longer
+  double size_in_view_ = 1;              ///< of the hand by that of its profile, as far as that is known
   MotionModel motion_;
   LossDetector loss_;
   PoseUncertainty uncertainty_;

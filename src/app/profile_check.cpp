@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::array<double, 4> kSizes = {0.8, 1.25, 0.65, 1.5};  // a search compensates a tenth by itself
+constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};  // a search compensates a tenth by itself
 // Failed searches between two tries of another size. What stays in view without being found is most likely no hand, so
 // tries become rare.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;

@@ -114,6 +114,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     const auto config = read_configuration(request.config);
     if (!config) return refuse(config.error());
     input.openni2 = config->openni2;
+    input.depth = {config->preprocess.min_depth, config->preprocess.max_depth};
     if (!input.foreign.any()) input.foreign = config->foreign_camera;
   }
   if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
@@ -124,7 +125,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     return kExitFailure;
   }
   if (!source) return refuse(source.error());
-  if (source->warning) std::cerr << command << ": " << *source->warning << "\n";
+  for (const std::string& warning : source->warnings) std::cerr << command << ": " << warning << "\n";
   const FrameWriterOptions written_as = writer_options(request, source->fps, clock);
   const Output output = output_of(request, written_as.rotation.has_value());
   const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},

@@ -10,7 +10,10 @@
 namespace barehand {
 namespace {
 
-constexpr std::array<double, 4> kSizes = {0.78, 0.88, 1.14, 1.28};
+// Those of other people, then those of a depth unit that is wrong.
+constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
+constexpr double kFarBetter = 0.3;
+constexpr double kNobody = 1.4;  // and its inverse: sizes that two grown-ups do not differ by
 
 /// Scales a pose about the middle of the palm, whose position the data determines best.
 HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
@@ -29,9 +32,15 @@ void SizeCheck::make_candidates() {
 }
 
 std::string other_size(double size, const HandProfile& profile) {
+  if (size > kNobody || size < 1 / kNobody)
+    return formatted(
+        "the hand in the data is about %.1f times the profile's size: is depth_units_per_metre (depth_unit of a "
+        "message) "
+        "right, or the profile another person's?",
+        size);
   return formatted(
       "the hand in view looks about %.0f %% %s than the profile's: give the profile of this hand, or --hand %s for the "
-      "mean hand, which is fitted while tracking",
+      "mean hand, which is fitted while tracking; if the profile is right, depth_units_per_metre is not",
       100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
 }
 
@@ -46,12 +55,19 @@ std::optional<double> SizeCheck::look(const HandObservation& observation, const 
   const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
 
   candidate.better += clearly_better(other, score);
+  candidate.much_better += clearly_better(other, score, kFarBetter);
   candidate.sum += other;
-  if (turn + 1 < candidates_.size() || ++looks_ < kLooks) return std::nullopt;
+  if (turn + 1 < candidates_.size()) return std::nullopt;
+  ++looks_;
+  return conclude();
+}
 
-  // After the last look the size with the best mean score wins, if it was better in most frames.
+std::optional<double> SizeCheck::conclude() {
   const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
-  const std::optional<double> size = best->better >= kMost ? std::optional(best->size) : std::nullopt;
+  const bool at_once = looks_ == kFew && best->much_better == kFew;
+  if (looks_ < kLooks && !at_once) return std::nullopt;
+  const std::optional<double> size = at_once || best->better >= kMost ? std::optional(best->size) : std::nullopt;
+  looks_ = kLooks;
   candidates_.clear();
   return size;
 }

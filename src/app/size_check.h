@@ -21,19 +21,21 @@ class SizeCheck {
 
   /// Compares one of the copies, in turn, with the profile in a tracked frame. `pose`: the refined pose, which
   /// explains the frame with `score` [m]. After enough frames it returns, once, the size of the hand in view relative
-  /// to the profile, provided that another size explains most of these frames clearly better.
+  /// to the profile, provided that another size explains most of these frames clearly better. A
+  /// few frames are enough if it explains all of them far better.
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
-  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kIterations = 10;
+  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kFew = 3, kIterations = 10;
 
   struct Candidate {
     double size;
     std::unique_ptr<Refinement> refinement;
-    int better = 0;  // frames that it explains clearly better
-    double sum = 0;  // sum of its scores [m]
+    int better = 0, much_better = 0;  // frames that it explains clearly better, and far better
+    double sum = 0;                   // sum of its scores [m]
   };
   void make_candidates();
+  std::optional<double> conclude();
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;

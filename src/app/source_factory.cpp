@@ -1,5 +1,6 @@
 #include "app/source_factory.h"
 
+#include "app/watched_source.h"
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
@@ -40,8 +41,9 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
-  open.warning = outside_warning((*source)->recording());
   open.fps = (*source)->recording().fps;
+  open.warnings = (*source)->recording().doubts;
+  if (const auto outside = outside_warning((*source)->recording())) open.warnings.push_back(*outside);
   open.source = std::move(*source);
   return open;
 }
@@ -56,11 +58,13 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.frames = (*source)->remaining();
+  open.warnings = (*source)->doubts();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
-    open.warning = path + ": " + std::to_string(bytes) + " bytes are damaged or cut off; every whole event is played";
+    open.warnings.push_back(path + ": " + std::to_string(bytes) +
+                            " bytes are damaged or cut off; every whole event is played");
   if (const auto& left_out = (*source)->left_out(); !left_out.empty())
-    open.warning = (open.warning ? *open.warning + "\n" : "") + path + ": " + std::to_string(left_out.size()) +
-                   " of its logs cannot be played, first " + left_out.front().message();
+    open.warnings.push_back(path + ": " + std::to_string(left_out.size()) + " of its logs cannot be played, first " +
+                            left_out.front().message());
   open.source = std::move(*source);
   return open;
 }
@@ -73,7 +77,8 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   auto source = LcmLiveSource::open(request.lcm_url, options);
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
-  if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url)) open.warning = shortfall->message();
+  if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url))
+    open.warnings.push_back(shortfall->message());
   open.source = std::move(*source);
   return open;
 }
@@ -93,7 +98,7 @@ Result<OpenSource> open_openni(const std::string& argument, const SourceRequest&
   if (!source) return tl::unexpected(source.error());
   open.frames = (*source)->remaining();
   open.fps = (*source)->fps();
-  open.warning = (*source)->warning();
+  if (const auto warning = (*source)->warning()) open.warnings.push_back(*warning);
   open.source = std::move(*source);
   return open;
 }
@@ -111,9 +116,7 @@ Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
   return open;
 }
 
-}  // namespace
-
-Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
+Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
   const auto colon = request.spec.find(':');
   const std::string kind = request.spec.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
@@ -129,6 +132,16 @@ Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock)
   if (kind == "folder") return open_folder(argument, request);
   if (kind == "log") return open_log(argument, request);
   return fail("unknown source", request.spec, std::string("give ") + kKinds);
+}
+
+}  // namespace
+
+Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
+  auto open = open_kind(request, clock);
+  // The simulator's pictures are what it was asked for: without noise they may well stand still.
+  if (open && !request.spec.starts_with("sim:"))
+    open->source = std::make_unique<WatchedSource>(std::move(open->source), request.depth, clock);
+  return open;
 }
 
 }  // namespace barehand

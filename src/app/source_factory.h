@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/depth_range.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "drivers/openni2/openni_params.h"
@@ -26,6 +27,7 @@ struct SourceRequest {
   GivenIntrinsics foreign;            ///< intrinsics of frames that come without
   OpenNiParams openni2;               ///< what is wanted of a sensor
   std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
+  DepthLimits depth;                  ///< where a hand is looked for; where nothing is measured there, that is said
 };
 
 /// A hand that a source knows.
@@ -39,7 +41,7 @@ struct OpenSource {
   std::vector<SourceHand> hands;       ///< the very hands that are seen, the first one first; empty: not known
   double fps = 0;                      ///< nominal rate at which frames come; 0: not known
   std::optional<std::int64_t> frames;  ///< how many will come, where that is known
-  std::optional<std::string> warning;  ///< what the user should know of a source that opened all the same
+  std::vector<std::string> warnings;   ///< what the user should know of a source that opened all the same
 };
 
 /// Errors: an unknown kind of source, and whatever the driver says (no such file, no frames, no multicast route, ...).

@@ -30,6 +30,7 @@
 #include "app/track_stages.h"
 #include "core/available_memory.h"
 #include "core/parallel.h"
+#include "hand/profile_doubts.h"
 #include "io/file_bytes.h"
 #include "io/pose_json.h"
 #include "stages/publish/publisher.h"
@@ -122,6 +123,7 @@ Step TrackRun::open_input() {
   request.channel = config_.run.frame_channel;
   request.foreign = config_.foreign_camera;
   request.openni2 = config_.openni2;
+  request.depth = {config_.preprocess.min_depth, config_.preprocess.max_depth};
   const bool from_network = options_.source == "lcm";
   auto input = connect([&] { return open_source(request, clock_); }, from_network);
   if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
@@ -130,14 +132,17 @@ Step TrackRun::open_input() {
     workers_->go_live();
   else
     interrupt_.stop_on_hangup();  // a recording is tracked with one configuration from end to end
-  if (input_.warning) log_.logger().warn(*input_.warning);
+  for (const std::string& warning : input_.warnings) log_.logger().warn(warning);
   return {};
 }
 
 Step TrackRun::use_hands() {
   const auto hands = choose_hands(options_.hands, input_);
   if (!hands) return usage(hands.error());
-  for (const NamedHand& hand : *hands) log_.logger().info("hand profile: {}", hand.name);
+  for (const NamedHand& hand : *hands) {
+    log_.logger().info("hand profile: {}", hand.name);
+    for (const std::string& doubt : profile_doubts(*hand.profile)) log_.logger().warn("{}: {}", hand.name, doubt);
+  }
   profiles_ = profiles_of(*hands);
   return {};
 }

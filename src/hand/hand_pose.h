@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -23,10 +24,13 @@ inline constexpr double kConfidenceRadius = 0.010;
 /// missing or explained badly for too long, and the hand is searched, its last good pose being one of the starts.
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
+/// A velocity needs two poses of one track, not too far apart in time.
+inline Vector6d unknown_velocity() { return Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
 /// The estimate of one segment in one frame. Camera frame, metres, radians.
 struct SegmentState {
   SE3 T_camera_segment;
-  Vector6d velocity = Vector6d::Zero();        ///< per second: linear of the origin, then angular
+  Vector6d velocity = unknown_velocity();      ///< per second: linear of the origin, then angular; NaN: not known
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
   double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius of the truth
   double visible = 0;                          ///< fraction of its projected pixels where it is front-most

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/format.h"
+#include "hand/profile_doubts.h"
 #include "io/json_fields.h"
 #include "io/skin_json.h"
 #include "io/whole_file.h"
@@ -227,6 +228,9 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
       return fail("segment " + std::string(name) + " is missing", path, "a hand has 16 segments, see docs/formats.md");
   const auto tree = check_parents(parents, path).and_then([&] { return check_joints(profile, path); });
   if (!tree) return tl::unexpected(tree.error());
+  if (limits_look_like_radians(profile))
+    return fail("\"limits_deg\": most joints may bend by less than 3.2 degrees, which look like radians", path,
+                "multiply them by 180 / pi");
   if (json.contains("skin")) {
     if (profile.origin == ProfileOrigin::mean)
       return fail("\"skin\" stands beside \"mean_hand\"", path, "a scanned hand is nobody else's: remove one");

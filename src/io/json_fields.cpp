@@ -7,6 +7,9 @@
 #include "io/whole_file.h"
 
 namespace barehand::json_fields {
+
+using namespace std::string_literals;
+
 namespace {
 
 std::string range_text(double lo, double hi) {
@@ -99,8 +102,11 @@ Result<SE3> Object::transform(const char* key) const {
 
   // Only a rigid motion is accepted.
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
-  const bool rotation = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3 && R.determinant() > 0;
-  if (!rotation) return bad(*this, key, "holds no right-handed rotation", wanted);
+  const double skew = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();
+  if (R.determinant() > 0 && skew >= 1e-3 && skew < 0.1)
+    return bad(*this, key, "holds no exact rotation: perhaps its numbers are rounded",
+               wanted + ", with 4 decimals or more"s);
+  if (!(skew < 1e-3 && R.determinant() > 0)) return bad(*this, key, "holds no right-handed rotation", wanted);
   if ((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9)
     return bad(*this, key, "does not end with the row 0 0 0 1", wanted);
   return SE3{orthonormalised(R), m.topRightCorner<3, 1>()};

@@ -81,11 +81,12 @@ class Scanner {
     if (size_ - at < kEventHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
     entry.channel.resize(channel_size);
     if (!read(at + kEventHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
-    std::array<std::uint8_t, 16> start{};
+    std::array<std::uint8_t, 24> start{};
     const auto known = std::min<std::size_t>(start.size(), static_cast<std::size_t>(entry.size));
     if (std::fread(start.data(), 1, known, file_) != known) return std::nullopt;
     if (known >= 8) entry.hash = big_endian(&start[0], 8);
     if (known >= 16) entry.utime = big_endian(&start[8], 8);
+    if (known >= 24) entry.third = big_endian(&start[16], 8);
     return entry;
   }
 

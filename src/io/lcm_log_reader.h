@@ -18,6 +18,7 @@ struct LogEntry {
   std::int32_t size = 0;   ///< of the message [bytes]
   std::int64_t hash = 0;   ///< the message's type fingerprint; 0 if it is shorter than 8 bytes
   std::int64_t utime = 0;  ///< the message's second 64-bit word, the time of the measurement in every type read here
+  std::int64_t third = 0;  ///< its third one, `seq` in rgbd_frame_t
 };
 
 /// Random access to an LCM log. Believes nothing that the file says about its own lengths, and survives damage:

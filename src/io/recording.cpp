@@ -1,54 +1,19 @@
 #include "io/recording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
+#include "core/format.h"
+#include "io/camera_json.h"
 #include "io/file_bytes.h"
 #include "io/image_file.h"
-#include "io/json_fields.h"
 #include "io/stamped_list.h"
-#include "math/camera_limits.h"
+#include "math/frame_order.h"
 
 namespace barehand {
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<int> whole_number(const json_fields::Object& object, const char* key) {
-  const auto value = object.number(key, 1, 16384);
-  if (!value) return tl::unexpected(value.error());
-  if (*value != std::floor(*value)) return fail(std::string("\"") + key + "\" is no whole number", object.where);
-  return static_cast<int>(*value);
-}
-
-Result<void> read_camera(const std::string& path, Recording& recording) {
-  if (is_missing(path))
-    return fail("is missing: without the camera's intrinsics depth has no scale", path,
-                "write width, height, fx, fy, cx, cy and depth_units_per_metre, see docs/formats.md");
-  const auto json = json_fields::read_json(path);
-  if (!json) return tl::unexpected(json.error());
-  if (!json->is_object()) return fail("holds no JSON object", path, "see docs/formats.md");
-  const json_fields::Object object{*json, path};
-  Intrinsics& camera = recording.camera;
-  const auto put = [](auto& target) { return [&target](auto value) { target = value; }; };
-  double units = 0;
-  return whole_number(object, "width")
-      .map(put(camera.width))
-      .and_then([&] { return whole_number(object, "height").map(put(camera.height)); })
-      .and_then([&] { return object.number("fx", 1, kLargestFocal).map(put(camera.fx)); })
-      .and_then([&] { return object.number("fy", 1, kLargestFocal).map(put(camera.fy)); })
-      .and_then([&] { return object.number("cx", -kLargestFocal, kLargestFocal).map(put(camera.cx)); })
-      .and_then([&] { return object.number("cy", -kLargestFocal, kLargestFocal).map(put(camera.cy)); })
-      .and_then([&] { return object.number("depth_units_per_metre", 1, 1e7).map(put(units)); })
-      .and_then([&] { return object.number_or("fps", 0, 0, 10000).map(put(recording.fps)); })
-      .and_then([&]() -> Result<void> {
-        recording.depth_unit = 1 / units;
-        if (plausible(camera)) return {};
-        return fail("\"width\" and \"height\" make too large an image", path,
-                    "it must have at most 4096 x 4096 pixels");
-      });
-}
 
 /// The typical time between two frames [us].
 std::int64_t frame_interval(const std::vector<StampedFile>& depth) {
@@ -70,23 +35,59 @@ std::string nearest_file(const std::vector<StampedFile>& sorted, std::int64_t ut
   return best->file;
 }
 
-Result<std::vector<StampedFile>> read_colour_list(const std::string& directory) {
-  const std::string path = directory + "/rgb.txt";
-  if (is_missing(path)) return std::vector<StampedFile>{};
+/// Sorted by time; none where there is no list, or none that makes sense, which is then said.
+std::vector<StampedFile> read_colour_list(Recording& recording) {
+  const std::string path = recording.directory + "/rgb.txt";
+  if (is_missing(path)) return {};
   auto files = read_stamped_list(path);
-  if (files)
-    std::stable_sort(files->begin(), files->end(),
-                     [](const StampedFile& a, const StampedFile& b) { return a.utime < b.utime; });
-  return files;
+  if (!files || files->empty()) {
+    recording.doubts.push_back(files ? path + ": lists no images; depth is used without colour"
+                                     : files.error().message() + "; depth is used without colour");
+    return {};
+  }
+  std::stable_sort(files->begin(), files->end(),
+                   [](const StampedFile& a, const StampedFile& b) { return a.utime < b.utime; });
+  return *std::move(files);
 }
 
-Result<void> check_order(const std::vector<StampedFile>& depth, const std::string& path) {
-  if (depth.empty()) return fail("lists no frames", path, "the recording is empty");
-  for (std::size_t i = 1; i < depth.size(); ++i)
-    if (depth[i].utime < depth[i - 1].utime)
-      return fail("line " + std::to_string(depth[i].line) + ": the time stamp goes back", path,
-                  "put the lines in order of time");
-  return {};
+/// The frames of depth.txt with their colour, and what their stamps say.
+void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
+  const std::vector<StampedFile> colour = read_colour_list(recording);
+  const std::int64_t window = frame_interval(depth);
+  FrameOrder order(StampUnit::seconds);
+  for (const StampedFile& file : depth) {
+    RecordingEntry entry{file.utime, file.file, nearest_file(colour, file.utime, window), {}, {}};
+    if (entry.colour_file.empty() && !colour.empty())
+      entry.colour_fault = formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(window));
+    const auto number = static_cast<std::int64_t>(recording.entries.size());
+    if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
+    recording.entries.push_back(std::move(entry));
+  }
+  for (const std::string& doubt : order.take_last_doubts())
+    recording.doubts.push_back(recording.directory + "/depth.txt: " + doubt);
+}
+
+/// Takes over what the file says of the camera; a lens' images are made a pinhole's where that is known how.
+void use_camera(CameraFile file, const std::string& path, Recording& recording) {
+  constexpr double kNoticed = 0.5;  // px
+  constexpr double kLeast = 0.5;    // of the image
+  recording.camera = file.camera;
+  recording.depth_unit = file.depth_unit;
+  recording.fps = file.fps;
+  recording.doubts = std::move(file.doubts);
+  if (file.distortion == Distortion{}) return;
+  auto undistortion = std::make_shared<const Undistortion>(file.camera, file.distortion);
+  if (undistortion->shown() < kLeast) {
+    recording.doubts.push_back(path +
+                               ": no lens has these coefficients of distortion; they are not used (are they in "
+                               "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
+  } else if (undistortion->largest_shift() > kNoticed) {
+    recording.doubts.push_back(
+        path + formatted(": the images are undistorted with the coefficients given, by up to %.3g pixels (if they are "
+                         "rectified already, add \"rectified\": true)",
+                         undistortion->largest_shift()));
+    recording.undistortion = std::move(undistortion);
+  }
 }
 
 /// One look at the start, so that a wrong camera.json stops the run instead of having every frame skipped.
@@ -94,6 +95,17 @@ Result<void> check_first_image(const Recording& recording) {
   const auto image = read_depth_png(recording.entries.front().depth_file);
   if (!image) return {};  // one bad file is a skipped frame, not a bad recording
   return check_size(image->width(), image->height(), recording.camera, recording.entries.front().depth_file);
+}
+
+/// The colour of a frame, or why there is none.
+Result<Image<Rgb>> read_frame_colour(const Recording& recording, const std::string& path) {
+  auto colour = read_colour(path);
+  if (!colour) return colour;
+  const Intrinsics& camera = recording.camera;
+  if (colour->width() != camera.width || colour->height() != camera.height)
+    return fail(formatted("is %dx%d, depth is %dx%d", colour->width(), colour->height(), camera.width, camera.height),
+                path, "register colour to depth: the same pixel must be the same ray");
+  return colour;
 }
 
 }  // namespace
@@ -104,20 +116,16 @@ Result<Recording> open_recording(const std::string& directory) {
     return fail("is no folder" + (error ? ": " + error.message() : ""), directory, "name a recording folder");
   Recording recording;
   recording.directory = directory;
-  if (const auto camera = read_camera(directory + "/camera.json", recording); !camera)
-    return tl::unexpected(camera.error());
+  const std::string camera_path = directory + "/camera.json";
+  auto camera = read_camera_json(camera_path);
+  if (!camera) return tl::unexpected(camera.error());
+  use_camera(*std::move(camera), camera_path, recording);
+
   const std::string list = directory + "/depth.txt";
   const auto depth = read_stamped_list(list);
   if (!depth) return tl::unexpected(depth.error());
-  if (const auto order = check_order(*depth, list); !order) return tl::unexpected(order.error());
-  const auto colour = read_colour_list(directory);
-  if (!colour) return tl::unexpected(colour.error());
-
-  const std::int64_t window = frame_interval(*depth);
-  for (const StampedFile& file : *depth) {
-    const bool repeats = !recording.entries.empty() && recording.entries.back().utime == file.utime;
-    recording.entries.push_back({file.utime, file.file, nearest_file(*colour, file.utime, window), repeats});
-  }
+  if (depth->empty()) return fail("lists no frames", list, "the recording is empty");
+  list_frames(*depth, recording);
   if (const auto first = check_first_image(recording); !first) return tl::unexpected(first.error());
   return recording;
 }
@@ -133,13 +141,17 @@ Result<FramePtr> read_frame(const Recording& recording, std::int64_t number) {
   if (!depth) return tl::unexpected(depth.error());
   const auto depth_size = check_size(depth->width(), depth->height(), recording.camera, entry.depth_file);
   if (!depth_size) return tl::unexpected(depth_size.error());
-  frame->depth = std::move(*depth);
+  const Undistortion* lens = recording.undistortion.get();
+  frame->depth = lens ? lens->apply(*depth) : std::move(*depth);
+
+  // Depth is what is tracked: it goes on without colour.
+  frame->colour_fault = entry.colour_fault;
   if (entry.colour_file.empty()) return frame;
-  auto colour = read_colour(entry.colour_file);
-  if (!colour) return tl::unexpected(colour.error());
-  const auto colour_size = check_size(colour->width(), colour->height(), recording.camera, entry.colour_file);
-  if (!colour_size) return tl::unexpected(colour_size.error());
-  frame->colour = std::move(*colour);
+  auto colour = read_frame_colour(recording, entry.colour_file);
+  if (colour)
+    frame->colour = lens ? lens->apply(*colour) : std::move(*colour);
+  else
+    frame->colour_fault = colour.error().message();
   return frame;
 }
 

@@ -15,6 +15,7 @@
 #include "core/format.h"
 #include "hand/joint_angles.h"
 #include "io/file_bytes.h"
+#include "math/frame_order.h"
 
 namespace barehand {
 namespace {
@@ -23,7 +24,8 @@ constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,
 constexpr std::size_t kColumns = 10;
 // No table has more; differences and sums of what is within stay numbers.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
-constexpr double kLargestTime = 1e12, kFarthest = 1e6;  // s, m
+constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // s: no source has later frames
+constexpr double kFarthest = 1e6;                                          // m
 
 struct ParsedLine {
   std::int64_t number = 0;

@@ -10,6 +10,7 @@
 
 #include "io/file_bytes.h"
 #include "io/whole_file.h"
+#include "math/frame_order.h"
 
 namespace barehand {
 namespace fs = std::filesystem;
@@ -33,7 +34,7 @@ std::string_view without_comment(std::string_view text) {
 std::optional<double> seconds_in(std::string_view word) {
   double seconds = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
-  const bool number = error == std::errc{} && end == word.data() + word.size() && std::abs(seconds) < 9e12;
+  const bool number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(seconds);
   return number ? std::optional(seconds) : std::nullopt;
 }
 
@@ -87,6 +88,9 @@ Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
     if (std::exchange(first, false) && !has_digit(word)) continue;
 
     const auto seconds = seconds_in(word);
+    if (seconds && std::abs(*seconds) * 1e6 > static_cast<double>(kLatestUtime))
+      return fail("line " + std::to_string(number) + " has the time stamp " + std::string(word), path,
+                  too_late(*seconds, StampUnit::seconds));
     const auto file = seconds ? file_in(trimmed(content.substr(word.size())), folder) : std::nullopt;
     if (!file)
       return fail("line " + std::to_string(number) + " is \"" + line + "\"", path,

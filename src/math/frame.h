@@ -24,6 +24,7 @@ struct RgbdFrame {
   double depth_unit = 0.001;   ///< metres per depth count
   Image<std::uint16_t> depth;  ///< counts; 0 = no measurement
   Image<Rgb> colour;           ///< empty if there is none; pure black: no colour at this pixel
+  std::string colour_fault;    ///< why colour that was expected is not there; "": nothing to say
 };
 using FramePtr = std::shared_ptr<const RgbdFrame>;
 

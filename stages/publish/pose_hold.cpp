@@ -10,7 +10,7 @@ SegmentState held(SegmentState state, double seconds, const PublishParams& param
   state.covariance.diagonal().head<3>().array() += position * position;
   state.covariance.diagonal().tail<3>().array() += rotation * rotation;
   state.confidence *= 1 - seconds / params.hold_time;
-  state.velocity.setZero();
+  state.velocity = unknown_velocity();
   state.seen = false;
   state.visible = 0;
   return state;

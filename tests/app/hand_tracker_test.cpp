@@ -102,7 +102,24 @@ TEST_F(GivenStart, ElsewhereIsNoMotion) {
   tracker_.start_at(moved);
   const HandEstimatePtr estimate = next(*test::observe_skin(make_blended_skin(*profile_, 0.004), moved));
   ASSERT_EQ(estimate->status, TrackStatus::tracking);
-  EXPECT_LT(estimate->segments[kPalm].velocity.head<3>().norm(), 0.1);
+  EXPECT_TRUE(estimate->segments[kPalm].velocity.array().isNaN().all()) << "a pose that was given is no motion";
+}
+
+TEST_F(GivenStart, VelocitiesAreKnownWithinATrackOnly) {
+  const auto known = [&](const HandObservation& observation) {
+    const HandEstimatePtr estimate = next(observation);
+    int finite = 0;
+    for (const SegmentState& segment : estimate->segments) finite += segment.velocity.array().isFinite().all();
+    EXPECT_TRUE(finite == 0 || finite == kSegmentCount) << finite;
+    return finite > 0;
+  };
+  tracker_.start_at(pose_);
+  EXPECT_FALSE(known(*hand_)) << "the first frame";
+  EXPECT_TRUE(known(*hand_));
+  utime_ += 500'000;
+  EXPECT_FALSE(known(*hand_)) << "after a gap";
+  EXPECT_TRUE(known(*hand_));
+  EXPECT_FALSE(known(HandObservation{})) << "held";
 }
 
 /// A hand that is tracked, goes away and comes back, or a larger one in its place.

@@ -195,9 +195,14 @@ class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithPara
     HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
     for (SE3& T : pose) T.t.x() += kRightX;
     tracker.hand(0).start_at(pose);
-    for (int i = 0; i < 70; ++i) EXPECT_EQ(next(tracker, right_hand_)[0]->status, TrackStatus::tracking);
+    for (int i = 0; i < 71; ++i) {
+      const HandEstimates estimates = next(tracker, right_hand_);
+      EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);
+      confidence_ = estimates[0]->segments[kPalm].confidence;
+    }
     return out.str();
   }
+  double confidence_ = 0;  ///< that is stated of the palm after that
 };
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ProfileOfAnotherSize, ::testing::Values(0.88, 1.0, 1.14));
@@ -207,6 +212,7 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
   const std::string text = said(size);
   EXPECT_EQ(text.find("% larger") != std::string::npos, size < 1) << text;
   EXPECT_EQ(text.find("% smaller") != std::string::npos, size > 1) << text;
+  EXPECT_EQ(confidence_ < 0.3, size != 1) << confidence_ << ": the scale may be wrong instead";
 }
 
 }  // namespace

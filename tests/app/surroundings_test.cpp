@@ -101,7 +101,8 @@ TEST_F(Surroundings, ALimitOnTheSizeOfFilesIsAFullDisk) {
 TEST_F(Surroundings, HangupEndsARecordingInOrder) {
   ChildProcess child({BAREHAND_PROGRAM, "record", "--source", kHand + std::string(",live=true,loop=true"), "--out",
                       folder_ / "a.lcmlog"});
-  while (!fs::exists(folder_ / "a.lcmlog") || fs::file_size(folder_ / "a.lcmlog") == 0) sched_yield();
+  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
+    sched_yield();
   child.signal(SIGHUP);
   child.signal(SIGHUP);  // a terminal that goes away sends it twice
   EXPECT_EQ(child.finish(), 0) << child.output();
@@ -114,7 +115,8 @@ TEST_F(Surroundings, HangupEndsATrackedRecordingInOrder) {
   test::write_text(folder_ / "quick.yaml", test::quick_config());
   ChildProcess child({BAREHAND_PROGRAM, "track", "--source", kHand + std::string(",loop=true"), "--no-publish",
                       "--config", folder_ / "quick.yaml", "--states-log", folder_ / "s.lcmlog"});
-  while (!fs::exists(folder_ / "s.lcmlog") || fs::file_size(folder_ / "s.lcmlog") == 0) sched_yield();
+  while (!fs::exists(folder_ / "s.lcmlog.unfinished") || fs::file_size(folder_ / "s.lcmlog.unfinished") == 0)
+    sched_yield();
   child.signal(SIGHUP);
   EXPECT_EQ(child.finish(), 130) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("stopped by SIGHUP"));
@@ -125,7 +127,8 @@ TEST_F(Surroundings, AProgramUnderNohupOutlivesItsTerminal) {
   ChildProcess child({"sh", "-c",
                       "trap '' HUP; exec " BAREHAND_PROGRAM " record --source " + std::string(kHand) +
                           ",live=true,loop=true --frames 20 --out " + (folder_ / "a.lcmlog")});
-  while (!fs::exists(folder_ / "a.lcmlog") || fs::file_size(folder_ / "a.lcmlog") == 0) sched_yield();
+  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
+    sched_yield();
   child.signal(SIGHUP);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_EQ(events(folder_ / "a.lcmlog"), 20u);

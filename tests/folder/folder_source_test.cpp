@@ -70,7 +70,7 @@ TEST_F(Folder, RepeatedStampIsSkippedInBothDirections) {
   record(true);
   EXPECT_THAT(play({}), ElementsAre(0, 1, 2, 3, -1, 5, 6));
   EXPECT_THAT(play({.start = {}, .step = -1}), ElementsAre(6, 5, -1, 3, 2, 1, 0));
-  EXPECT_THAT(skipped_.front(), HasSubstr("frame 4 has the time stamp of the frame before"));
+  EXPECT_THAT(skipped_.front(), HasSubstr("frame 4: its time is not later than that of the frame before"));
 }
 
 TEST_F(Folder, StartOutsideAndStepZeroAreErrors) {

@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "hand/skin.h"
+#include "math/angles.h"
 #include "small_hand.h"
 #include "support/resource_limit.h"
 #include "support/temp_folder.h"
@@ -257,6 +259,35 @@ TEST_F(HandJson, BadSkinIsNamed) {
   EXPECT_THAT(with([](json& j) { j["skin"].erase("vertices"); }), HasSubstr("\"vertices\" is missing"));
   EXPECT_THAT(with([](json& j) { j["skin"] = 3; }), HasSubstr("\"vertices\" is missing"));
   EXPECT_THAT(with([](json& j) { j["mean_hand"] = true; }), HasSubstr("beside \"mean_hand\""));
+}
+
+TEST_F(HandJson, LimitsInRadiansAreRefusedAndAFewStiffJointsAreNot) {
+  const auto limits_times = [&](double factor, int joints) {
+    EXPECT_TRUE(save_profile(small_hand(), path_));
+    return error_after([&](json& hand) {
+      for (json& segment : hand["segments"])
+        for (json& dof : segment["dofs"])
+          if (joints-- > 0)
+            for (json& limit : dof["limits_deg"]) limit = factor * limit.get<double>();
+    });
+  };
+  EXPECT_THAT(limits_times(kDegree, 100), AllOf(HasSubstr("look like radians"), HasSubstr("180 / pi")));
+  EXPECT_THAT(limits_times(kDegree, 15), HasSubstr("look like radians"));
+  EXPECT_EQ(limits_times(kDegree, 6), "accepted") << "a splint";
+  EXPECT_EQ(limits_times(0, 100), "accepted") << "fixed on purpose";
+}
+
+TEST_F(HandJson, ARotationWithRoundedNumbersIsNamedAsSuch) {
+  const auto rounded_to = [&](double unit) {
+    EXPECT_TRUE(save_profile(small_hand(), path_));
+    return error_after([&](json& hand) {
+      for (json& segment : hand["segments"])
+        for (json& row : segment["rest_transform"])
+          for (json& number : row) number = std::round(number.get<double>() / unit) * unit;
+    });
+  };
+  EXPECT_THAT(rounded_to(0.01), HasSubstr("perhaps its numbers are rounded"));
+  EXPECT_EQ(rounded_to(1e-5), "accepted");
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ namespace barehand {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 namespace fs = std::filesystem;
 
 RgbdFrame frame_at(std::int64_t utime, std::uint16_t depth, bool with_colour = true) {
@@ -215,7 +217,7 @@ TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
   record();
   fs::remove(path_ + "/rgb.txt");
   fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // to itself
-  EXPECT_THAT(open_error(), HasSubstr("rgb.txt: cannot be read"));
+  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("rgb.txt: cannot be read")));
   fs::remove(path_ + "/camera.json");
   fs::create_symlink("camera.json", path_ + "/camera.json");
   EXPECT_THAT(open_error(), HasSubstr("camera.json: cannot be read"));
@@ -224,10 +226,47 @@ TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
   EXPECT_FALSE(RecordingWriter::create(path_));
 }
 
-TEST_F(RecordingFolder, StampsThatGoBackNameTheLine) {
+TEST_F(RecordingFolder, FramesOutOfOrderAreNotUsedAndALargeStepBackIsANewStart) {
   record();
-  replace("depth.txt", "1700000000.100000", "1699999999.000000");
-  EXPECT_THAT(open_error(), AllOf(HasSubstr("depth.txt"), HasSubstr("line 3"), HasSubstr("goes back")));
+  replace("depth.txt", "1700000000.100000", "1699999999.900000");
+  EXPECT_THAT(open_recording(path_)->entries[1].fault, HasSubstr("not later than that of the frame before"));
+  EXPECT_EQ(open_recording(path_)->entries[2].fault, "");
+  replace("depth.txt", "1699999999.900000", "17.000000");
+  const auto recording = open_recording(path_);
+  EXPECT_EQ(recording->entries[1].fault, "");
+  EXPECT_THAT(recording->doubts,
+              ElementsAre(AllOf(HasSubstr("depth.txt"), HasSubstr("frame 1"), HasSubstr("new start"))));
+}
+
+TEST_F(RecordingFolder, StampsBeforeZeroAndWithExponentsAreTimes) {
+  record(false);
+  test::write_text(path_ + "/depth.txt",
+                   "-0.05 depth/000000.png\n-1.7e-2 depth/000001.png\n1.6000000000000000e-02 depth/000002.png\n");
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->entries[0].utime, -50'000);
+  EXPECT_EQ(recording->entries[1].utime, -17'000);
+  EXPECT_EQ(recording->entries[2].utime, 16'000);
+  EXPECT_THAT(recording->doubts, IsEmpty());
+}
+
+TEST_F(RecordingFolder, StampsInOtherUnitsAreNamedAndThoseThatCannotBeTimesStopTheStart) {
+  record(false);
+  const auto list = [&](const char* first, const char* second, const char* third) {
+    std::string text;
+    for (const char* stamp : {first, second, third}) text += std::string(stamp) + " depth/000000.png\n";
+    test::write_text(path_ + "/depth.txt", text);
+  };
+  list("1000", "1033.3", "1066.7");
+  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("milliseconds: divide them by 1e3")));
+  list("1", "2", "3");
+  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("frame numbers")));
+  list("1700000000000", "1700000000033", "1700000000067");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("line 1"), HasSubstr("milliseconds since the epoch")));
+  list("1700000000000000000", "1700000000033000000", "1700000000067000000");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("line 1"), HasSubstr("nanoseconds since the epoch")));
+  list("inf", "1", "2");
+  EXPECT_THAT(open_error(), HasSubstr("line 1 is \"inf"));
 }
 
 TEST_F(RecordingFolder, SenselessLineIsNamed) {
@@ -255,10 +294,111 @@ TEST_F(RecordingFolder, BadImagesAreNamed) {
   EXPECT_THAT(error(1), AllOf(HasSubstr("depth/000001.png"), HasSubstr("is 4x6")));
   ASSERT_TRUE(write_colour(path_ + "/depth/000001.png", Image<Rgb>(8, 6)));
   EXPECT_THAT(error(1), HasSubstr("no 16-bit image"));
-  fs::remove(path_ + "/rgb/000002.png");
-  EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("cannot be read")));
-  fs::create_directory(path_ + "/rgb/000002.png");
-  EXPECT_THAT(error(2), AllOf(HasSubstr("rgb/000002.png"), HasSubstr("is a folder")));
+}
+
+TEST_F(RecordingFolder, ColourThatIsMissingDamagedOrOfAnotherSizeCostsNoDepth) {
+  record();
+  const auto recording = open_recording(path_);
+  const auto expect_depth_alone = [&](const char* why) {
+    const auto frame = read_frame(*recording, 2);
+    ASSERT_TRUE(frame) << frame.error().message();
+    EXPECT_EQ((*frame)->depth.at(0, 0), 5002);
+    EXPECT_TRUE((*frame)->colour.empty());
+    EXPECT_THAT((*frame)->colour_fault, AllOf(HasSubstr("rgb/000002.png"), HasSubstr(why)));
+  };
+  const std::string path = path_ + "/rgb/000002.png";
+  ASSERT_TRUE(write_colour(path, Image<Rgb>(16, 12)));
+  expect_depth_alone("is 16x12, depth is 8x6");
+  ASSERT_TRUE(write_depth_png(path, Image<std::uint16_t>(4, 6)));
+  expect_depth_alone("is 4x6");
+  test::write_text(path, "");
+  expect_depth_alone("rgb");
+  test::write_text(path, "<html>404</html>");
+  expect_depth_alone("neither a PNG nor a JPEG");
+  fs::remove(path);
+  expect_depth_alone("cannot be read");
+  fs::create_directory(path);
+  expect_depth_alone("is a folder");
+}
+
+TEST_F(RecordingFolder, AListOfColourThatMakesNoSenseCostsNoDepth) {
+  record();
+  for (const char* text : {"", "# nothing\n", "noon rgb/000000.png\n", "1700000000.0\n", "1.7e18 rgb/000000.png\n"}) {
+    test::write_text(path_ + "/rgb.txt", text);
+    const auto recording = open_recording(path_);
+    ASSERT_TRUE(recording) << text;
+    EXPECT_THAT(recording->doubts, ElementsAre(AllOf(HasSubstr("rgb.txt"), HasSubstr("without colour")))) << text;
+    EXPECT_TRUE((*read_frame(*recording, 0))->colour.empty());
+  }
+}
+
+TEST_F(RecordingFolder, FramesBetweenTheColourImagesSayThatTheyHaveNone) {
+  record();
+  test::write_text(path_ + "/rgb.txt", "1700000000.000000 rgb/000000.png\n");
+  const auto recording = open_recording(path_);
+  EXPECT_EQ((*read_frame(*recording, 0))->colour_fault, "");
+  EXPECT_THAT((*read_frame(*recording, 2))->colour_fault, HasSubstr("rgb.txt lists none within 0.100 s"));
+}
+
+TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
+  record();
+  const std::string plain = test::read_text(path_ + "/camera.json");
+  const auto open_with = [&](const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    auto recording = open_recording(path_);
+    EXPECT_TRUE(recording) << recording.error().message();
+    return *std::move(recording);
+  };
+  const auto undistorted = [&](const std::string& keys) {
+    const Recording recording = open_with(keys);
+    EXPECT_THAT(recording.doubts, ElementsAre(AllOf(HasSubstr("undistorted"), HasSubstr("rectified")))) << keys;
+    return recording.undistortion != nullptr;
+  };
+  EXPECT_TRUE(undistorted(R"("distortion_model": "plumb_bob", "D": [-2.5, 0, 0, 0, 0])")) << "ROS";
+  EXPECT_TRUE(undistorted(R"("distortion_coefficients": {"rows": 1, "cols": 5, "data": [-2.5, 0, 0, 0, 0]})"))
+      << "OpenCV";
+  EXPECT_TRUE(undistorted(R"("k1": -2.5, "k2": 0.1)"));
+  EXPECT_TRUE(undistorted(R"("distortion": [-2.5, 0, 0, 0])"));
+  EXPECT_TRUE(undistorted(R"("model": "rational", "dist_coeffs": [-2.5, 0, 0, 0, 0, 0.1, 0, 0])")) << "k4a";
+  EXPECT_TRUE(undistorted(R"("model": "Intel RealSense D435", "coeffs": [-2.5, 0, 0, 0, 0])"));
+  EXPECT_TRUE(undistorted(R"("intrinsics": {"model": "brown_conrady", "coeffs": [-2.5, 0, 0, 0, 0]})")) << "nested";
+
+  const auto refused = [&](const std::string& keys, const char* why) {
+    const Recording recording = open_with(keys);
+    EXPECT_THAT(recording.doubts, ElementsAre(HasSubstr(why))) << keys;
+    return recording.undistortion == nullptr;
+  };
+  EXPECT_TRUE(refused(R"("model": "inverse_brown_conrady", "coeffs": [-2.5, 0, 0, 0, 0])", "inverse_brown_conrady"));
+  EXPECT_TRUE(refused(R"("distortion_model": "equidistant", "D": [0.1, 0, 0, 0])", "equidistant"));
+  EXPECT_TRUE(refused(R"("distortion_model": "my own", "k1": 0.1)", "my own"));
+  EXPECT_TRUE(refused(R"("D": [0.1, 0, 0, 0, 0, 0, 0, 0, 0.2, 0, 0, 0])", "beyond k6")) << "thin prism";
+  EXPECT_TRUE(refused(R"("D": [-4000, 0, 0, 0, 0])", "no lens"));
+
+  for (const char* none :
+       {R"("D": [0, 0, 0, 0, 0])", R"("D": [])", R"("k1": 0.0)", R"("distortion_model": "plumb_bob")",
+        R"("model": "none", "coeffs": [0.1, 0, 0, 0, 0])", R"("D": [1e-6, 0, 0, 0, 0])",
+        R"("D": [-2.5, 0, 0, 0, 0], "rectified": true)", R"("distortion": null)"}) {
+    const Recording recording = open_with(none);
+    EXPECT_THAT(recording.doubts, IsEmpty()) << none;
+    EXPECT_FALSE(recording.undistortion) << none;
+  }
+}
+
+TEST_F(RecordingFolder, DepthAndColourAreUndistortedAlike) {
+  record();
+  Image<std::uint16_t> depth(8, 6, 5000);
+  Image<Rgb> colour(8, 6, Rgb{200, 100, 50});
+  depth.at(1, 1) = 7000;
+  colour.at(1, 1) = {1, 2, 3};
+  ASSERT_TRUE(write_depth_png(path_ + "/depth/000000.png", depth));
+  ASSERT_TRUE(write_colour(path_ + "/rgb/000000.png", colour));
+  replace("camera.json", "\"fx\"", "\"k1\": -1.8, \"fx\"");
+  const auto frame = read_frame(*open_recording(path_), 0);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ((*frame)->depth.at(0, 0), 7000) << "a barrel draws the corners inwards";
+  EXPECT_EQ((*frame)->colour.at(0, 0), (Rgb{1, 2, 3}));
+  EXPECT_EQ((*frame)->depth.at(4, 3), 5000);
 }
 
 TEST_F(RecordingFolder, ImagesThatAreTooLargeOrOfAnotherKindDoNotReachTheDecoder) {

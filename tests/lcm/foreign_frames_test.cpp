@@ -36,7 +36,26 @@ TEST(Kinect, DepthAndColourSurvive) {
 TEST(Kinect, ColourOfAnotherSizeIsLeftOut) {
   kinect::frame_msg_t message = kinect_message(test_frame(3), true);
   message.image.width = 80;
-  EXPECT_TRUE((*decode_kinect(message, kCamera, 0))->colour.empty());
+  const auto frame = decode_kinect(message, kCamera, 0);
+  EXPECT_TRUE((*frame)->colour.empty());
+  EXPECT_EQ((*frame)->colour_fault.substr(0, 29), "is 80x30, depth is 40x30 (reg");
+}
+
+/// Whether the frame has its depth, no colour, and says why.
+bool depth_alone(const Result<std::shared_ptr<RgbdFrame>>& frame) {
+  return frame && (*frame)->depth.at(5, 5) == test_frame(3).depth.at(5, 5) && (*frame)->colour.empty() &&
+         !(*frame)->colour_fault.empty();
+}
+
+TEST(Kinect, ColourThatIsDamagedOrUnknownCostsNoDepth) {
+  kinect::frame_msg_t message = kinect_message(test_frame(3), true);
+  message.image.image_data.resize(100);
+  EXPECT_TRUE(depth_alone(decode_kinect(message, kCamera, 0)));
+  message = kinect_message(test_frame(3), true);
+  message.image.image_data_format = 1;
+  EXPECT_TRUE(depth_alone(decode_kinect(message, kCamera, 0)));
+  message.image.image_data_format = kinect::image_msg_t::VIDEO_NONE;
+  EXPECT_EQ((*decode_kinect(message, kCamera, 0))->colour_fault, "") << "none was promised";
 }
 
 TEST(Kinect, WithoutIntrinsicsTheErrorSaysWhatToSet) {
@@ -71,8 +90,6 @@ TEST(Kinect, LyingFieldsAreErrors) {
   EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.height = -30; }));
   EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.depth_data_format = 0; }));
   EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.depth.compression = 9; }));
-  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.image.image_data.resize(100); }));
-  EXPECT_TRUE(refused([](kinect::frame_msg_t& m) { m.image.image_data_format = 1; }));
 }
 
 TEST(BotImages, DepthAndColourSurvive) {
@@ -107,13 +124,23 @@ TEST(BotImages, LyingFieldsAreErrors) {
   EXPECT_FALSE(refused([](bot_core::images_t&) {}));
   EXPECT_TRUE(refused([](bot_core::images_t& m) { m.image_types[1] = 2; })) << "no depth";
   EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[1].width = 1 << 30; }));
-  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].row_stride = -1; }));
-  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].row_stride = 1 << 30; }));
-  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].data.resize(5); }));
-  EXPECT_TRUE(refused([](bot_core::images_t& m) { m.images[0].pixelformat = 1; }));
   EXPECT_TRUE(refused([](bot_core::images_t& m) {
     for (auto& image : m.images) image.width = image.height = 2'000'000'000;
   }));
+}
+
+TEST(BotImages, ColourThatLiesCostsNoDepth) {
+  const auto costs_none = [](auto change) {
+    bot_core::images_t message = images_message(test_frame(3), true);
+    change(message.images[0]);
+    return depth_alone(decode_images(message, kCamera, 0));
+  };
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.row_stride = -1; }));
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.row_stride = 1 << 30; }));
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.data.resize(5); }));
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.pixelformat = 1; }));
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.width = 20; }));
+  EXPECT_TRUE(costs_none([](bot_core::image_t& m) { m.width = 1 << 30; }));
 }
 
 TEST(BotImages, TruncatedAndDamagedBytesAreErrorsOrFrames) {

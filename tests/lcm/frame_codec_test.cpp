@@ -52,6 +52,7 @@ TEST(FrameCodec, AFrameWithoutColourStaysWithout) {
   const rgbd_frame_t message = encode_frame(frame, {}).value();
   EXPECT_EQ(message.colour_encoding, rgbd_frame_t::COLOUR_NONE);
   EXPECT_TRUE((*decode_frame(message))->colour.empty());
+  EXPECT_EQ((*decode_frame(message))->colour_fault, "");
 }
 
 TEST(FrameCodec, AFrameWhoseImagesDifferFromItsIntrinsicsIsNotEncoded) {
@@ -75,24 +76,42 @@ TEST(FrameCodec, LyingSizesAreErrors) {
   }
 }
 
-TEST(FrameCodec, ColourOfAnotherSizeIsAnError) {
-  rgbd_frame_t message = message_of();
-  message.colour = encode_png(Image<Rgb>(20, 15)).value();
-  EXPECT_FALSE(decode_frame(message));
-  message.colour = encode_jpeg(Image<Rgb>(20, 15), 90).value();
-  EXPECT_FALSE(decode_frame(message));
+/// The message gives the depth of the test frame, no colour, and says why.
+void expect_depth_alone(const rgbd_frame_t& message) {
+  const auto decoded = decode_frame(message);
+  ASSERT_TRUE(decoded) << decoded.error().message();
+  RgbdFrame depth_alone = test_frame(3);
+  depth_alone.colour = {};
+  expect_same_frame(**decoded, depth_alone);
+  EXPECT_NE((*decoded)->colour_fault, "");
 }
 
-TEST(FrameCodec, DamagedColourIsAnError) {
-  for (const auto colour : {ColourEncoding::jpeg, ColourEncoding::png}) {
+TEST(FrameCodec, ColourOfAnotherSizeCostsNoDepth) {
+  rgbd_frame_t message = message_of();
+  message.colour = encode_png(Image<Rgb>(20, 15)).value();
+  expect_depth_alone(message);
+  message.colour = encode_jpeg(Image<Rgb>(20, 15), 90).value();
+  expect_depth_alone(message);
+  message = message_of({.colour = ColourEncoding::raw_rgb});
+  message.colour.resize(message.colour.size() * 4);
+  expect_depth_alone(message);
+}
+
+TEST(FrameCodec, DamagedColourCostsNoDepth) {
+  for (const auto colour : {ColourEncoding::jpeg, ColourEncoding::png, ColourEncoding::raw_rgb}) {
     rgbd_frame_t message = message_of({.colour = colour});
     message.colour.resize(message.colour.size() / 2);
-    EXPECT_FALSE(decode_frame(message));
+    expect_depth_alone(message);
     message.colour = {0xFF};
-    EXPECT_FALSE(decode_frame(message));
+    expect_depth_alone(message);
     message.colour.clear();
-    EXPECT_FALSE(decode_frame(message));
+    expect_depth_alone(message);
   }
+  rgbd_frame_t message = message_of();
+  message.colour_encoding = 77;
+  expect_depth_alone(message);
+  message.colour_encoding = rgbd_frame_t::COLOUR_NONE;  // and yet there is some
+  expect_depth_alone(message);
 }
 
 TEST(FrameCodec, MissingIntrinsicsOrDepthUnitIsAnError) {
@@ -112,12 +131,9 @@ TEST(FrameCodec, MissingIntrinsicsOrDepthUnitIsAnError) {
   EXPECT_FALSE(refused([](rgbd_frame_t&) {}));
 }
 
-TEST(FrameCodec, UnknownEncodingsAreErrors) {
+TEST(FrameCodec, AnUnknownEncodingOfDepthIsAnError) {
   rgbd_frame_t message = message_of();
   message.depth_encoding = 77;
-  EXPECT_FALSE(decode_frame(message));
-  message = message_of();
-  message.colour_encoding = 77;
   EXPECT_FALSE(decode_frame(message));
 }
 

@@ -99,11 +99,43 @@ TEST_F(LcmLive, ARepeatedFrameIsSkipped) {
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
 }
 
-TEST_F(LcmLive, AClockThatWasSetBackIsANewStart) {
-  for (const int number : {100, 1, 2}) {
-    send("RGBD_FRAME", frame_bytes(number));
-    EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong))) << number;
+TEST_F(LcmLive, AClockThatWasSetBackIsANewStartAndNumbersGoOn) {
+  send("RGBD_FRAME", frame_bytes(100));
+  EXPECT_EQ(std::get<FramePtr>(source_.next(kLong))->number, 100);
+  send("RGBD_FRAME", frame_bytes(1));
+  const SourceEvent told = source_.next(kLong);
+  EXPECT_NE(std::get<SourceNotice>(told).error.what.find("the time goes back by 3.300 s"), std::string::npos);
+  EXPECT_EQ(std::get<FramePtr>(source_.next(kLong))->number, 101);
+  send("RGBD_FRAME", frame_bytes(2));
+  EXPECT_EQ(std::get<FramePtr>(source_.next(kLong))->number, 102) << "told once";
+}
+
+TEST_F(LcmLive, TimesInAnotherUnitAreNamedOnce) {
+  int notices = 0, frames = 0;
+  for (int i = 0; i < 40; ++i) {
+    RgbdFrame frame = test_frame(i);
+    frame.utime = 33 * i;
+    send("RGBD_FRAME", encode_message(encode_frame(frame, {}).value()));
+    SourceEvent event = source_.next(kLong);
+    if (const auto* notice = std::get_if<SourceNotice>(&event)) {
+      EXPECT_NE(notice->error.what.find("milliseconds"), std::string::npos) << notice->error.what;
+      ++notices;
+      event = source_.next(kLong);
+    }
+    frames += std::holds_alternative<FramePtr>(event);
   }
+  EXPECT_EQ(notices, 1);
+  EXPECT_EQ(frames, 40);
+}
+
+TEST_F(LcmLive, DamagedColourCostsNoDepth) {
+  rgbd_frame_t message = encode_frame(test_frame(1), {}).value();
+  message.colour.resize(20);
+  message.colour_size = 20;
+  send("RGBD_FRAME", encode_message(message));
+  const FramePtr frame = std::get<FramePtr>(source_.next(kLong));
+  EXPECT_TRUE(frame->colour.empty());
+  EXPECT_NE(frame->colour_fault, "");
 }
 
 TEST_F(LcmLive, OtherChannelsAreNotHeard) {

@@ -144,7 +144,44 @@ TEST_F(LcmLog, RepeatedAndOutdatedFramesAreSkipped) {
 
 TEST_F(LcmLog, AClockThatWasSetBackIsANewStart) {
   for (const int number : {100, 101, 1, 2, 1, 3}) append("RGBD_FRAME", frame_bytes(number));
-  EXPECT_EQ(play(), "100 101 1 2 skip 3 end");
+  EXPECT_EQ(play(), "100 101 102 103 skip 104 end") << "numbers go on";
+  EXPECT_EQ(play({.step = -1}), "104 skip 103 102 101 100 end");
+  const auto source = LcmLogSource::open(path_).value();
+  ASSERT_EQ(source->doubts().size(), 2u) << "and one frame of six is out of order";
+  EXPECT_NE(source->doubts()[0].find("new start"), std::string::npos);
+}
+
+TEST_F(LcmLog, NumbersGoOnOverASetOfLogsWhoseRecorderWasStartedAgain) {
+  for (const auto& [name, start] : {std::pair("take-1.lcmlog", 0), std::pair("take-2.lcmlog", 60)}) {
+    const auto log = LcmLogWriter::create(folder_ / name, false).value();
+    for (int i = 0; i < 3; ++i) {
+      RgbdFrame frame = test_frame(i);
+      frame.utime += start * 1'000'000;
+      ASSERT_TRUE(log->send("RGBD_FRAME", encode_message(encode_frame(frame, {}).value()), frame.utime));
+    }
+  }
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "0 1 2 3 4 5 end");
+  EXPECT_EQ(play({.start = 4}), "4 5 end") << "a number does not depend on where play starts";
+  EXPECT_EQ(play({.step = -2}), "5 3 1 end");
+  EXPECT_TRUE(LcmLogSource::open(path_).value()->doubts().empty());
+}
+
+TEST_F(LcmLog, TimesInAnotherUnitAreNamed) {
+  for (int i = 0; i < 5; ++i) {
+    RgbdFrame frame = test_frame(i);
+    frame.utime = 1'700'000'000'000 + 33 * i;
+    append("RGBD_FRAME", encode_message(encode_frame(frame, {}).value()));
+  }
+  EXPECT_EQ(play(), "0 1 2 3 4 end");
+  const auto source = LcmLogSource::open(path_).value();
+  ASSERT_EQ(source->doubts().size(), 1u);
+  EXPECT_NE(source->doubts()[0].find("milliseconds"), std::string::npos) << source->doubts()[0];
+
+  RgbdFrame frame = test_frame(5);
+  frame.utime = 1'700'000'000'000'000'000;
+  append("RGBD_FRAME", encode_message(encode_frame(frame, {}).value()));
+  EXPECT_EQ(play(), "0 1 2 3 4 skip end") << "nanoseconds since the epoch are no microseconds";
 }
 
 TEST_F(LcmLog, EveryTruncationReplaysTheWholeEvents) {

@@ -1,4 +1,4 @@
-#include "drivers/openni2/picture_check.h"
+#include "math/picture_check.h"
 
 #include <gtest/gtest.h>
 

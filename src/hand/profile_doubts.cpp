@@ -1,0 +1,58 @@
+#include "hand/profile_doubts.h"
+
+#include <cmath>
+
+#include "core/format.h"
+#include "math/angles.h"
+
+namespace barehand {
+namespace {
+
+// Wrist joint to fingertip [m]: of a child of two and of the largest adults, with some room.
+constexpr double kSmallest = 0.1, kLargest = 0.25;
+constexpr double kGap = 0.0005;             // m
+constexpr double kRadians = 3.2 * kDegree;  // half a turn in radians, taken for degrees
+
+}  // namespace
+
+std::vector<std::string> profile_doubts(const HandProfile& profile) {
+  std::vector<std::string> doubts;
+
+  const double length = profile.hand_length();
+  if (length < kSmallest || length > kLargest)
+    doubts.push_back(
+        formatted("the hand is %.0f mm long from wrist to fingertip, people's are from 100 to 250 mm: are its "
+                  "lengths right, and in metres?",
+                  1e3 * length));
+
+  // A finger's joint is the end of the bone before it; the knuckles lie somewhere on the palm.
+  double widest = kGap;
+  int at = -1;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (s == kPalm || parent_of(s) == kPalm) continue;
+    const double gap = (profile.rest_relative(s).t - profile.segments[parent_of(s)].distal).norm();
+    if (gap <= widest) continue;
+    widest = gap;
+    at = s;
+  }
+  if (at >= 0)
+    doubts.push_back(
+        formatted("the joint of %s lies %.1f mm from the end of the bone before it: are the numbers of "
+                  "\"rest_transform\" rounded? Six decimals are exact enough",
+                  kSegmentNames[at].data(), 1e3 * widest));
+  return doubts;
+}
+
+bool limits_look_like_radians(const HandProfile& profile) {
+  int joints = 0, stiff = 0;
+  for (const SegmentProfile& segment : profile.segments) {
+    for (const JointDof& dof : segment.dofs) {
+      if (dof.upper <= dof.lower) continue;  // fixed on purpose
+      ++joints;
+      stiff += std::abs(dof.lower) <= kRadians && std::abs(dof.upper) <= kRadians;
+    }
+  }
+  return 2 * stiff > joints;
+}
+
+}  // namespace barehand
