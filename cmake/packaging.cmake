@@ -1,7 +1,7 @@
 # What `cmake --install` puts where, and the Debian packages made of it: cpack --preset package. The component `video` is a
 # package of its own, barehand-video, because libav's hundred packages are for those alone who want videos.
 include(GNUInstallDirs)
-set(data share/barehand)  # src/app/data_files.cpp looks beside the program
+set(data share/barehand)  # src/io/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
 install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json" PATTERN "*.onnx")
 install(DIRECTORY lcmtypes DESTINATION ${data} FILES_MATCHING PATTERN "*.lcm" PATTERN foreign EXCLUDE)

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Holds who may include whom: app -> stages, drivers -> observe -> hand -> math -> core; io beside observe; stages and
-# drivers never include another of their kind; SDKs stay in their folders. First shows that it notices violations.
+# Holds who may include whom, from the top floor down:
+#   app -> pipeline -> tracking -> person -> stages, drivers -> evaluation -> io, observe -> hand, sensor -> math -> core
+# Stages and drivers never include another of their kind, io and observe never each other, and SDKs stay in their
+# folders. First shows that it notices violations.
 #   include_directions.sh SOURCE_TREE
 set -u
 
@@ -9,41 +11,68 @@ violations() {  # ROOT: prints every forbidden include
   forbid() {  # FOLDER PATTERN
     [ -d "$1" ] && grep -rnE --include='*.h' --include='*.cpp' "#include [\"<]($2)" "$1"
   }
-  local outer='app/|stages/|drivers/'
-  forbid src/core "math/|hand/|observe/|io/|$outer"
-  forbid src/math "hand/|observe/|io/|$outer"
-  forbid src/hand "observe/|io/|$outer"
-  forbid src/observe "io/|$outer"
-  forbid src/io "observe/|$outer"
-  forbid stages 'app/|drivers/'
-  forbid drivers 'app/|stages/'
+
+  # Every floor forbids all floors above it.
+  local above='app/|pipeline/|tracking/|person/'
+  forbid src/pipeline 'app/'
+  forbid src/tracking 'app/|pipeline/'
+  forbid src/person 'app/|pipeline/|tracking/'
+  forbid stages "$above|drivers/"
+  forbid drivers "$above|stages/"
+  above="$above|stages/|drivers/"
+  forbid src/evaluation "$above"
+  above="$above|evaluation/"
+  forbid src/io "$above|observe/"
+  forbid src/observe "$above|io/"
+  above="$above|io/|observe/"
+  forbid src/hand "$above"
+  forbid src/sensor "$above|hand/"
+  above="$above|hand/|sensor/"
+  forbid src/math "$above"
+  forbid src/core "$above|math/"
+
+  # Neighbours on one floor keep apart.
   local folder
   for folder in stages/* drivers/*; do
     [ -d "$folder" ] && forbid "$folder" "${folder%%/*}/" | grep -v "#include \"$folder/"
   done
-  for folder in src/core src/math src/hand src/observe stages/segment_tracker stages/fusion stages/refinement \
-                stages/prediction; do
+
+  # What belongs to one folder alone.
+  for folder in src/core src/math src/sensor src/hand src/observe src/person stages/segment_tracker stages/fusion \
+                stages/refinement stages/prediction stages/search stages/pose_prior; do
     forbid "$folder" 'opencv2/|lcm/|assimp/|yaml-cpp/|nlohmann/'
   done
   forbid drivers 'opencv2/|yaml-cpp/'
   for folder in src stages drivers; do
     forbid "$folder" 'EGL/|GLES' | grep -v '^src/observe/egl/'
     forbid "$folder" 'libav|libsw' | grep -v '^src/io/video/'
-    forbid "$folder" 'OpenNI|Oni|openni2/|libusb' | grep -vE '^drivers/(openni2|usb)/'
+    forbid "$folder" 'OpenNI|Oni|openni2/|libusb' | grep -vE '^drivers/(openni2|usb)/|"drivers/openni2/'
+    forbid "$folder" 'opencv2/dnn' | grep -v '^stages/detection/'
   done
 }
 
 example=$(mktemp -d)
 trap 'rm -rf "$example"' EXIT
-mkdir -p "$example"/{src/core,stages/fusion,drivers/lcm}
+mkdir -p "$example"/{src/core,src/person,src/tracking,src/sensor,stages/fusion,drivers/lcm}
 echo '#include "hand/profile.h"' >"$example/src/core/a.h"
 echo '#include "stages/publish/publisher.h"' >"$example/stages/fusion/b.cpp"
 echo '#include <opencv2/core.hpp>' >"$example/drivers/lcm/c.cpp"
 echo '#include <EGL/egl.h>' >"$example/src/core/d.h"
 echo '#include <OpenNI.h>' >"$example/src/core/e.h"
 echo '#include <libavcodec/avcodec.h>' >"$example/src/core/f.h"
+echo '#include "tracking/hand_tracker.h"' >"$example/src/person/g.h"
+echo '#include "pipeline/pipeline.h"' >"$example/src/tracking/h.h"
+echo '#include "hand/profile.h"' >"$example/src/sensor/i.h"
+echo '#include <opencv2/dnn.hpp>' >"$example/src/tracking/j.cpp"
 found=$(violations "$example" | wc -l)
-[ "$found" = 6 ] || { echo "the check itself is broken: it found $found of 6 planted violations"; exit 1; }
+[ "$found" = 10 ] || { echo "the check itself is broken: it found $found of 10 planted violations"; exit 1; }
 
 found=$(violations "$1")
 [ -z "$found" ] || { echo "forbidden includes:"; echo "$found"; exit 1; }
+
+# A folder that nobody can take in at a glance is two folders.
+for folder in $(cd "$1" && find src stages drivers -type d); do
+  files=$(find "$1/$folder" -maxdepth 1 -type f | wc -l) most=30
+  [ "$folder" = src/app ] && most=12
+  [ "$files" -le "$most" ] || { echo "$folder holds $files files, at most $most are allowed"; exit 1; }
+done

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "io/recording.h"
-#include "math/source.h"
+#include "io/recording/recording.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/image.h"
-#include "math/camera_limits.h"
+#include "sensor/camera_limits.h"
 
 namespace barehand {
 

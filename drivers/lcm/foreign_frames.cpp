@@ -5,7 +5,7 @@
 
 #include "core/format.h"
 #include "drivers/lcm/depth_codec.h"
-#include "io/image_codec.h"
+#include "io/recording/image_codec.h"
 
 namespace barehand {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "bot_core/images_t.hpp"
 #include "kinect/frame_msg_t.hpp"
-#include "math/frame.h"
-#include "math/given_intrinsics.h"
+#include "sensor/given_intrinsics.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

@@ -3,10 +3,10 @@
 #include <cstring>
 #include <string>
 
-#include "io/image_codec.h"
-#include "io/jpeg_codec.h"
-#include "io/png_codec.h"
-#include "math/camera_limits.h"
+#include "io/recording/image_codec.h"
+#include "io/recording/jpeg_codec.h"
+#include "io/recording/png_codec.h"
+#include "sensor/camera_limits.h"
 
 namespace barehand {
 namespace {

@@ -3,7 +3,7 @@
 #include "barehand/rgbd_frame_t.hpp"
 #include "core/error.h"
 #include "drivers/lcm/depth_codec.h"
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

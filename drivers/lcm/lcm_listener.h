@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "drivers/lcm/wire.h"
-#include "io/lcm_bus.h"
+#include "io/lcm/lcm_bus.h"
 
 struct _lcm_recv_buf_t;
 struct _lcm_subscription_t;  // liblcm's own
@@ -21,7 +21,8 @@ class LcmListener {
   /// Called on the listener's thread; the bytes are valid during the call.
   using Handler = std::function<void(const std::string& channel, WireBytes message)>;
 
-  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". A glob that liblcm refuses leaves the connection broken.
+  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". A glob that liblcm refuses leaves the connection
+  /// broken.
   LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler);
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;

@@ -11,8 +11,8 @@
 
 #include "drivers/lcm/foreign_frames.h"
 #include "drivers/lcm/lcm_listener.h"
-#include "math/frame_order.h"
-#include "math/source.h"
+#include "sensor/frame_order.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

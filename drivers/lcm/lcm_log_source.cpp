@@ -9,8 +9,8 @@
 #include "core/quote.h"
 #include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_message.h"
-#include "io/log_names.h"
-#include "math/frame_order.h"
+#include "io/lcm/log_names.h"
+#include "sensor/frame_order.h"
 
 namespace barehand {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/lcm/foreign_frames.h"
-#include "io/lcm_log_reader.h"
-#include "math/source.h"
+#include "io/lcm/lcm_log_reader.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/statistics.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

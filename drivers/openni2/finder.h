@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/clock.h"
-#include "core/usb_bus.h"
 #include "drivers/openni2/library.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

@@ -5,7 +5,7 @@
 
 #include "core/repeat_filter.h"
 #include "drivers/openni2/event_box.h"
-#include "drivers/openni2/frame_pool.h"
+#include "drivers/openni2/frames/frame_pool.h"
 
 namespace barehand {
 

@@ -6,10 +6,10 @@
 #include <mutex>
 #include <string>
 
-#include "core/usb_bus.h"
 #include "drivers/openni2/backoff.h"
 #include "drivers/openni2/finder.h"
 #include "drivers/openni2/live_session.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/format.h"
-#include "drivers/openni2/pixels.h"
-#include "drivers/openni2/video_modes.h"
+#include "drivers/openni2/frames/pixels.h"
+#include "drivers/openni2/frames/video_modes.h"
 
 namespace barehand {
 namespace {

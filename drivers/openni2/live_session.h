@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "drivers/openni2/colour_pairing.h"
-#include "drivers/openni2/device_clock.h"
+#include "drivers/openni2/frames/colour_pairing.h"
+#include "drivers/openni2/frames/device_clock.h"
 #include "drivers/openni2/live_output.h"
 #include "drivers/openni2/sensor.h"
-#include "math/picture_check.h"
+#include "sensor/picture_check.h"
 
 namespace barehand {
 

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <string_view>
 
+#include "drivers/openni2/frames/pixels.h"
+#include "drivers/openni2/frames/video_modes.h"
 #include "drivers/openni2/library.h"
 #include "drivers/openni2/openni_file_source.h"
-#include "drivers/openni2/pixels.h"
-#include "drivers/openni2/video_modes.h"
 
 namespace barehand {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "drivers/openni2/colour_pairing.h"
+#include "drivers/openni2/frames/colour_pairing.h"
 #include "drivers/openni2/sensor.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "drivers/openni2/openni_params.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "core/usb_bus.h"
 #include "drivers/openni2/openni_params.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "math/given_intrinsics.h"
+#include "sensor/given_intrinsics.h"
 
 namespace barehand {
 

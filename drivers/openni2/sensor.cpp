@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/openni2/frames/video_modes.h"
 #include "drivers/openni2/library.h"
-#include "drivers/openni2/video_modes.h"
-#include "math/camera_limits.h"
+#include "sensor/camera_limits.h"
 
 namespace barehand {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/usb_bus.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "drivers/synthetic/animated_hand.h"
-#include "drivers/synthetic/depth_noise.h"
-#include "io/result_table.h"
-#include "math/frame.h"
+#include "drivers/synthetic/hand/animated_hand.h"
+#include "drivers/synthetic/rendering/depth_noise.h"
+#include "io/hand/result_table.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand::synthetic {
 

@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 #include "drivers/synthetic/synthetic_spec.h"
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand::synthetic {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/comma_list.h"
-#include "io/config_visitor.h"
+#include "io/config/config_visitor.h"
 
 namespace barehand::synthetic {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/usb_bus.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

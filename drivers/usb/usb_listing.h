@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "core/usb_bus.h"
+#include "sensor/usb_bus.h"
 
 namespace barehand {
 

@@ -5,18 +5,18 @@
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 
-#include "app/bench_command.h"
-#include "app/calibrate_command.h"
-#include "app/convert_command.h"
-#include "app/doctor_command.h"
-#include "app/eval_command.h"
-#include "app/exit_code.h"
-#include "app/experiment_command.h"
-#include "app/listen_command.h"
-#include "app/record_command.h"
-#include "app/sim_command.h"
-#include "app/standard_streams.h"
-#include "app/track_command.h"
+#include "app/bench/bench_command.h"
+#include "app/calibrate/calibrate_command.h"
+#include "app/doctor/doctor_command.h"
+#include "app/eval/eval_command.h"
+#include "app/experiment/experiment_command.h"
+#include "app/listen/listen_command.h"
+#include "app/record/convert_command.h"
+#include "app/record/record_command.h"
+#include "app/shared/exit_code.h"
+#include "app/shared/standard_streams.h"
+#include "app/sim/sim_command.h"
+#include "app/track/track_command.h"
 
 namespace barehand {
 

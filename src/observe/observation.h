@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/frame_memory.h"
-#include "math/frame.h"
 #include "observe/detection.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

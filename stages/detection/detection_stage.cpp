@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/tint.h"
+#include "sensor/tint.h"
 
 namespace barehand {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/log.h"
 #include "hand/hand_pose.h"
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 #include "stages/detection/hand_detector.h"
 
 namespace barehand {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "math/frame.h"
 #include "observe/detection.h"
+#include "sensor/rgbd_frame.h"
 #include "stages/detection/network.h"
 #include "stages/detection/params.h"
 

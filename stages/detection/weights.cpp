@@ -4,7 +4,7 @@
 
 #include "core/format.h"
 #include "io/file_bytes.h"
-#include "io/json_fields.h"
+#include "io/hand/json_fields.h"
 
 namespace barehand {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/parallel/parallel.h"
 
 namespace barehand {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "core/parallel.h"
+#include "core/parallel/parallel.h"
 #include "hand/hand_pose.h"
 #include "hand/samples.h"
 #include "stages/fusion/fusion_params.h"

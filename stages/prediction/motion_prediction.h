@@ -5,9 +5,9 @@
 
 #include "core/frame_memory.h"
 #include "hand/hand_pose.h"
-#include "stages/prediction/observed_cloud.h"
-#include "stages/prediction/rigid_icp.h"
-#include "stages/prediction/visible_points.h"
+#include "observe/registration/observed_cloud.h"
+#include "observe/registration/rigid_icp.h"
+#include "observe/registration/visible_points.h"
 
 namespace barehand {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "math/tint.h"
+#include "sensor/tint.h"
 
 namespace barehand {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 #include "stages/preprocess/params.h"
 #include "stages/preprocess/skin_model.h"
 

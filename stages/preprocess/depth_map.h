@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 #include "stages/preprocess/params.h"
 
 namespace barehand {

@@ -6,7 +6,7 @@
 
 #include "observe/detection.h"
 #include "stages/preprocess/alignment.h"
-#include "stages/preprocess/components.h"
+#include "stages/preprocess/image/components.h"
 #include "stages/preprocess/predicted_hand.h"
 #include "stages/preprocess/wrist.h"
 

@@ -2,12 +2,12 @@
 
 #include <span>
 
+#include "observe/dense/pixel_rays.h"
 #include "observe/observation.h"
-#include "observe/pixel_rays.h"
 #include "stages/preprocess/depth_map.h"
 #include "stages/preprocess/hand_search.h"
-#include "stages/preprocess/specks.h"
-#include "stages/preprocess/window_sum.h"
+#include "stages/preprocess/image/specks.h"
+#include "stages/preprocess/image/window_sum.h"
 
 namespace barehand {
 

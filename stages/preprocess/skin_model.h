@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

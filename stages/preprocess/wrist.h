@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "stages/preprocess/components.h"
+#include "stages/preprocess/image/components.h"
 
 namespace barehand {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "barehand/health_t.hpp"
-#include "io/message_sink.h"
+#include "io/lcm/message_sink.h"
 #include "stages/publish/hand_messages.h"
 
 namespace barehand {

@@ -4,7 +4,7 @@
 
 #include "hand/gaussian_tree.h"
 #include "hand/joint_angles.h"
-#include "observe/model_comparison.h"
+#include "observe/dense/model_comparison.h"
 
 namespace barehand {
 

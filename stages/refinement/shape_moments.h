@@ -5,7 +5,7 @@
 
 #include "hand/gaussian_tree.h"
 #include "hand/hand_shape.h"
-#include "observe/model_comparison.h"
+#include "observe/dense/model_comparison.h"
 
 namespace barehand {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/parallel.h"
-#include "observe/observer.h"
+#include "core/parallel/parallel.h"
+#include "observe/sampled/observer.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
 namespace barehand {

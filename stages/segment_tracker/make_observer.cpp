@@ -1,8 +1,8 @@
 #include "stages/segment_tracker/make_observer.h"
 
 #include "observe/egl/egl_observer.h"
-#include "observe/fallback_observer.h"
-#include "observe/faster_observer.h"
+#include "observe/sampled/fallback_observer.h"
+#include "observe/sampled/faster_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 
 namespace barehand {

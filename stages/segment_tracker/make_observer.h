@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/clock.h"
-#include "core/parallel.h"
-#include "observe/observer.h"
+#include "core/parallel/parallel.h"
+#include "observe/sampled/observer.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
 namespace barehand {

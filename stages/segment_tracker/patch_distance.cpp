@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/simd.h"
+#include "core/parallel/simd.h"
 
 namespace barehand {
 namespace {

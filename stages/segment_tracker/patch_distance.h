@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hand/surface.h"
-#include "observe/observer.h"
+#include "observe/sampled/observer.h"
 
 namespace barehand {
 

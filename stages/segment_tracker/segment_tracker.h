@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "core/parallel.h"
+#include "core/parallel/parallel.h"
 #include "hand/samples.h"
 #include "hand/surface.h"
 #include "observe/observation.h"
-#include "observe/observer.h"
+#include "observe/sampled/observer.h"
 #include "stages/segment_tracker/sampling.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 #include "stages/segment_tracker/self_occlusion.h"

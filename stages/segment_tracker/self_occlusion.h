@@ -4,7 +4,7 @@
 
 #include "hand/hand_pose.h"
 #include "hand/surface.h"
-#include "observe/pixel_map.h"
+#include "observe/sampled/pixel_map.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
 
 namespace barehand {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/bench_report.h"
-#include "app/bench_sweep.h"
-#include "io/json_fields.h"
+#include "app/bench/bench_report.h"
+#include "app/bench/bench_sweep.h"
+#include "io/hand/json_fields.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

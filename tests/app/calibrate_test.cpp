@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "child_process.h"
 #include "hand/profile.h"
 #include "hand/skin.h"
-#include "io/hand_json.h"
-#include "io/recording_writer.h"
-#include "quick_config.h"
+#include "io/hand/hand_json.h"
+#include "io/recording/recording_writer.h"
 #include "support/adult_hand.h"
+#include "support/child_process.h"
+#include "support/quick_config.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

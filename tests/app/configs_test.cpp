@@ -4,7 +4,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "app/config.h"
+#include "pipeline/config.h"
 
 namespace barehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/copy_frames.h"
+#include "app/record/copy_frames.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "app/doctor_checks.h"
+#include "app/doctor/doctor_checks.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

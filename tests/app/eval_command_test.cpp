@@ -1,4 +1,4 @@
-#include "app/eval_command.h"
+#include "app/eval/eval_command.h"
 
 #include <gmock/gmock.h>
 
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/lcm/layouts.h"
-#include "io/hand_json.h"
-#include "io/lcm_log_writer.h"
-#include "io/recording_writer.h"
-#include "io/result_table.h"
+#include "io/hand/hand_json.h"
+#include "io/hand/result_table.h"
+#include "io/lcm/lcm_log_writer.h"
+#include "io/recording/recording_writer.h"
 #include "support/temp_folder.h"
-#include "tests/io/small_hand.h"
+#include "tests/support/small_hand.h"
 
 namespace barehand {
 namespace {

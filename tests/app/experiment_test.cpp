@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <set>
 
-#include "app/experiment_run.h"
-#include "app/run_inputs.h"
+#include "app/experiment/experiment_run.h"
+#include "app/shared/run_inputs.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

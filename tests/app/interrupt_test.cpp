@@ -1,4 +1,4 @@
-#include "app/interrupt.h"
+#include "app/shared/interrupt.h"
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

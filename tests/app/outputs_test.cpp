@@ -1,4 +1,4 @@
-#include "app/outputs.h"
+#include "app/shared/outputs.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "app/scan_report.h"
+#include "app/calibrate/scan_report.h"
 
 #include <gmock/gmock.h>
 

@@ -1,15 +1,15 @@
-#include "app/sim_run.h"
+#include "app/sim/sim_run.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "app/source_factory.h"
+#include "app/shared/source_factory.h"
 #include "drivers/lcm/lcm_log_source.h"
-#include "io/hand_json.h"
-#include "io/pose_json.h"
-#include "io/recording.h"
-#include "io/result_table.h"
+#include "io/hand/hand_json.h"
+#include "io/hand/pose_json.h"
+#include "io/hand/result_table.h"
+#include "io/recording/recording.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

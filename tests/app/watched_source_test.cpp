@@ -1,4 +1,4 @@
-#include "app/watched_source.h"
+#include "app/shared/watched_source.h"
 
 #include <gmock/gmock.h>
 

@@ -2,9 +2,9 @@
 
 #include "benchmarks/world.h"
 #include "drivers/lcm/wire.h"
-#include "stages/prediction/coarse_score.h"
 #include "stages/prediction/motion_prediction.h"
 #include "stages/publish/hand_messages.h"
+#include "stages/search/coarse_score.h"
 
 namespace barehand::bench {
 namespace {

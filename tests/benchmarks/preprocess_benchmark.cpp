@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/world.h"
-#include "stages/preprocess/distance_transform.h"
+#include "stages/preprocess/image/distance_transform.h"
 #include "stages/preprocess/preprocess.h"
 
 namespace barehand::bench {

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "app/tracker_params.h"
 #include "hand/skin.h"
 #include "observe/observation.h"
 #include "stages/preprocess/params.h"
+#include "tracking/tracker_params.h"
 
 namespace barehand::bench {
 

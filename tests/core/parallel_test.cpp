@@ -1,4 +1,4 @@
-#include "core/parallel.h"
+#include "core/parallel/parallel.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

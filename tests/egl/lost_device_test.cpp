@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "observe/egl/egl_observer.h"
-#include "observe/fallback_observer.h"
+#include "observe/sampled/fallback_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 #include "stages/segment_tracker/make_observer.h"
 #include "support/text_logger.h"

@@ -4,7 +4,7 @@
 
 #include "hand/surface.h"
 #include "math/random.h"
-#include "observe/observer.h"
+#include "observe/sampled/observer.h"
 #include "support/scene.h"
 
 namespace barehand {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "io/recording_writer.h"
+#include "io/recording/recording_writer.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,6 +1,6 @@
 #include "drivers/lcm/command.h"
 #include "fuzz/message.h"
-#include "io/hand_json.h"
+#include "io/hand/hand_json.h"
 
 /// A command up to where the tracker would follow it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,9 +1,9 @@
-#include "app/run_params.h"
 #include "drivers/lcm/foreign_frames.h"
 #include "drivers/openni2/openni_params.h"
 #include "fuzz/memory_file.h"
-#include "io/config_file.h"
-#include "io/config_writer.h"
+#include "io/config/config_file.h"
+#include "io/config/config_writer.h"
+#include "pipeline/run_params.h"
 #include "stages/publish/publish_params.h"
 
 namespace {

@@ -1,5 +1,5 @@
+#include "evaluation/fingertips.h"
 #include "fuzz/memory_file.h"
-#include "io/fingertips.h"
 
 /// Labelled fingertips.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

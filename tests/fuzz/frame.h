@@ -3,7 +3,7 @@
 #include "drivers/lcm/frame_codec.h"
 #include "drivers/lcm/frame_message.h"
 #include "fuzz/message.h"
-#include "math/camera_limits.h"
+#include "sensor/camera_limits.h"
 
 namespace barehand::fuzz {
 

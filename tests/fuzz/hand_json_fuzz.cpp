@@ -3,7 +3,7 @@
 
 #include "fuzz/check.h"
 #include "fuzz/memory_file.h"
-#include "io/hand_json.h"
+#include "io/hand/hand_json.h"
 
 /// hand.json: what is accepted is a hand, and can be written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-#include "app/stated_poses.h"
+#include "app/eval/stated_poses.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include "fuzz/check.h"
-#include "io/image_codec.h"
+#include "io/recording/image_codec.h"
 
 /// A colour image. The largest ones cost a second under the sanitizers and show nothing more, so a megapixel is enough.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

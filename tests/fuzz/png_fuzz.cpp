@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "fuzz/check.h"
-#include "io/image_codec.h"
-#include "io/png_codec.h"
+#include "io/recording/image_codec.h"
+#include "io/recording/png_codec.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include "fuzz/memory_file.h"
-#include "io/hand_json.h"
-#include "io/pose_json.h"
+#include "io/hand/hand_json.h"
+#include "io/hand/pose_json.h"
 
 /// pose.json, as given to --init, for the shipped hand.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

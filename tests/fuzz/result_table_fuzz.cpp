@@ -1,5 +1,5 @@
+#include "evaluation/evaluation.h"
 #include "fuzz/memory_file.h"
-#include "io/evaluation.h"
 
 /// A truth or result table, judged against itself.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fuzz/memory_file.h"
-#include "io/stamped_list.h"
+#include "io/recording/stamped_list.h"
 
 namespace {
 

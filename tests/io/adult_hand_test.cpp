@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "hand/joint_angles.h"
-#include "io/hand_json.h"
+#include "io/hand/hand_json.h"
 
 namespace barehand {
 namespace {

@@ -1,11 +1,11 @@
-#include "io/config_file.h"
+#include "io/config/config_file.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "io/config_writer.h"
+#include "io/config/config_writer.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,4 +1,4 @@
-#include "io/hand_json.h"
+#include "io/hand/hand_json.h"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 
 #include "hand/skin.h"
 #include "math/angles.h"
-#include "small_hand.h"
 #include "support/resource_limit.h"
+#include "support/small_hand.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,11 +1,11 @@
-#include "io/image_codec.h"
+#include "io/recording/image_codec.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "io/jpeg_codec.h"
-#include "io/png_codec.h"
+#include "io/recording/jpeg_codec.h"
+#include "io/recording/png_codec.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,13 +1,13 @@
-#include "io/overlay.h"
+#include "io/overlay/overlay.h"
 
 #include <gmock/gmock.h>
 
 #include "hand/joint_angles.h"
-#include "io/image_file.h"
-#include "io/overlay_drawing.h"
+#include "io/overlay/overlay_drawing.h"
+#include "io/recording/image_file.h"
 #include "read_video.h"
-#include "small_hand.h"
 #include "support/resource_limit.h"
+#include "support/small_hand.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,10 +1,10 @@
-#include "io/pose_json.h"
+#include "io/hand/pose_json.h"
 
 #include <gmock/gmock.h>
 
 #include "hand/joint_angles.h"
 #include "math/angles.h"
-#include "small_hand.h"
+#include "support/small_hand.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

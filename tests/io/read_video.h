@@ -12,7 +12,7 @@ extern "C" {
 #include <string>
 #include <vector>
 
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand::test {
 

@@ -1,9 +1,9 @@
-#include "io/recording.h"
+#include "io/recording/recording.h"
 
 #include <gmock/gmock.h>
 
-#include "io/image_file.h"
-#include "io/recording_writer.h"
+#include "io/recording/image_file.h"
+#include "io/recording/recording_writer.h"
 #include "support/resource_limit.h"
 #include "support/temp_folder.h"
 

@@ -1,11 +1,11 @@
-#include "io/result_table.h"
+#include "io/hand/result_table.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "small_hand.h"
 #include "support/resource_limit.h"
+#include "support/small_hand.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

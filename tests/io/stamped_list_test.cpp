@@ -1,4 +1,4 @@
-#include "io/stamped_list.h"
+#include "io/recording/stamped_list.h"
 
 #include <gmock/gmock.h>
 

@@ -8,7 +8,7 @@
 #include "drivers/lcm/frame_message.h"
 #include "drivers/lcm/layouts.h"
 #include "foreign_messages.h"
-#include "io/image_codec.h"
+#include "io/recording/image_codec.h"
 #include "test_frames.h"
 
 namespace barehand {

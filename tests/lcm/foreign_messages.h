@@ -3,7 +3,7 @@
 #include "bot_core/images_t.hpp"
 #include "drivers/lcm/depth_codec.h"
 #include "kinect/frame_msg_t.hpp"
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "drivers/lcm/layouts.h"
-#include "io/image_codec.h"
-#include "io/jpeg_codec.h"
-#include "io/png_codec.h"
+#include "io/recording/image_codec.h"
+#include "io/recording/jpeg_codec.h"
+#include "io/recording/png_codec.h"
 #include "test_frames.h"
 
 namespace barehand {

@@ -10,7 +10,7 @@
 #include "drivers/lcm/frame_codec.h"
 #include "drivers/lcm/layouts.h"
 #include "foreign_messages.h"
-#include "io/lcm_log_writer.h"
+#include "io/lcm/lcm_log_writer.h"
 #include "support/resource_limit.h"
 #include "support/temp_folder.h"
 #include "test_frames.h"

@@ -1,11 +1,11 @@
-#include "io/lcm_log_writer.h"
+#include "io/lcm/lcm_log_writer.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 
-#include "io/lcm_log_reader.h"
+#include "io/lcm/lcm_log_reader.h"
 #include "support/resource_limit.h"
 #include "support/temp_folder.h"
 #include "test_frames.h"

@@ -1,8 +1,8 @@
-#include "io/log_names.h"
+#include "io/lcm/log_names.h"
 
 #include <gmock/gmock.h>
 
-#include "io/lcm_log_writer.h"
+#include "io/lcm/lcm_log_writer.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -1,7 +1,7 @@
 // Started by without_multicast.sh, in a network without any route.
 #include <gtest/gtest.h>
 
-#include "io/lcm_bus.h"
+#include "io/lcm/lcm_bus.h"
 
 namespace barehand {
 namespace {

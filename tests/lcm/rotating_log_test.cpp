@@ -1,4 +1,4 @@
-#include "io/rotating_log.h"
+#include "io/lcm/rotating_log.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "io/lcm_log_reader.h"
+#include "io/lcm/lcm_log_reader.h"
 #include "support/temp_folder.h"
 
 namespace barehand {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "math/frame.h"
 #include "math/random.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

@@ -1,4 +1,4 @@
-#include "observe/comparison_times.h"
+#include "observe/sampled/comparison_times.h"
 
 #include <gmock/gmock.h>
 

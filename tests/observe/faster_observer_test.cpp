@@ -1,4 +1,4 @@
-#include "observe/faster_observer.h"
+#include "observe/sampled/faster_observer.h"
 
 #include <gmock/gmock.h>
 

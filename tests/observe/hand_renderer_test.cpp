@@ -1,4 +1,4 @@
-#include "observe/hand_renderer.h"
+#include "observe/dense/hand_renderer.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "observe/model_comparison.h"
+#include "observe/dense/model_comparison.h"
 
 #include <algorithm>
 #include <cmath>

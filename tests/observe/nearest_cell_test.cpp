@@ -1,4 +1,4 @@
-#include "observe/nearest_cell.h"
+#include "observe/dense/nearest_cell.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "observe/pixel_map.h"
+#include "observe/sampled/pixel_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "observe/pixel_rays.h"
+#include "observe/dense/pixel_rays.h"
 
 #include <gtest/gtest.h>
 

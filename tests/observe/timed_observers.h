@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "observe/observer.h"
+#include "observe/sampled/observer.h"
 
 namespace barehand {
 

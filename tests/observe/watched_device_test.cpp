@@ -1,4 +1,4 @@
-#include "observe/watched_device.h"
+#include "observe/sampled/watched_device.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "drivers/openni2/colour_pairing.h"
+#include "drivers/openni2/frames/colour_pairing.h"
 
 #include <gtest/gtest.h>
 

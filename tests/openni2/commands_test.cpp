@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "app/barehand_program.h"
 #include "openni2/virtual_sensor.h"
+#include "support/barehand_program.h"
 
 namespace barehand {
 namespace {

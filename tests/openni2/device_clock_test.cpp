@@ -1,4 +1,4 @@
-#include "drivers/openni2/device_clock.h"
+#include "drivers/openni2/frames/device_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <thread>
 
-#include "app/child_process.h"
 #include "openni2/source_reader.h"
 #include "openni2/virtual_device/pictures.h"
 #include "openni2/virtual_sensor.h"
+#include "support/child_process.h"
 #include "support/ordinary_user.h"
 
 namespace barehand {

@@ -1,4 +1,4 @@
-#include "drivers/openni2/pixels.h"
+#include "drivers/openni2/frames/pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "math/source.h"
+#include "sensor/frame_source.h"
 
 namespace barehand {
 

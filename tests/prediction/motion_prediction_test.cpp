@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "point_world.h"
-#include "stages/prediction/start_templates.h"
+#include "stages/search/start_templates.h"
+#include "support/point_world.h"
 
 namespace barehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "stages/preprocess/components.h"
+#include "stages/preprocess/image/components.h"
 
 #include <gtest/gtest.h>
 

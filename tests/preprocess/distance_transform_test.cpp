@@ -1,4 +1,4 @@
-#include "stages/preprocess/distance_transform.h"
+#include "stages/preprocess/image/distance_transform.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "hand/hand_pose.h"
-#include "math/frame.h"
 #include "observe/observation.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand::test {
 

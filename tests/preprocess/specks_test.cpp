@@ -1,4 +1,4 @@
-#include "stages/preprocess/specks.h"
+#include "stages/preprocess/image/specks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stages/preprocess/window_sum.h"
+#include "stages/preprocess/image/window_sum.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 
 #include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_listener.h"
-#include "io/lcm_bus.h"
-#include "io/lcm_log_reader.h"
-#include "io/lcm_log_writer.h"
+#include "io/lcm/lcm_bus.h"
+#include "io/lcm/lcm_log_reader.h"
+#include "io/lcm/lcm_log_writer.h"
 #include "published_hand.h"
 
 namespace barehand {

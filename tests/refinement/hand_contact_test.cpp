@@ -4,8 +4,8 @@
 
 #include "gradient_error.h"
 #include "math/angles.h"
-#include "stages/prediction/start_templates.h"
 #include "stages/refinement/hand_energy.h"
+#include "stages/search/start_templates.h"
 #include "support/adult_hand.h"
 
 namespace barehand {

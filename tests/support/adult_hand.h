@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "hand/joint_angles.h"
-#include "io/hand_json.h"
+#include "io/hand/hand_json.h"
 
 namespace barehand::test {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "math/frame.h"
-#include "observe/hand_renderer.h"
+#include "observe/dense/hand_renderer.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand::test {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "observe/hand_renderer.h"
-#include "observe/nearest_cell.h"
+#include "observe/dense/hand_renderer.h"
+#include "observe/dense/nearest_cell.h"
 #include "observe/observation.h"
 #include "support/adult_hand.h"
 

@@ -1,11 +1,11 @@
-#include "drivers/synthetic/depth_noise.h"
+#include "drivers/synthetic/rendering/depth_noise.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "drivers/synthetic/depth_loss.h"
+#include "drivers/synthetic/rendering/depth_loss.h"
 
 namespace barehand::synthetic {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "drivers/synthetic/grasp_planner.h"
-#include "drivers/synthetic/shapes.h"
+#include "drivers/synthetic/rendering/shapes.h"
+#include "drivers/synthetic/sequences/grasp_planner.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {

@@ -1,11 +1,11 @@
-#include "drivers/synthetic/hand_mesh.h"
+#include "drivers/synthetic/hand/hand_mesh.h"
 
 #include <gmock/gmock.h>
 
 #include <map>
 
-#include "drivers/synthetic/hand_mirror.h"
-#include "drivers/synthetic/hand_shape.h"
+#include "drivers/synthetic/hand/hand_mirror.h"
+#include "drivers/synthetic/hand/hand_shape.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {

@@ -1,4 +1,4 @@
-#include "drivers/synthetic/keyframes.h"
+#include "drivers/synthetic/sequences/keyframes.h"
 
 #include <gtest/gtest.h>
 

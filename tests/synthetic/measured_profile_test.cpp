@@ -1,6 +1,6 @@
-#include "drivers/synthetic/measured_profile.h"
+#include "drivers/synthetic/hand/measured_profile.h"
 
-#include "drivers/synthetic/hand_mirror.h"
+#include "drivers/synthetic/hand/hand_mirror.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {

@@ -1,9 +1,9 @@
-#include "drivers/synthetic/rasteriser.h"
+#include "drivers/synthetic/rendering/rasteriser.h"
 
 #include <gtest/gtest.h>
 
-#include "drivers/synthetic/scene_geometry.h"
-#include "drivers/synthetic/shapes.h"
+#include "drivers/synthetic/rendering/scene_geometry.h"
+#include "drivers/synthetic/rendering/shapes.h"
 #include "math/random.h"
 
 namespace barehand::synthetic {

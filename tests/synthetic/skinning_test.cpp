@@ -1,6 +1,6 @@
-#include "drivers/synthetic/skinning.h"
+#include "drivers/synthetic/hand/skinning.h"
 
-#include "drivers/synthetic/skeleton.h"
+#include "drivers/synthetic/hand/skeleton.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {

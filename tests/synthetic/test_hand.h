@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/synthetic/hand_mesh_file.h"
-#include "drivers/synthetic/measured_profile.h"
-#include "drivers/synthetic/sequence.h"
+#include "drivers/synthetic/hand/hand_mesh_file.h"
+#include "drivers/synthetic/hand/measured_profile.h"
+#include "drivers/synthetic/sequences/sequence.h"
 
 namespace barehand::synthetic {
 

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "app/barehand_program.h"
+#include "support/barehand_program.h"
 #include "usb/mock_bus.h"
 
 namespace barehand {

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "io/video/video_module.h"
 #include "io/whole_file.h"
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand {
 

@@ -5,7 +5,7 @@
 
 #include "core/format.h"
 #include "observe/egl/compute_program.h"
-#include "observe/pixel_map.h"
+#include "observe/sampled/pixel_map.h"
 
 namespace barehand {
 namespace {

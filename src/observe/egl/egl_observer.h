@@ -7,7 +7,7 @@
 #include <string>
 
 #include "observe/egl/graphics_device.h"
-#include "observe/observer.h"
+#include "observe/sampled/observer.h"
 
 namespace barehand {
 

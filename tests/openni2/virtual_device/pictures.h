@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "math/frame.h"
+#include "sensor/rgbd_frame.h"
 
 namespace barehand::virtual_openni {
 

@@ -1,0 +1,101 @@
+#include "drivers/openni2/frames/device_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+constexpr double kWindow = 1e6;            // us, duration of a window
+constexpr std::size_t kMostMarks = 60;     // follows a drift that changes with temperature within a minute
+constexpr std::size_t kMarksForDrift = 5;  // fewer marks show jitter rather than drift
+constexpr double kMaxDrift = 2e-3;         // no quartz is worse
+constexpr double kEarly = 50e3;  // us; a frame that arrives this long before its exposure means that the clock was set
+constexpr double kLearning = 2e6;  // us; at the beginning all arrivals may have been late
+// us; a frame later than kLate for kLatePatience is not late: the clock was set
+constexpr double kLate = 50e3, kLatePatience = 3e6;
+
+}  // namespace
+
+DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arrival_us) {
+  // The first frame starts the mapping; a jump of the sensor's clock starts it anew.
+  Mapped mapped{arrival_us};
+  if (!begun_) {
+    begin(device_us, arrival_us);
+  } else {
+    const Mark mark{static_cast<double>(device_us - first_device_),
+                    static_cast<double>((arrival_us - first_arrival_) - (device_us - first_device_))};
+    if (device_us <= last_device_ || jumped(mark)) {
+      mapped.jumped_by = (device_us - last_device_) - (arrival_us - last_arrival_);
+      begin(device_us, arrival_us);
+    } else {
+      take_in(mark);
+      mapped.host_us = first_arrival_ + std::llround(mark.x + line(mark.x));
+    }
+  }
+
+  // A frame is exposed neither after its arrival nor before its predecessor.
+  mapped.host_us = std::max(std::min(mapped.host_us, arrival_us), last_host_ + 1);
+  last_device_ = device_us;
+  last_arrival_ = arrival_us;
+  last_host_ = mapped.host_us;
+  return mapped;
+}
+
+void DeviceClock::begin(std::int64_t device_us, std::int64_t arrival_us) {
+  const std::int64_t last_host = begun_ ? last_host_ : arrival_us - 1;
+  *this = {};
+  begun_ = true;
+  first_device_ = device_us;
+  first_arrival_ = arrival_us;
+  last_host_ = last_host;
+  marks_ = {{0, 0}};
+  window_end_ = kWindow;
+}
+
+bool DeviceClock::jumped(const Mark& mark) {
+  const double delay = mark.y - line(mark.x);
+  if (delay < (mark.x < kLearning ? -10 * kEarly : -kEarly)) return true;
+  if (delay < kLate) {
+    late_since_ = -1;
+  } else if (late_since_ < 0) {
+    late_since_ = mark.x;
+  }
+  return late_since_ >= 0 && mark.x - late_since_ > kLatePatience;
+}
+
+void DeviceClock::take_in(const Mark& mark) {
+  if (mark.x >= window_end_) {
+    window_end_ = mark.x + kWindow;
+    if (marks_.size() == kMostMarks) marks_.erase(marks_.begin());
+    fit();  // before the new window opens, as its first arrival may be late
+    marks_.push_back(mark);
+  } else if (mark.y - slope_ * mark.x < marks_.back().y - slope_ * marks_.back().x) {
+    marks_.back() = mark;
+    if (marks_.size() < kMarksForDrift) fit();
+  }
+}
+
+void DeviceClock::fit() {
+  // With few marks only the offset is fitted.
+  if (marks_.size() < kMarksForDrift) {
+    slope_ = 0;
+    intercept_ = std::ranges::min(marks_, {}, &Mark::y).y;
+    return;
+  }
+
+  // Linear regression.
+  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
+  for (const Mark& m : marks_) {
+    mean_x += m.x / static_cast<double>(marks_.size());
+    mean_y += m.y / static_cast<double>(marks_.size());
+  }
+  for (const Mark& m : marks_) {
+    xx += (m.x - mean_x) * (m.x - mean_x);
+    xy += (m.x - mean_x) * (m.y - mean_y);
+  }
+  slope_ = std::clamp(xy / xx, -kMaxDrift, kMaxDrift);
+  intercept_ = mean_y - slope_ * mean_x;
+}
+
+}  // namespace barehand

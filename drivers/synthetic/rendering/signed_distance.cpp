@@ -1,0 +1,41 @@
+#include "drivers/synthetic/rendering/signed_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace barehand::synthetic {
+
+using Eigen::Vector3d;
+
+SignedDistance sphere_distance(double radius) {
+  return [radius](const Vector3d& p) { return p.norm() - radius; };
+}
+
+SignedDistance cylinder_distance(double radius, double half_height) {
+  return [=](const Vector3d& p) {
+    const Eigen::Vector2d d(p.head<2>().norm() - radius, std::abs(p.z()) - half_height);
+    return std::min(d.maxCoeff(), 0.0) + d.cwiseMax(0).norm();
+  };
+}
+
+SignedDistance tube_distance(std::vector<Vector3d> path, double radius) {
+  return [path = std::move(path), radius](const Vector3d& p) {
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Vector3d along = path[i + 1] - path[i];
+      const double t = std::clamp((p - path[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (p - path[i] - t * along).norm());
+    }
+    return nearest - radius;
+  };
+}
+
+SignedDistance union_of(std::vector<SignedDistance> parts) {
+  return [parts = std::move(parts)](const Vector3d& p) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const SignedDistance& part : parts) nearest = std::min(nearest, part(p));
+    return nearest;
+  };
+}
+
+}  // namespace barehand::synthetic

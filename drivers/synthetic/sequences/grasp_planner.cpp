@@ -1,0 +1,67 @@
+#include "drivers/synthetic/sequences/grasp_planner.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace barehand::synthetic {
+namespace {
+
+constexpr double kContact = 0.0005;  // m; skin closer than this touches
+constexpr int kSteps = 300;
+
+/// Sets the angle of joint k between open (t = 0) and closed (t = 1).
+void set_joint(FingerAngles& finger, const FingerAngles& open, const FingerAngles& closed, int k, double t) {
+  finger.flexion[k] = (1 - t) * open.flexion[k] + t * closed.flexion[k];
+  if (k == 0) finger.abduction = (1 - t) * open.abduction + t * closed.abduction;
+}
+
+}  // namespace
+
+GraspPlanner::GraspPlanner(const HandRig& rig) : rig_(rig), skinner_(rig.mesh) {}
+
+std::array<double, kSegmentCount> GraspPlanner::clearance(const HandAngles& angles, const SE3& T_palm_thing,
+                                                          const SignedDistance& thing) const {
+  std::vector<Eigen::Vector3f> skin;
+  skinner_.deform(pose_segments(rig_.profile, {SE3{}, angles}), skin);
+  const SE3 T_thing_palm = T_palm_thing.inverse();
+  std::array<double, kSegmentCount> nearest;
+  nearest.fill(std::numeric_limits<double>::max());
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    double& segment = nearest[skinner_.vertex_segments()[v]];
+    segment = std::min(segment, thing(T_thing_palm * skin[v].cast<double>()));
+  }
+  return nearest;
+}
+
+SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& direction, const SignedDistance& thing,
+                                const HandAngles& angles) const {
+  SE3 T = T_palm_thing;
+  for (int i = 0; i < 60; ++i) {  // the distance is never overestimated, so the steps do not pass the contact
+    const auto gap = clearance(angles, T, thing);
+    const double missing = kContact - *std::min_element(gap.begin(), gap.end());
+    if (std::abs(missing) < 1e-5) break;
+    T.t += missing * direction;
+  }
+  return T;
+}
+
+HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed, const SE3& T_palm_thing,
+                               const SignedDistance& thing) const {
+  HandAngles angles = open;
+  std::array<int, kFingerCount> first_free{};  // joints before this one have stopped
+  for (int step = 1; step <= kSteps; ++step) {
+    // Move all joints that are free.
+    for (int finger = 0; finger < kFingerCount; ++finger)
+      for (int k = first_free[finger]; k < 3; ++k)
+        set_joint(angles[finger], open[finger], closed[finger], k, static_cast<double>(step) / kSteps);
+
+    // Stop the joints of phalanges that touch.
+    const auto gap = clearance(angles, T_palm_thing, thing);
+    for (int finger = 0; finger < kFingerCount; ++finger)
+      for (int k = 0; k < 3; ++k)
+        if (gap[segment_of(finger, k)] < kContact) first_free[finger] = std::max(first_free[finger], k + 1);
+  }
+  return angles;
+}
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "drivers/synthetic/hand/hand_mesh.h"
+#include "drivers/synthetic/hand/skeleton.h"
+#include "drivers/synthetic/rendering/scene_geometry.h"
+
+namespace barehand::synthetic {
+
+/// The hand for which sequences are made, always a right one; a left hand is simulated by mirroring.
+struct HandRig {
+  HandMesh mesh;
+  HandProfile profile;  ///< measured on the mesh
+};
+
+/// An object beside the hand, with its surface in its own frame.
+struct SceneObject {
+  std::string name;
+  TriangleMesh mesh;
+  Material material;
+};
+
+/// The state of one hand at one time, as a right hand in the camera frame; a left hand is its mirror image in x = 0.
+struct HandState {
+  SkeletonPose skeleton;
+  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< the elbow, to which the forearm leads [m]
+};
+
+/// The state of the whole scene at one time. Camera frame.
+struct SceneState {
+  std::vector<HandState> hands;      ///< as many as SequenceInfo states; of two hands the right one comes first
+  std::vector<SE3> T_camera_object;  ///< one for each object of the sequence
+};
+
+/// A motion of hands and objects, as a pure function of time.
+class Sequence {
+ public:
+  virtual ~Sequence() = default;
+  virtual double duration() const = 0;  ///< [s]
+  virtual const std::vector<SceneObject>& objects() const = 0;
+  virtual SceneState at(double time) const = 0;
+};
+
+/// Description of a sequence that a user can select.
+struct SequenceInfo {
+  std::string name, description;
+  int frames = 0;  ///< number of frames at `fps`
+  double fps = 30;
+  bool both_hands = false;  ///< a right and a left hand; otherwise one hand of either side
+};
+// All sequences.
+const std::vector<SequenceInfo>& sequence_list();
+
+/// The description of a sequence. Error: there is no such sequence; the message names those that exist.
+Result<SequenceInfo> sequence_info(const std::string& name);
+
+/// Creates a sequence. `rig` is used for one-handed sequences, and only during the call. Errors: as for
+/// sequence_info().
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed);
+
+}  // namespace barehand::synthetic

@@ -1,0 +1,64 @@
+// The list of all sequences, and their creation by name.
+#include "drivers/synthetic/rendering/stage_set.h"
+
+namespace barehand::synthetic {
+namespace {
+
+std::string known_names() {
+  std::string names;
+  for (const SequenceInfo& info : sequence_list()) names += (names.empty() ? "" : ", ") + info.name;
+  return names;
+}
+
+std::vector<SequenceInfo> make_list() {
+  std::vector<SequenceInfo> list = {
+      {"fist", "two fists, from joined and from spread fingers (paper Fig. 6a)", 160, 25}};
+  for (int degree = 0; degree <= 6; ++degree)
+    list.push_back({"occlusion_" + std::to_string(degree),
+                    "fingers spread and rejoin, " + std::to_string(degree) + "/6 of them behind a plate (Fig. 6b, c)",
+                    45, 25});
+
+  // The grasps.
+  list.push_back({"grasp_mug", "reaches for a mug, lifts, turns, lowers and releases it", 200, 30});
+  list.push_back({"grasp_ball", "the same with a 65 mm ball", 200, 30});
+  list.push_back({"grasp_pliers", "the same with pliers", 200, 30});
+
+  // Free motion.
+  list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
+  list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
+  list.push_back({"open", "an open hand turns slowly", 180, 30});
+  list.push_back({"scan", "a hand is shown from all sides and bent, for barehand calibrate", 900, 30});
+  list.push_back(
+      {"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30, true});
+  return list;
+}
+
+}  // namespace
+
+const std::vector<SequenceInfo>& sequence_list() {
+  static const std::vector<SequenceInfo> kList = make_list();
+  return kList;
+}
+
+Result<SequenceInfo> sequence_info(const std::string& name) {
+  for (const SequenceInfo& info : sequence_list())
+    if (info.name == name) return info;
+  return fail("there is no sequence \"" + name + "\"", "sim", "choose one of: " + known_names());
+}
+
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed) {
+  if (name == "fist") return make_fist(seed);
+  if (name == "open") return make_open(seed);
+  if (name == "scan") return make_scan(seed);
+  if (name == "wave") return make_wave(seed);
+  if (name == "returns") return make_returns(seed);
+  if (name == "two_hands") return make_two_hands(seed);
+  if (name == "grasp_mug") return make_grasp(rig, GraspedThing::mug, seed);
+  if (name == "grasp_ball") return make_grasp(rig, GraspedThing::ball, seed);
+  if (name == "grasp_pliers") return make_grasp(rig, GraspedThing::pliers, seed);
+  for (int degree = 0; degree <= 6; ++degree)
+    if (name == "occlusion_" + std::to_string(degree)) return make_occlusion(rig, degree, seed);
+  return tl::unexpected(sequence_info(name).error());
+}
+
+}  // namespace barehand::synthetic

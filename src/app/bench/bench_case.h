@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/bench/memory_source.h"
+#include "core/statistics.h"
+#include "pipeline/config.h"
+#include "tracking/hands_tracker.h"
+
+namespace barehand {
+
+// Bytes.
+inline constexpr double kMegabyte = 1e6;
+
+/// One configuration of `barehand track` that is measured.
+struct BenchCase {
+  std::string sweep;  ///< parameter that is varied; "": the base case
+  double value = 0;   ///< of that parameter
+  Config config;
+  int threads = 1;
+  int decimate = 1;  ///< every n-th pixel and row of the frames is used
+};
+
+/// The conditions that all cases of a benchmark share.
+struct BenchConditions {
+  std::int64_t frames = 0;     ///< frames that are tracked and counted per case
+  std::int64_t warm_up = 0;    ///< frames before them, which include the search for the hand
+  std::optional<double> rate;  ///< frames per second of a live sensor; none: as fast as possible
+  bool inline_stages = false;
+  std::string lcm_url;  ///< where the states are published to and received from
+};
+
+/// What was measured in one case, all over the counted frames.
+struct BenchResult {
+  double seconds = 0;  ///< wall clock time
+  double frames_per_second = 0;
+  double cpu_seconds_per_frame = 0;
+  double tracked_share = 0;         ///< share of frames with a tracked hand: a lost hand costs less
+  PipelineHealth health;            ///< includes the times of stages and queues
+  TimeSummary received;             ///< age of a hand's state when it is received through LCM; live runs only
+  std::int64_t frame_bytes = 0;     ///< memory of the stored frames, which is part of the resident memory
+  std::int64_t peak_bytes = 0;      ///< largest resident memory
+  std::vector<double> resident_mb;  ///< resident memory without the stored frames, at equal steps through the run
+};
+
+/// Runs the pipeline of `barehand track` over stored frames. Errors: an LCM network that cannot be opened, a stage
+/// that fails, a number of threads that is out of range.
+Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
+                             const HandsTracker::Profiles& hands);
+
+}  // namespace barehand

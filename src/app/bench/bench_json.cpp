@@ -1,0 +1,65 @@
+// Writes the figures of `barehand bench` as JSON for programs.
+#include "app/bench/bench_report.h"
+#include "io/hand/json_fields.h"
+
+namespace barehand {
+namespace {
+
+using json_fields::Json;
+using json_fields::rounded;
+
+Json to_json(const TimeSummary& t) {
+  if (t.count == 0) return {{"count", 0}};
+  const auto ms = [](double seconds) { return rounded(seconds * 1e3); };
+  return {{"count", t.count}, {"mean", ms(t.mean)}, {"p50", ms(t.p50)},
+          {"p95", ms(t.p95)}, {"p99", ms(t.p99)},   {"max", ms(t.max)}};
+}
+
+Json to_json(const BenchRow& row) {
+  // The case and its total figures.
+  const BenchResult& r = row.result;
+  Json json = {{"sweep", row.sweep},
+               {"value", row.value},
+               {"config", row.config},
+               {"threads", row.threads},
+               {"width", row.width},
+               {"height", row.height},
+               {"seconds", rounded(r.seconds)},
+               {"frames_per_second", rounded(r.frames_per_second)},
+               {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
+               {"tracked_share", rounded(r.tracked_share)},
+
+               // Dropped frames, and memory.
+               {"dropped", r.health.dropped},
+               {"peak_mb", rounded(static_cast<double>(r.peak_bytes) / kMegabyte)},
+               {"stored_frames_mb", rounded(static_cast<double>(r.frame_bytes) / kMegabyte)},
+               {"resident_mb", r.resident_mb},
+
+               // Times of the whole path and of each stage and queue.
+               {"capture_to_publish_ms", to_json(r.health.latency)},
+               {"capture_to_reception_ms", to_json(r.received)},
+               {"stages_ms", Json::object()},
+               {"waits_ms", Json::object()}};
+  for (const StageHealth& stage : r.health.stages) json["stages_ms"][stage.name] = to_json(stage.time);
+  for (const QueueHealth& queue : r.health.queues) json["waits_ms"][queue.name] = to_json(queue.wait);
+  return json;
+}
+
+}  // namespace
+
+Result<void> write_bench_json(const BenchReport& report, const std::string& path) {
+  const BenchConditions& c = report.conditions;
+  Json json = {{"source", report.source},
+               {"processor", report.processor},
+               {"cores", report.cores},
+               {"hands", report.hands},
+               {"frames", c.frames},
+               {"warm_up", c.warm_up},
+               {"rate", c.rate ? Json(*c.rate) : Json(nullptr)},
+               {"inline", c.inline_stages},
+               {"cases", Json::array()}};
+  for (const BenchRow& row : report.rows) json["cases"].push_back(to_json(row));
+  return json_fields::write_json(path, json);
+}
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/bench/bench_case.h"
+#include "core/error.h"
+
+namespace barehand {
+
+/// One measured case, as far as it is written to a file and drawn.
+struct BenchRow {
+  std::string sweep;  ///< parameter that is varied; "": the configuration as it is
+  double value = 0;
+  std::string config;
+  int threads = 1;
+  int width = 0, height = 0;  ///< of the frames
+  BenchResult result;
+};
+
+/// A whole run of `barehand bench`.
+struct BenchReport {
+  std::string source, processor;
+  int cores = 0;
+  int hands = 0;  ///< looked for at once
+  BenchConditions conditions;
+  std::vector<BenchRow> rows;
+};
+
+/// One case as text for people, several lines.
+std::string bench_text(const BenchRow& row);
+
+/// Durations in ms, memory in MB.
+Result<void> write_bench_json(const BenchReport& report, const std::string& path);
+
+/// Draws a file that write_bench_json wrote as PNG images into a folder: the times of the stages; CPU time per frame
+/// against every swept parameter, beside the straight line of linear growth; memory over the run.
+Result<void> draw_bench(const std::string& json_path, const std::string& directory);
+
+}  // namespace barehand

@@ -1,0 +1,155 @@
+#include "app/bench/bench_run.h"
+
+#include <fstream>
+#include <iostream>
+
+#include "app/bench/bench_report.h"
+#include "app/bench/bench_sweep.h"
+#include "app/shared/exit_code.h"
+#include "app/shared/outputs.h"
+#include "app/shared/run_inputs.h"
+#include "app/shared/standard_streams.h"
+#include "core/available_memory.h"
+#include "core/parallel/parallel.h"
+#include "io/data_files.h"
+#include "tracking/memory_check.h"
+
+namespace barehand {
+namespace {
+
+/// A case and the name of its configuration.
+struct NamedCase {
+  std::string config;
+  BenchCase bench;
+};
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  return "unknown";
+}
+
+/// All cases to measure: every configuration as it is, then every sweep of the first one.
+Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
+  if (const auto workers = make_workers(options.threads); !workers) return tl::unexpected(workers.error());
+
+  // The configurations as they are.
+  std::vector<NamedCase> cases;
+  for (const std::string& name : options.configs) {
+    auto config = read_configuration(name);
+    if (!config) return tl::unexpected(config.error());
+    cases.push_back({name, {"", 0, std::move(*config), options.threads, 1}});
+  }
+
+  // The sweeps.
+  const NamedCase base = cases.front();
+  for (const std::string& sweep : options.sweeps) {
+    auto swept = parse_sweep(sweep, base.bench);
+    if (!swept) return tl::unexpected(swept.error());
+    for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
+  }
+
+  // None of the cases may need more memory than there is.
+  for (const NamedCase& named : cases)
+    if (const auto fits = check_memory(named.bench.config.tracker, available_memory()); !fits)
+      return tl::unexpected(fits.error());
+  return cases;
+}
+
+/// The frames and hands that all cases use.
+struct Input {
+  FrameStore store;
+  HandsTracker::Profiles hands;
+};
+
+Result<Input> read_input(const BenchOptions& options) {
+  const SystemClock clock;
+  SourceRequest request;
+  request.spec = options.source;
+  auto source = open_source(request, clock);
+  if (!source) return tl::unexpected(source.error());
+  auto hands = choose_hands(options.hands, *source);
+  if (!hands) return tl::unexpected(hands.error());
+  std::cerr << "reading frames of " << source->source->name() << "\n";
+  auto store = read_frames(*source->source, options.store);
+  if (!store) return tl::unexpected(store.error());
+  return Input{std::move(*store), profiles_of(*hands)};
+}
+
+/// Of the plots those that are drawn whatever is swept, and those of the sweeps asked for.
+Result<void> check_written(const BenchOptions& options) {
+  std::vector<InputFile> inputs{{"--draw", options.draw}};
+  for (const std::string& config : options.configs) inputs.push_back({"--config", find_config(config).value_or("")});
+  for (const std::string& hand : options.hands)
+    if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
+
+  const bool draws = !options.draw.empty() || (!options.json.empty() && !options.plots.empty());
+  const std::string folder = options.plots.empty() ? "." : options.plots;
+  std::vector<std::string> plots = {"stages", "memory"};
+  for (const std::string& sweep : options.sweeps) plots.push_back(sweep.substr(0, sweep.find('=')));
+  std::vector<Output> outputs{{"--json", options.draw.empty() ? options.json : ""}};
+  for (const std::string& plot : plots)
+    if (draws) outputs.push_back({"--plots", folder + "/" + plot + ".png"});
+  return check_outputs(options.draw.empty() ? files_of_source(options.source) : SourceFiles(), inputs, outputs,
+                       options.overwrite);
+}
+
+Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditions, const Input& input) {
+  const FrameStore store = decimated(input.store, named.bench.decimate);
+  auto result = run_case(named.bench, conditions, store, input.hands);
+  if (!result) return tl::unexpected(result.error());
+  const Intrinsics& camera = store.frames[0]->camera;
+  return BenchRow{named.bench.sweep, named.bench.value, named.config,      named.bench.threads,
+                  camera.width,      camera.height,     std::move(*result)};
+}
+
+/// Also ends where what is measured is only printed and nobody reads it.
+Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, const BenchOptions& options,
+                         BenchReport& report) {
+  for (int round = 0; round < options.repeat; ++round)  // interleaved: other load on the machine meets all cases alike
+    for (const NamedCase& named : cases) {
+      if (options.json.empty() && nobody_reads()) return {};
+      auto row = measure(named, report.conditions, input);
+      if (!row) return tl::unexpected(row.error());
+      std::cout << bench_text(*row) << std::flush;
+      report.rows.push_back(std::move(*row));
+    }
+  return {};
+}
+
+int tell(const Error& error, int exit_code) {
+  std::cerr << "barehand bench: " << error.message() << std::endl;
+  return exit_code;
+}
+
+}  // namespace
+
+int run_bench(const BenchOptions& options) {
+  if (const auto free = check_written(options); !free) return tell(free.error(), kExitUsage);
+  if (!options.draw.empty()) {
+    const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
+    return drawn ? kExitOk : tell(drawn.error(), kExitUsage);
+  }
+
+  // Check everything before the measurement starts.
+  const auto cases = cases_of(options);
+  if (!cases) return tell(cases.error(), kExitUsage);
+  const auto input = read_input(options);
+  if (!input) return tell(input.error(), kExitUsage);
+
+  // The conditions belong to the report.
+  BenchReport report;
+  report.source = options.source;
+  report.processor = processor_name();
+  report.cores = available_cores();
+  report.hands = static_cast<int>(input->hands.size());
+  report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
+  auto done = measure_all(*cases, *input, options, report);
+  if (done && !options.json.empty()) done = write_bench_json(report, options.json);
+  if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);
+  if (!done) return tell(done.error(), kExitFailure);
+  return options.json.empty() ? printed(kExitOk) : static_cast<int>(kExitOk);
+}
+
+}  // namespace barehand

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "sensor/frame_source.h"
+
+namespace barehand {
+
+/// Frames that were read beforehand, so that reading or rendering them costs nothing while something is measured.
+struct FrameStore {
+  std::vector<FramePtr> frames;
+  std::int64_t bytes() const;  ///< of their images
+};
+
+/// The first `count` frames of a source. Errors: those of the source, and a source without any frame.
+Result<FrameStore> read_frames(FrameSource& source, std::int64_t count);
+
+/// Every `factor`-th pixel of every factor-th row, with the intrinsics that belong to it. factor > 0.
+FrameStore decimated(const FrameStore& store, int factor);
+
+/// Plays stored frames forth and back, so that the motion never jumps, until `count` were delivered. As a replay it
+/// hands out the stored frames themselves; at a rate it is live, as a sensor: each frame is a copy, captured when due.
+class MemorySource : public FrameSource {
+ public:
+  struct Options {
+    std::int64_t count = 0;
+    std::optional<double> rate;  ///< frames per second; none: as fast as they are taken
+  };
+  /// `store` and `clock` outlive the source; the store is not empty.
+  MemorySource(const FrameStore& store, Options options, const Clock& clock);
+
+  SourceEvent next(std::chrono::milliseconds patience) override;
+  bool live() const override { return options_.rate.has_value(); }
+  std::string name() const override { return "memory"; }
+
+ private:
+  const FramePtr& stored(std::int64_t index) const;
+  SourceEvent when_due(std::chrono::milliseconds patience);
+
+  const FrameStore& store_;
+  const Options options_;
+  const Clock& clock_;
+  std::int64_t delivered_ = 0;
+  std::optional<std::int64_t> start_us_;  // steady clock, when the first frame was asked for
+};
+
+}  // namespace barehand

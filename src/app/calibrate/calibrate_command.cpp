@@ -1,0 +1,187 @@
+#include "app/calibrate/calibrate_command.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/calibrate/scan_report.h"
+#include "app/shared/outputs.h"
+#include "app/shared/run_inputs.h"
+#include "app/track/track_run.h"
+#include "core/parallel/parallel.h"
+#include "io/hand/hand_json.h"
+#include "math/angles.h"
+#include "person/scan_frames.h"
+
+namespace barehand {
+namespace {
+
+constexpr const char* kHowTo =
+    "Open the hand and turn it slowly to show palm and back. Then circle the thumb and bend its joints one by one,\n"
+    "make a hook (only the last two joints of the fingers bent), a table top (only the knuckles) and a fist, palm and\n"
+    "back towards the camera; half a minute. Ctrl-C ends a live scan; what was seen until then is used.";
+
+struct CalibrateOptions {
+  TrackOptions track;
+  std::string hand = "right", out;
+};
+
+int tell(const Error& error, int exit_code) {
+  std::cerr << "barehand calibrate: " << error.message() << std::endl;
+  return exit_code;
+}
+
+constexpr int kSettling = 60;                 // tracked frames before the first that is kept
+constexpr int kMost = 128, kMostOfSkin = 64;  // frames to keep; the latter if the joints stay fixed
+
+/// Collects what a scan needs, the hand as it was fitted last and frames, and tells the user what to show next.
+class ScanSink : public Sink {
+ public:
+  // What was collected so far.
+  struct Scan {
+    ScanReport report;
+    ScanFrames frames;
+    std::shared_ptr<const HandProfile> profile;  ///< null: no hand was tracked
+  };
+  explicit ScanSink(Scan& scan) : scan_(scan) {}
+  std::string name() const override { return "scan"; }
+  Result<void> consume(const TrackedFrame& tracked) override {
+    const HandEstimate& hand = *tracked.estimates[0];
+    scan_.report.add(hand);
+    scan_.frames.add(tracked.observations[0], hand);
+    if (hand.has_pose()) scan_.profile = hand.profile;
+    advise();
+    return {};
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
+
+  // Tells the user from time to time what is still missing.
+  void advise() {
+    if (complete_ || Clock::now() < advised_ + kAdvise) return;
+    const auto missing = scan_.report.missing();
+    complete_ = missing.empty();
+    std::cerr << "\n" << (complete_ ? "everything was seen; Ctrl-C ends a live scan" : missing.front()) << std::endl;
+    advised_ = Clock::now();
+  }
+
+  Scan& scan_;
+  bool complete_ = false;
+  Clock::time_point advised_ = Clock::now();
+};
+
+/// Prints the fitted bones, and what was seen of each of them.
+void print(const ScanReport& report, const HandProfile& start, const HandProfile& fitted) {
+  std::printf("%-20s %11s %11s %12s %12s %12s\n", "segment", "length [mm]", "before [mm]", "palm side", "back",
+              "bent [deg]");
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const ScannedSegment& seen = report.segment(s);
+    std::printf("%-20s %11.1f %11.1f %12d %12d %5.0f to %3.0f\n", std::string(kSegmentNames[s]).c_str(),
+                fitted.segments[s].length * 1e3, start.segments[s].length * 1e3, seen.palm_side, seen.back_side,
+                seen.least_bent / kDegree, seen.most_bent / kDegree);
+  }
+  std::printf("%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(), fitted.hand_length() * 1e3,
+              start.hand_length() * 1e3);
+  for (const std::string& sentence : report.missing())
+    std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
+}
+
+/// Scans the skin from the frames that were kept; none if they do not suffice.
+std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int threads) {
+  // Too few frames do not determine a skin.
+  const int frames = static_cast<int>(scan.frames.frames().size());
+  if (frames < ScanFrames::kFewest) {
+    std::puts("too short a scan for a skin of its own");
+    return std::nullopt;
+  }
+
+  // Scan, and report the progress.
+  Workers workers(threads);
+  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
+    std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
+                 progress.mismatch * 1e3);
+  });
+
+  if (hand)
+    std::printf("skin and joints from %d frames\n", frames);
+  else
+    std::fputs("these frames tell no skin; the hand stays as it was fitted\n", stderr);
+  return hand;
+}
+
+int run(const CalibrateOptions& o) {
+  // Check the input before the user starts to move.
+  auto config = read_configuration(o.track.config);
+  if (!config) return tell(config.error(), kExitUsage);
+  config->tracker.shape_fit.enabled = true;
+  config->tracker.shape_fit.scans = 0;  // a scan of all frames follows at the end
+  const auto hands = choose_hands({o.hand}, {});
+  if (!hands) return tell(hands.error(), kExitUsage);
+  if (hands->size() != 1)
+    return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
+  if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
+
+  // Track, and collect what the user shows.
+  const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;
+  ScanSink::Scan scan{.report = {}, .frames = {kSettling, joints_stay ? kMostOfSkin : kMost}, .profile = nullptr};
+  std::vector<std::unique_ptr<Sink>> sinks;
+  sinks.push_back(std::make_unique<ScanSink>(scan));
+
+  TrackOptions track_options = o.track;
+  track_options.hands = {o.hand};
+  track_options.saved_later = o.out;
+  std::cerr << kHowTo << std::endl;
+  const auto tracked = track(track_options, *config, {}, std::move(sinks));
+  if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
+  if (!scan.profile && tracked->exit_code == kExitFailure) return tracked->exit_code;  // it said why
+  if (!scan.profile)
+    return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
+                kExitFailure);
+
+  // Save the fitted hand before the scan, which takes a while.
+  if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
+
+  // Scan the skin.
+  const auto hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
+  if (hand)
+    if (const auto saved = save_profile(*hand, o.out); !saved) return tell(saved.error(), kExitFailure);
+  print(scan.report, *hands->front().profile, hand ? *hand : *scan.profile);
+  return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CalibrateOptions>();
+  CalibrateOptions& o = *options;
+  o.track.no_publish = true;
+  o.track.threads = available_cores();
+
+  // Input and output.
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "Make the profile of a person's hand that is shown to the sensor");
+  calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
+      ->required();
+  calibrate->add_option("--out", o.out, "hand.json to write")->required();
+  calibrate
+      ->add_option("--hand", o.hand,
+                   "right or left: which hand is shown; or a hand.json, whose joints stay if it was measured")
+      ->capture_default_str();
+
+  // How the hand is tracked.
+  calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
+  calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");
+  add_overwrite_option(*calibrate, o.track.overwrite);
+  calibrate->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
+  calibrate->add_option("--threads", o.track.threads, "cores to use; results do not depend on it")
+      ->capture_default_str();
+  calibrate->footer(kHowTo);
+  calibrate->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,179 @@
+#include "app/eval/eval_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/eval/eval_report.h"
+#include "app/eval/stated_poses.h"
+#include "app/shared/exit_code.h"
+#include "app/shared/outputs.h"
+#include "app/shared/standard_streams.h"
+#include "io/hand/hand_json.h"
+#include "io/recording/recording.h"
+
+namespace barehand {
+namespace {
+
+struct EvalOptions {
+  std::vector<std::string> truths, results, labels, states;
+  std::string hand, plots, json, fingertips, recording;
+  std::optional<std::int64_t> start;
+  std::int64_t step = 1;
+  bool overwrite = false;
+};
+
+Result<void> check(const EvalOptions& o) {
+  if (o.results.empty() && o.states.empty())
+    return fail("there is nothing to judge", "eval", "give --result or --states");
+  if (o.truths.empty() && o.fingertips.empty())
+    return fail("there is nothing to compare with", "eval",
+                "give --truth, or --fingertips with --recording and --hand");
+  if (!o.results.empty() && o.truths.size() > 1 && o.truths.size() != o.results.size())
+    return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
+                    std::to_string(o.results.size()) + " results",
+                "eval", "give it once for all results, or once for each");
+  if (!o.states.empty() && o.states.size() != o.truths.size())
+    return fail("--states is given " + std::to_string(o.states.size()) + " times for " +
+                    std::to_string(o.truths.size()) + " truths",
+                "eval", "give a log of hand states for each --truth");
+  if (!o.labels.empty() && o.labels.size() != o.results.size())
+    return fail("--label must be given once for each --result", "eval");
+  if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
+    return fail("--fingertips needs the camera and the fingers' thickness", "eval", "add --recording DIR and --hand");
+  if (o.step == 0) return fail("a step of 0 is no order of frames", "--step", "choose 1, 2 ... or -1, -2 ...");
+  return {};
+}
+
+/// Against all that is read; of the plots those that will be drawn.
+Result<void> check_written(const EvalOptions& o) {
+  std::vector<InputFile> inputs{{"--hand", o.hand}, {"--fingertips", o.fingertips}};
+  for (const std::string& path : o.results) inputs.push_back({"--result", path});
+  for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
+  for (const std::string& path : o.states) inputs.push_back({"--states", path});
+
+  std::vector<Output> outputs{{"--json", o.json}};
+  const auto plot = [&](const char* name) {
+    if (!o.plots.empty()) outputs.push_back({"--plots", o.plots + "/" + name});
+  };
+  if (!o.results.empty() && !o.truths.empty())
+    for (const char* name : {"runs.png", "segments.png", "time.png"}) plot(name);
+  if (!o.fingertips.empty()) plot("fingertips.png");
+  if (!o.states.empty())
+    for (const char* name : {"reliability.png", "confidence.png"}) plot(name);
+  const SourceFiles recording = o.recording.empty() ? SourceFiles() : files_of_source("folder:" + o.recording);
+  return check_outputs(recording, inputs, outputs, o.overwrite);
+}
+
+/// Tables without a row were read, too, and are the worst of results.
+void say_untracked(const EvalReport& report) {
+  for (const EvaluatedRun& run : report.runs)
+    if (run.evaluation.untracked == run.evaluation.frames.size())
+      std::fprintf(stderr, "barehand eval: %s: no hand was tracked in any of the %zu frames\n", run.result_path.c_str(),
+                   run.evaluation.frames.size());
+}
+
+std::string label_of(const EvalOptions& o, std::size_t i) {
+  return o.labels.empty() ? std::filesystem::path(o.results[i]).stem().string() : o.labels[i];
+}
+
+Result<void> evaluate_runs(const EvalOptions& o, const std::vector<ResultTable>& results, EvalReport& report) {
+  for (std::size_t i = 0; i < results.size() && !o.truths.empty(); ++i) {
+    const std::string& truth = o.truths[o.truths.size() == 1 ? 0 : i];
+    auto run = evaluate_run(label_of(o, i), truth, o.results[i], results[i], {o.start, o.step});
+    if (!run) return tl::unexpected(run.error());
+    report.runs.push_back(std::move(*run));
+  }
+  return {};
+}
+
+Result<void> judge_states(const EvalOptions& o, EvalReport& report) {
+  std::vector<std::pair<ResultTable, StatedPoses>> sequences;
+  for (std::size_t i = 0; i < o.states.size(); ++i) {
+    auto truth = read_table(o.truths[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    auto states = read_stated_poses(o.states[i]);
+    if (!states) return tl::unexpected(states.error());
+    sequences.emplace_back(std::move(*truth), std::move(*states));
+  }
+  auto reliability = judge_reliability(sequences);
+  if (!reliability) return tl::unexpected(reliability.error());
+  report.reliability = std::move(*reliability);
+  return {};
+}
+
+Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
+                                const HandProfile& profile, EvalReport& report) {
+  const auto labels = read_fingertip_labels(o.fingertips);
+  if (!labels) return tl::unexpected(labels.error());
+  const auto recording = open_recording(o.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  if (labels->empty()) return fail("holds no labels", o.fingertips, "there is nothing to compare with");
+  report.fingertips = evaluate_fingertips(*labels, results, profile, recording->camera);
+  return {};
+}
+
+Result<EvalReport> evaluate_all(const EvalOptions& o) {
+  std::vector<ResultTable> results;
+  for (const std::string& path : o.results) {
+    auto result = read_table(path);
+    if (!result) return tl::unexpected(result.error());
+    results.push_back(std::move(*result));
+  }
+  EvalReport report;
+  if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
+  if (!o.states.empty())
+    if (const auto judged = judge_states(o, report); !judged) return tl::unexpected(judged.error());
+  if (o.hand.empty()) return report;
+  const auto profile = load_profile(o.hand);
+  if (!profile) return tl::unexpected(profile.error());
+  report.hand_length = profile->hand_length();
+  if (!o.fingertips.empty())
+    if (const auto tips = compare_fingertips(o, results, *profile, report); !tips) return tl::unexpected(tips.error());
+  return report;
+}
+
+Result<void> write(const EvalReport& report, const EvalOptions& o) {
+  if (!o.json.empty())
+    if (const auto written = write_json_report(report, o.json); !written) return written;
+  if (!o.plots.empty()) return write_plots(report, o.plots);
+  return {};
+}
+
+int fail_with(const Error& error, int code) {
+  std::fprintf(stderr, "barehand eval: %s\n", error.message().c_str());
+  return code;
+}
+
+int run(const EvalOptions& o) {
+  const auto report = check(o).and_then([&] { return check_written(o); }).and_then([&] { return evaluate_all(o); });
+  if (!report) return fail_with(report.error(), kExitUsage);
+  say_untracked(*report);
+  std::fputs(text_report(*report).c_str(), stdout);
+  const auto written = write(*report, o);
+  if (written && o.json.empty() && o.plots.empty()) return printed(kExitOk);
+  return written ? kExitOk : fail_with(written.error(), kExitFailure);
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& app, int& exit_code) {
+  auto o = std::make_shared<EvalOptions>();
+  CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
+  eval->add_option("--result", o->results, "result table; several are compared with one another");
+  eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
+  eval->add_option("--states", o->states, "log of hand states, one for each truth: is the stated uncertainty right?");
+  eval->add_option("--label", o->labels, "name of each result in tables and plots");
+  eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
+  eval->add_option("--start", o->start, "first frame the result was to track, as given to track");
+  eval->add_option("--step", o->step, "step between frames, as given to track");
+  eval->add_option("--plots", o->plots, "folder for plots (PNG)");
+  eval->add_option("--json", o->json, "file for the figures");
+  add_overwrite_option(*eval, o->overwrite);
+  eval->add_option("--fingertips", o->fingertips, "fingertips labelled in the image: frame,finger,u,v,visible");
+  eval->add_option("--recording", o->recording, "the recording that --fingertips belongs to");
+  eval->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,97 @@
+#include "app/eval/eval_report.h"
+#include "io/hand/json_fields.h"
+
+namespace barehand {
+namespace {
+
+using json_fields::Json;
+using json_fields::rounded;
+
+Json to_json(const Distribution& d, double scale) {
+  Json json = {{"count", d.count}};
+  if (d.count == 0) return json;
+  const auto put = [&](const char* key, double value) { json[key] = rounded(value * scale); };
+  put("mean", d.mean);
+  put("deviation", d.deviation);
+  put("median", d.median);
+  put("min", d.min);
+  put("q1", d.quartile1);
+  put("q3", d.quartile3);
+  put("p90", d.p90);
+  put("p95", d.p95);
+  put("max", d.max);
+  return json;
+}
+
+Json to_json(const EvaluatedRun& run, const std::optional<double>& hand_length) {
+  constexpr double kMillimetre = 1000;
+  const Evaluation& e = run.evaluation;
+  Json json = {{"label", run.label},
+               {"truth", run.truth_path},
+               {"result", run.result_path},
+               {"truncated", run.truncated},
+               {"frames", e.frames.size()},
+               {"untracked", e.untracked},
+               {"lost", e.lost.size()},
+               {"lost_frames", e.lost},
+               {"frame_error_mm", to_json(e.frame_error, kMillimetre)},
+               {"frame_error_without_palm_mm", to_json(e.frame_error_without_palm, kMillimetre)},
+               {"segment_error_mm", to_json(e.segment_error, kMillimetre)},
+               {"seen_segment_error_mm", to_json(e.seen, kMillimetre)},
+               {"hidden_segment_error_mm", to_json(e.hidden, kMillimetre)},
+               {"joint_gap_mm", to_json(e.joint_gap, kMillimetre)}};
+  for (int s = 0; s < kSegmentCount; ++s)
+    json["segments_mm"][std::string(kSegmentNames[s])] = to_json(e.per_segment[s], kMillimetre);
+  json["phantom_frames"] = e.phantoms;
+  json["returns"] = Json::array();
+  for (const Return& r : e.returns)
+    json["returns"].push_back({{"frame", r.number}, {"frames_until_tracked", r.frames ? Json(*r.frames) : Json()}});
+  if (hand_length) {
+    json["hand_length_mm"] = rounded(*hand_length * kMillimetre);
+    if (e.frame_error.count > 0) json["mean_frame_error_over_hand_length"] = rounded(e.frame_error.mean / *hand_length);
+  }
+  return json;
+}
+
+Json to_json(const FingertipEvaluation& e) {
+  Json json = {{"labels", e.labels}, {"missing", e.missing}, {"distance_px", to_json(e.all, 1)}};
+  for (int f = 0; f < kFingerCount; ++f) json["fingers_px"][std::string(kFingerNames[f])] = to_json(e.per_finger[f], 1);
+  return json;
+}
+
+Json to_json(const Coverage& c) {
+  constexpr double kMillimetre = 1000;
+  Json json = {{"intervals", c.intervals}};
+  if (c.intervals == 0) return json;
+  json["covered"] = rounded(c.covered);
+  json["stated_mm"] = rounded(c.stated * kMillimetre);
+  json["actual_mm"] = rounded(c.actual * kMillimetre);
+  return json;
+}
+
+Json to_json(const std::vector<ReliabilityBin>& bins, double scale) {
+  Json json = Json::array();
+  for (const ReliabilityBin& bin : bins)
+    json.push_back(
+        {{"count", bin.count}, {"stated", rounded(bin.stated * scale)}, {"actual", rounded(bin.actual * scale)}});
+  return json;
+}
+
+Json to_json(const Reliability& r) {
+  return {{"frames", r.frames},
+          {"intervals_90", {{"all", to_json(r.all)}, {"seen", to_json(r.seen)}, {"inferred", to_json(r.inferred)}}},
+          {"errors_mm", to_json(r.errors, 1000)},
+          {"within_10_mm", to_json(r.confidences, 1)}};
+}
+
+}  // namespace
+
+Result<void> write_json_report(const EvalReport& report, const std::string& path) {
+  Json json = {{"runs", Json::array()}};
+  for (const EvaluatedRun& run : report.runs) json["runs"].push_back(to_json(run, report.hand_length));
+  if (report.fingertips) json["fingertips"] = to_json(*report.fingertips);
+  if (report.reliability) json["reliability"] = to_json(*report.reliability);
+  return json_fields::write_json(path, json);
+}
+
+}  // namespace barehand

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/fingertips.h"
+#include "evaluation/reliability.h"
+
+namespace barehand {
+
+/// One result that was compared with its truth.
+struct EvaluatedRun {
+  std::string label, truth_path, result_path;
+  bool truncated = false;  ///< the result ends in the middle of a frame
+  Evaluation evaluation;
+};
+
+/// Compares `result`, read from `result_path`, with the truth in `truth_path`. Errors: a truth that cannot be read, and
+/// those of evaluate().
+Result<EvaluatedRun> evaluate_run(const std::string& label, const std::string& truth_path,
+                                  const std::string& result_path, const ResultTable& result,
+                                  const ExpectedFrames& expected = {});
+
+/// What `barehand eval` found.
+struct EvalReport {
+  std::vector<EvaluatedRun> runs;
+  std::optional<double> hand_length;  ///< [m], for errors as a fraction of it
+  std::optional<FingertipEvaluation> fingertips;
+  std::optional<Reliability> reliability;
+};
+
+/// Tables for people, in millimetres and pixels.
+std::string text_report(const EvalReport& report);
+/// The same for programs.
+Result<void> write_json_report(const EvalReport& report, const std::string& path);
+/// runs.png (paper Fig. 7), segments.png, time.png, fingertips.png, reliability.png, confidence.png: those there is
+/// something for. Makes the folder.
+Result<void> write_plots(const EvalReport& report, const std::string& directory);
+
+}  // namespace barehand

@@ -1,0 +1,46 @@
+#include "app/record/convert_command.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/record/run_copy.h"
+#include "app/shared/exit_code.h"
+#include "io/lcm/log_names.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+namespace {
+
+/// A folder is a recording, or holds logs. A recording may have other files ending in .log beside it.
+bool is_recording(const fs::path& path) {
+  std::error_code ignored;  // what cannot be looked at shows when it is opened
+  if (!fs::is_directory(path, ignored)) return false;
+  return fs::exists(path / "depth.txt", ignored) || fs::exists(path / "camera.json", ignored) || !find_logs(path);
+}
+
+int convert(const std::string& in, CopyRequest request) {
+  const bool oni = fs::path(in).extension() == ".oni";
+  request.source.spec = (is_recording(in) ? "folder:" : oni ? "openni2:" : "log:") + in;
+  return run_copy(request, "barehand convert");
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, int& exit_code) {
+  auto request = std::make_shared<CopyRequest>();
+  request->out_option = "out";
+  auto in = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "convert", "Turn a recording folder or an .oni file into an LCM log, or logs or an .oni file into a folder");
+  command->add_option("in", *in, "recording folder, LCM log, folder or set of logs, or .oni file")->required();
+  command->add_option("out", request->out, "FILE.lcmlog, or a folder that is made")->required();
+  add_copy_options(*command, *request);
+  command->footer(
+      "Time stamps are kept; a log keeps frame numbers too, a folder numbers its frames from 0. hand.json and "
+      "truth.csv stay beside the original. The times of an .oni file count from 1 s.");
+  command->callback([request, in, &exit_code] { exit_code = convert(*in, *request); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,41 @@
+#include <CLI/CLI.hpp>
+
+#include "app/record/run_copy.h"
+#include "app/shared/outputs.h"
+#include "io/lcm/message_sink.h"
+
+namespace barehand {
+
+void add_copy_options(CLI::App& command, CopyRequest& request) {
+  CopyRequest& r = request;
+  command.add_option("--start", r.source.start, "first frame of a recording");
+  command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
+  command.add_option("--frames", r.frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_option("--channel", r.source.channel,
+                     "glob of the LCM channels to read; default: live the first of *RGBD_FRAME that brings a frame, in "
+                     "a log the only one that has some");
+  command.add_option("--config", r.config, "as for track; only the groups openni2 and foreign_camera matter");
+  command.add_option(
+      "--fx", r.source.foreign.fx,
+      "focal length [px] of kinect and bot_core messages, or instead of an OpenNI2 sensor's own; give all four");
+  command.add_option("--fy", r.source.foreign.fy, "vertical focal length [px]");
+  command.add_option("--cx", r.source.foreign.cx, "principal point [px]");
+  command.add_option("--cy", r.source.foreign.cy, "vertical principal point [px]");
+  command.add_option("--colour", r.colour, "png and raw are lossless; raw is for logs only")
+      ->check(CLI::IsMember({"png", "jpeg", "raw", "none"}))
+      ->capture_default_str();
+  command.add_option("--jpeg-quality", r.jpeg_quality, "of --colour jpeg in a log")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command.add_option("--depth", r.depth, "how a log holds depth; all are lossless, rvl is smallest and fastest")
+      ->check(CLI::IsMember({"rvl", "zlib", "raw"}))
+      ->capture_default_str();
+  command.add_option("--out-channel", r.out_channel, "LCM channel in the log that is written")
+      ->check([](const std::string& name) {
+        return name.empty() || name.size() > kLongestChannel ? "channel names have 1 to 63 bytes" : "";
+      })
+      ->capture_default_str();
+  add_overwrite_option(command, r.overwrite);
+}
+
+}  // namespace barehand

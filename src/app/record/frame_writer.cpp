@@ -1,0 +1,85 @@
+#include "app/record/frame_writer.h"
+
+#include <filesystem>
+
+#include "drivers/lcm/wire.h"
+#include "io/lcm/lcm_log_writer.h"
+#include "io/lcm/log_names.h"
+#include "io/recording/recording_writer.h"
+
+namespace barehand {
+namespace {
+
+class LogFrameWriter : public FrameWriter {
+ public:
+  LogFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<MessageSink> log)
+      : path_(std::move(path)), options_(options), log_(std::move(log)) {}
+
+  Result<void> write(const RgbdFrame& frame) override {
+    const auto message = encode_frame(frame, options_.encoding);
+    if (!message) return tl::unexpected(message.error());
+    return log_->send(options_.channel, encode_message(*message), frame.utime).map([&] { ++written_; });
+  }
+  Result<void> finish() override { return written_ > 0 ? log_->finish() : Result<void>(); }
+  std::string name() const override { return "LCM log " + path_; }
+
+ private:
+  std::string path_;
+  FrameWriterOptions options_;
+  std::unique_ptr<MessageSink> log_;
+  std::int64_t written_ = 0;
+};
+
+class FolderFrameWriter : public FrameWriter {
+ public:
+  FolderFrameWriter(std::string path, bool colour, RecordingWriter writer)
+      : path_(std::move(path)), colour_(colour), writer_(std::move(writer)) {}
+
+  Result<void> write(const RgbdFrame& frame) override {
+    if (colour_) return written(writer_.write(frame));
+    RgbdFrame depth_only = frame;
+    depth_only.colour = {};
+    return written(writer_.write(depth_only));
+  }
+  Result<void> finish() override { return writer_.finish(); }
+  std::string name() const override { return "folder " + path_; }
+
+ private:
+  static Result<void> written(const Result<std::int64_t>& number) {
+    if (!number) return tl::unexpected(number.error());
+    return {};
+  }
+  std::string path_;
+  bool colour_;
+  RecordingWriter writer_;
+};
+
+}  // namespace
+
+bool is_log_path(const std::string& path) { return is_log_name(path); }
+
+Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
+  if (std::filesystem::path(path).extension() == ".oni")
+    return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
+  if (options.rotation && !is_log_path(path))
+    return fail("only a log goes on in new files", path, "give a name that ends in .lcmlog");
+  if (options.rotation) {
+    auto log = RotatingLog::create(path, *options.rotation, *options.clock);
+    if (!log) return tl::unexpected(log.error());
+    return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+  }
+  if (is_log_path(path)) {
+    auto log = LcmLogWriter::create(path, options.overwrite);
+    if (!log) return tl::unexpected(log.error());
+    return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+  }
+  RecordingWriter::Options folder;
+  folder.fps = options.fps;
+  folder.colour_ending = options.encoding.colour == ColourEncoding::jpeg ? "jpg" : "png";
+  auto writer = RecordingWriter::create(path, folder);
+  if (!writer) return tl::unexpected(writer.error());
+  const bool colour = options.encoding.colour != ColourEncoding::none;
+  return std::make_unique<FolderFrameWriter>(path, colour, std::move(*writer));
+}
+
+}  // namespace barehand

@@ -1,0 +1,38 @@
+#include "app/record/record_command.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "app/record/run_copy.h"
+
+namespace barehand {
+
+void add_record_command(CLI::App& app, int& exit_code) {
+  auto request = std::make_shared<CopyRequest>();
+  request->source.live_capacity = 128;  // a few seconds: a recording is to miss nothing
+  CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log or a folder");
+  record->add_option("--source", request->source.spec, "openni2[:SENSOR] | lcm | sim:NAME | folder:DIR | log:FILE")
+      ->required();
+  record->add_option("--out", request->out, "FILE.lcmlog, or a folder that is made")->required();
+  record->add_option("--seconds", request->seconds, "stop after this time")->check(CLI::PositiveNumber);
+  record->add_option("--lcm-url", request->source.lcm_url, "LCM network of the source lcm");
+  record->add_option("--max-size", request->max_size, "go on in a new log at this size, such as 2GB")
+      ->transform(CLI::AsSizeValue(true));
+  record->add_option("--max-age", request->max_age, "go on in a new log after this time, such as 10min or 1h")
+      ->transform(
+          CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}));
+  record->add_option("--quota", request->quota, "of all these logs together; the oldest are removed. Such as 100GB")
+      ->transform(CLI::AsSizeValue(true));
+  add_copy_options(*record, *request);
+  record->footer(
+      "Ctrl-C ends the recording; what was recorded until then is complete, and so it is after a crash. While the disk "
+      "is full, frames of a live source are lost and counted.\n"
+      "With --max-size, --max-age or --quota, take.lcmlog becomes take-000001-TIME.lcmlog and so on, each complete in "
+      "itself and counted on from those that are there. With a quota the oldest are also removed when the disk is "
+      "full.");
+  record->callback([request, &exit_code] { exit_code = run_copy(*request, "barehand record"); });
+}
+
+}  // namespace barehand

@@ -1,0 +1,163 @@
+#include "app/record/run_copy.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <optional>
+
+#include "app/record/copy_frames.h"
+#include "app/shared/exit_code.h"
+#include "app/shared/interrupt.h"
+#include "app/shared/outputs.h"
+#include "app/shared/run_inputs.h"
+#include "io/data_files.h"
+#include "pipeline/service_manager.h"
+
+namespace barehand {
+namespace {
+
+FrameWriterOptions writer_options(const CopyRequest& request, double fps, const Clock& clock) {
+  FrameWriterOptions options;
+  options.encoding.depth = request.depth == "raw"    ? DepthEncoding::raw16
+                           : request.depth == "zlib" ? DepthEncoding::zlib
+                                                     : DepthEncoding::rvl_zstd;
+  options.encoding.colour = request.colour == "none"   ? ColourEncoding::none
+                            : request.colour == "raw"  ? ColourEncoding::raw_rgb
+                            : request.colour == "jpeg" ? ColourEncoding::jpeg
+                                                       : ColourEncoding::png;
+  options.encoding.jpeg_quality = request.jpeg_quality;
+  options.channel = request.out_channel;
+  options.fps = fps / std::abs(static_cast<double>(request.source.step));
+  options.overwrite = request.overwrite;
+  options.clock = &clock;
+  if (request.max_size > 0 || request.max_age > 0 || request.quota > 0)
+    options.rotation =
+        LogRotation{static_cast<std::int64_t>(request.max_size), static_cast<std::int64_t>(request.max_age * 1e6),
+                    static_cast<std::int64_t>(request.quota)};
+  return options;
+}
+
+/// The file of a configuration; "": none is read.
+std::string config_file(const std::string& name) { return name.empty() ? "" : find_config(name).value_or(""); }
+
+Output output_of(const CopyRequest& request, bool rotates) {
+  const Output::Kind log = rotates ? Output::Kind::log_set : Output::Kind::file;
+  return {request.out_option, request.out, is_log_path(request.out) ? log : Output::Kind::recording};
+}
+
+/// What makes a copy that came to its end a failed one.
+std::optional<Error> failure_of(const CopyResult& result, const std::string& source, bool live) {
+  const std::string frames = std::to_string(result.written + result.skipped);
+  if (result.written == 0 && live) return Error{"no frame came, so nothing is written", source, ""};
+  if (result.written == 0)
+    return Error{"nothing could be read: none of " + frames + " frames, so nothing is written", source, ""};
+  if (!live && result.skipped > result.written)
+    return Error{"most frames are missing: " + std::to_string(result.skipped) + " of " + frames + " could not be read",
+                 source, ""};
+  return std::nullopt;
+}
+
+int exit_code_of(const CopyResult& result, bool live, int signal) {
+  if (result.error) return kExitFailure;
+  if (result.stopped) return signal == SIGINT || !live ? kExitInterrupted : kExitOk;
+  return result.lost > 0 ? kExitFailure : kExitOk;
+}
+
+std::string counts(const CopyResult& result, const std::string& place) {
+  const auto part = [](std::int64_t count, const std::string& what) {
+    return count > 0 ? ", " + std::to_string(count) + what : std::string();
+  };
+  return std::to_string(result.written) + " frames written to " + place +
+         part(result.skipped, " unreadable ones skipped") + part(result.missing - result.dropped, " never arrived") +
+         part(result.dropped, " came faster than they could be written") +
+         part(result.lost, " lost: " + result.lost_why);
+}
+
+/// Tells systemd, where it listens, that the copy moves and how far it is.
+class ServiceReport {
+ public:
+  ServiceReport(ServiceManager& service, std::string place, const Clock& clock)
+      : service_(service), place_(std::move(place)), clock_(clock) {}
+  void operator()(const CopyResult& result) {
+    service_.alive();
+    if (clock_.steady_us() - told_us_ < 1'000'000) return;
+    told_us_ = clock_.steady_us();
+    service_.status(counts(result, place_));
+  }
+
+ private:
+  ServiceManager& service_;
+  const std::string place_;
+  const Clock& clock_;
+  std::int64_t told_us_ = 0;
+};
+
+}  // namespace
+
+int run_copy(const CopyRequest& request, const std::string& command) {
+  const SystemClock clock;
+  std::atomic<bool> stop = false;
+  ServiceManager service(clock);
+  const InterruptWatcher interrupt([&] {
+    service.stopping();
+    stop = true;
+  });
+  const auto refuse = [&](const Error& error) {
+    std::cerr << command << ": " << error.message() << "\n";
+    return kExitUsage;
+  };
+  SourceRequest input = request.source;
+  if (!request.config.empty()) {
+    const auto config = read_configuration(request.config);
+    if (!config) return refuse(config.error());
+    input.openni2 = config->openni2;
+    input.depth = {config->preprocess.min_depth, config->preprocess.max_depth};
+    if (!input.foreign.any()) input.foreign = config->foreign_camera;
+  }
+  if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
+  if (request.source.foreign.any()) input.openni2.camera = request.source.foreign;
+  auto source = open_source(input, clock);
+  if (!source && input.spec == "lcm") {  // the network may come later
+    refuse(source.error());
+    return kExitFailure;
+  }
+  if (!source) return refuse(source.error());
+  for (const std::string& warning : source->warnings) std::cerr << command << ": " << warning << "\n";
+  const FrameWriterOptions written_as = writer_options(request, source->fps, clock);
+  const Output output = output_of(request, written_as.rotation.has_value());
+  const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},
+                                   request.overwrite);
+  if (!apart) return refuse(apart.error());
+  std::optional<FileLock> lock;
+  if (written_as.rotation && is_log_path(request.out)) {
+    auto taken = lock_set(request.out, std::chrono::seconds(3));  // a service before this one may be about to end
+    if (!taken) {
+      refuse(taken.error());
+      return kExitFailure;  // it may be free later
+    }
+    lock = std::move(*taken);
+  }
+  auto writer = open_frame_writer(request.out, written_as);
+  if (!writer) return refuse(writer.error());
+
+  CopyOptions options;
+  options.frames = request.frames;
+  options.seconds = request.seconds;
+  options.expected = source->frames;
+  options.terminal = isatty(STDERR_FILENO) != 0;
+  options.quiet = service.present();
+  if (service.present()) options.on_step = ServiceReport(service, (*writer)->name(), clock);
+  service.ready("recording " + source->source->name());
+  CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
+  if (const auto finished = (*writer)->finish(); !finished && !result.error) result.error = finished.error();
+  const bool live = source->source->live();
+  if (!result.error && !result.stopped) result.error = failure_of(result, source->source->name(), live);
+  if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
+  std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");
+  return exit_code_of(result, live, interrupt.signal());
+}
+
+}  // namespace barehand

@@ -1,0 +1,58 @@
+#include "app/shared/depth_range.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/format.h"
+
+namespace barehand {
+namespace {
+
+constexpr int kPixelStep = 4;  // every fourth pixel of every fourth row says enough
+constexpr int kMostFrames = 30;
+constexpr std::int64_t kLongest = 1'000'000;  // us
+constexpr double kNearest = 0.18;             // m, of the median
+constexpr double kFew = 1e-3;                 // of what is measured; less is noise
+
+}  // namespace
+
+std::optional<std::string> DepthRange::look(const RgbdFrame& frame) {
+  if (done_) return std::nullopt;
+  if (frames_++ == 0) first_utime_ = frame.utime;
+  unit_ = frame.depth_unit;
+  for (int v = 0; v < frame.depth.height(); v += kPixelStep) {
+    for (int u = 0; u < frame.depth.width(); u += kPixelStep) {
+      const std::uint16_t count = frame.depth.at(u, v);
+      if (count == 0) continue;
+      const double depth = unit_ * count;
+      within_ += depth >= limits_.nearest && depth <= limits_.farthest;
+      values_.push_back(count);
+    }
+  }
+  if (frames_ < kMostFrames && frame.utime - first_utime_ < kLongest) return std::nullopt;
+  return conclude();
+}
+
+std::optional<std::string> DepthRange::finish() {
+  if (done_ || frames_ == 0) return std::nullopt;
+  return conclude();
+}
+
+std::optional<std::string> DepthRange::conclude() {
+  done_ = true;
+  std::vector<std::uint16_t> values = std::exchange(values_, {});
+  if (values.empty()) return "no depth is measured anywhere: is the lens covered, or everything out of range?";
+
+  // Where it lies: a unit that is wrong puts all of it out of reach.
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double median = unit_ * *middle;
+  const bool nothing = static_cast<double>(within_) <= kFew * static_cast<double>(values.size());
+  if (!nothing && median >= kNearest) return std::nullopt;
+  const std::string found = nothing ? formatted("nothing lies between %.3g and %.3g m, the median is %.3g m",
+                                                limits_.nearest, limits_.farthest, median)
+                                    : formatted("the median is %.3g m, nearer than depth cameras measure", median);
+  return found + formatted(": is depth_units_per_metre (depth_unit of a message), now %.6g, right?", 1 / unit_);
+}
+
+}  // namespace barehand

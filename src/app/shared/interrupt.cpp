@@ -1,0 +1,73 @@
+#include "app/shared/interrupt.h"
+
+#include <pthread.h>
+
+#include <ctime>
+
+namespace barehand {
+namespace {
+
+bool is_ignored(int number) {
+  struct sigaction action {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+InterruptWatcher::InterruptWatcher(std::function<void()> on_signal, std::function<void()> on_hangup)
+    : on_signal_(std::move(on_signal)),
+      on_hangup_(std::move(on_hangup)),
+      in_background_(is_ignored(SIGINT)),
+      hangup_stops_(!on_hangup_) {
+  sigemptyset(&watched_);
+  sigaddset(&watched_, SIGINT);
+  sigaddset(&watched_, SIGTERM);
+  if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &watched_, &before_);
+  thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+}
+
+InterruptWatcher::~InterruptWatcher() {
+  thread_.request_stop();
+  thread_.join();
+
+  // A SIGHUP that came too late must not end the process now.
+  constexpr timespec kNow{0, 0};
+  sigset_t hangup;
+  sigemptyset(&hangup);
+  sigaddset(&hangup, SIGHUP);
+  sigtimedwait(&hangup, nullptr, &kNow);
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+std::string InterruptWatcher::name() const {
+  return signal_ == SIGINT ? "Ctrl-C" : signal_ == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
+
+/// The terminal sends Ctrl-C to all that were started from it, whoever it is for.
+bool InterruptWatcher::is_for_others(const siginfo_t& info) const {
+  return in_background_ && info.si_signo == SIGINT && info.si_code == SI_KERNEL;
+}
+
+void InterruptWatcher::watch(const std::stop_token& stop) {
+  constexpr timespec kPatience{0, 50'000'000};
+  while (!stop.stop_requested()) {
+    siginfo_t info{};
+    const int received = sigtimedwait(&watched_, &info, &kPatience);
+    if (received <= 0 || is_for_others(info)) continue;
+    if (received == SIGHUP && !hangup_stops_) {
+      on_hangup_();
+      continue;
+    }
+    signal_ = received;
+
+    // The next signal has its default effect, through this thread. Not so SIGHUP: a terminal that goes away sends it
+    // twice, through the shell and by itself.
+    sigdelset(&watched_, SIGHUP);
+    pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
+    on_signal_();
+    while (!stop.stop_requested()) nanosleep(&kPatience, nullptr);
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,116 @@
+#include "app/shared/outputs.h"
+
+#include <sys/stat.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "io/lcm/rotating_log.h"
+#include "io/place.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kElsewhere = "choose another name: what a run reads is never replaced";
+
+tl::unexpected<Error> refuse(const Output& output, const std::string& what, const std::string& remedy = kElsewhere) {
+  return fail(what, output.option + " " + output.path, remedy);
+}
+
+bool is_folder(Output::Kind kind) { return kind == Output::Kind::pictures || kind == Output::Kind::recording; }
+
+/// Asks the disk about as few of the files as possible: there may be a hundred thousand images.
+const std::string* same_file(const std::vector<std::string>& files, const std::string& path, const Place& place) {
+  struct stat wanted {};
+  const bool exists = stat(path.c_str(), &wanted) == 0;
+  const fs::path name = fs::path(path).filename();
+  for (const std::string& file : files) {
+    struct stat status {};
+    if (exists && stat(file.c_str(), &status) == 0 && status.st_dev == wanted.st_dev && status.st_ino == wanted.st_ino)
+      return &file;
+    if (!exists && fs::path(file).filename() == name && Place(file) == place) return &file;
+  }
+  return nullptr;
+}
+
+Result<void> check_source(const SourceFiles& source, const Output& output, const Place& place) {
+  if (const std::string* file = same_file(source.files, output.path, place))
+    return refuse(output, "is " + *file + " of the source " + source.name);
+  for (const std::string& folder : source.image_folders)
+    if (const Place images(folder); place == images || place.lies_in(images))
+      return refuse(output, "is or lies in " + folder + ", where images of the source " + source.name + " are",
+                    "choose another folder");
+
+  // A log of the set: now, or when it is written.
+  if (output.kind == Output::Kind::log_set)
+    for (const std::string& file : source.files)
+      if (belongs_to_set(file, output.path))
+        return refuse(output, "names a set of logs that " + file + " of the source belongs to", "choose another name");
+  const bool log = output.kind == Output::Kind::log_set || fs::path(output.path).extension() == ".lcmlog";
+  if (source.set_of_logs && log && place.is_entry_of(Place(source.folder)))
+    return refuse(output, "would become a part of the source " + source.name, "choose another folder");
+
+  // A folder around the source, or the source itself.
+  if (!is_folder(output.kind)) return {};
+  const std::vector<std::string>& whole =
+      source.folder.empty() ? source.files : std::vector<std::string>{source.folder};
+  for (const std::string& path : whole)
+    if (const Place at(path); at == place || at.lies_in(place))
+      return refuse(output, "is or contains the source " + source.name, "choose a folder of its own");
+  return {};
+}
+
+bool has_pictures(const std::string& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string stem = entry.path().stem().string(), ending = entry.path().extension().string();
+    const bool number =
+        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (number && (ending == ".jpg" || ending == ".png")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_taken(const Output& output) {
+  if (output.path.empty() || target_of(output.path).direct) return false;
+  if (output.kind == Output::Kind::pictures) return has_pictures(output.path);
+  return output.kind == Output::Kind::file && Place(output.path).exists();
+}
+
+Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,
+                           const std::vector<Output>& outputs, bool overwrite) {
+  std::vector<std::pair<const Output*, Place>> before;
+  for (const Output& output : outputs) {
+    if (output.path.empty() || target_of(output.path).direct) continue;
+    const Place place(output.path);
+    for (const auto& [other, other_place] : before)
+      if (place == other_place)
+        return refuse(output, "is what " + other->option + " " + other->path + " writes, too", "give two names");
+    for (const InputFile& input : inputs)
+      if (!input.path.empty() && place == Place(input.path))
+        return refuse(output, "is the file of " + input.option + " " + input.path);
+    if (const auto apart = check_source(source, output, place); !apart) return apart;
+    before.emplace_back(&output, place);
+  }
+
+  std::error_code ignored;
+  for (const Output& output : outputs) {
+    if (output.kind == Output::Kind::file && fs::is_directory(output.path, ignored))
+      return refuse(output, "is a folder", "give a file");
+    if (!overwrite && is_taken(output))
+      return refuse(output, output.kind == Output::Kind::pictures ? "holds pictures already" : "exists already",
+                    "choose another name, or replace it with --overwrite");
+  }
+  return {};
+}
+
+void add_overwrite_option(CLI::App& command, bool& overwrite) {
+  command.add_flag("--overwrite", overwrite,
+                   "replace files that exist; what is read, and recordings in folders, are never replaced");
+}
+
+}  // namespace barehand

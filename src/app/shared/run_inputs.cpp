@@ -1,0 +1,59 @@
+#include "app/shared/run_inputs.h"
+
+#include "io/data_files.h"
+#include "io/hand/hand_json.h"
+
+namespace barehand {
+namespace {
+
+Result<NamedHand> named(Result<HandProfile> profile, const std::string& name) {
+  if (!profile) return tl::unexpected(profile.error());
+  return NamedHand{std::make_shared<const HandProfile>(std::move(*profile)), name};
+}
+
+/// The mean adult hand.
+Result<NamedHand> shipped(const std::string& side) {
+  return find_data_file("configs/hands/adult_" + side + ".json").and_then([](const std::string& path) {
+    return named(load_profile(path), path);
+  });
+}
+
+}  // namespace
+
+Result<Config> read_configuration(const std::string& name) {
+  if (name == "builtin") return Config{};
+  return find_config(name).and_then([](const std::string& path) { return load_config<Config>(path); });
+}
+
+Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source) {
+  std::vector<Result<NamedHand>> found;
+  for (const std::string& name : wanted) {
+    if (name == "both") {
+      found.push_back(shipped("right"));
+      found.push_back(shipped("left"));
+    } else {
+      found.push_back(name == "right" || name == "left" ? shipped(name) : named(load_profile(name), name));
+    }
+  }
+  if (found.empty())
+    for (const SourceHand& hand : source.hands) found.push_back(named(hand.load(), hand.name));
+  if (found.empty()) found.push_back(shipped("right"));
+  std::vector<NamedHand> hands;
+  for (Result<NamedHand>& hand : found) {
+    if (!hand) return tl::unexpected(hand.error());
+    for (const NamedHand& other : hands)
+      if (other.profile->handedness == hand->profile->handedness)
+        return fail("is a " + std::string(to_string(hand->profile->handedness)) + " hand, as " + other.name + " is",
+                    hand->name, "give one hand, or a right and a left one");
+    hands.push_back(std::move(*hand));
+  }
+  return hands;
+}
+
+std::vector<std::shared_ptr<const HandProfile>> profiles_of(const std::vector<NamedHand>& hands) {
+  std::vector<std::shared_ptr<const HandProfile>> profiles;
+  for (const NamedHand& hand : hands) profiles.push_back(hand.profile);
+  return profiles;
+}
+
+}  // namespace barehand

@@ -1,0 +1,147 @@
+#include "app/shared/source_factory.h"
+
+#include "app/shared/watched_source.h"
+#include "drivers/folder/folder_source.h"
+#include "drivers/lcm/lcm_live_source.h"
+#include "drivers/lcm/lcm_log_source.h"
+#include "drivers/openni2/openni_file_source.h"
+#include "drivers/openni2/openni_live_source.h"
+#include "drivers/synthetic/synthetic_source.h"
+#include "drivers/usb/libusb_bus.h"
+#include "io/file_bytes.h"
+#include "io/hand/hand_json.h"
+#include "io/hand/path_of_hand.h"
+#include "io/recording/stamped_list.h"
+
+namespace barehand {
+namespace {
+
+constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, openni2, openni2:SENSOR, openni2:FILE.oni, sim:NAME";
+
+bool is_oni_file(const std::string& name) { return name.ends_with(".oni"); }
+
+/// A list that somebody else made may name any file of this machine.
+std::optional<std::string> outside_warning(const Recording& recording) {
+  std::int64_t count = 0;
+  std::string first;
+  for (const RecordingEntry& entry : recording.entries)
+    for (const std::string& file : {entry.depth_file, entry.colour_file})
+      if (!file.empty() && is_outside(recording.directory, file) && count++ == 0) first = file;
+  if (count == 0) return std::nullopt;
+  return recording.directory + ": its lists name " + std::to_string(count) + " images outside of the folder, first " +
+         first;
+}
+
+Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
+  auto source = FolderSource::open(directory, {request.start, request.step});
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.frames = (*source)->remaining();
+  for (const int k : {0, 1}) {
+    const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
+    if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
+  }
+  open.fps = (*source)->recording().fps;
+  open.warnings = (*source)->recording().doubts;
+  if (const auto outside = outside_warning((*source)->recording())) open.warnings.push_back(*outside);
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_log(const std::string& path, const SourceRequest& request) {
+  LcmLogOptions options;
+  options.channel = request.channel;
+  options.start = request.start;
+  options.step = request.step;
+  options.foreign = request.foreign;
+  auto source = LcmLogSource::open(path, options);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.frames = (*source)->remaining();
+  open.warnings = (*source)->doubts();
+  if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
+    open.warnings.push_back(path + ": " + std::to_string(bytes) +
+                            " bytes are damaged or cut off; every whole event is played");
+  if (const auto& left_out = (*source)->left_out(); !left_out.empty())
+    open.warnings.push_back(path + ": " + std::to_string(left_out.size()) + " of its logs cannot be played, first " +
+                            left_out.front().message());
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_live(const SourceRequest& request) {
+  LcmLiveOptions options;
+  options.channel = request.channel;
+  options.foreign = request.foreign;
+  options.capacity = request.live_capacity;
+  auto source = LcmLiveSource::open(request.lcm_url, options);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url))
+    open.warnings.push_back(shortfall->message());
+  open.source = std::move(*source);
+  return open;
+}
+
+/// An .oni file plays; anything else is (part of) a sensor's address, and the sensor may come later.
+Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
+  if (const auto possible = check(request.openni2.camera, request.spec + ", fx, fy, cx, cy"); !possible)
+    return tl::unexpected(possible.error());
+  OpenSource open;
+  if (!is_oni_file(argument)) {
+    open.fps = request.openni2.fps;
+    open.source = std::make_unique<OpenNiLiveSource>(argument, request.openni2, request.live_capacity, clock,
+                                                     std::make_unique<LibUsbBus>());
+    return open;
+  }
+  auto source = OpenNiFileSource::open(argument, request.openni2, request.start.value_or(0), request.step);
+  if (!source) return tl::unexpected(source.error());
+  open.frames = (*source)->remaining();
+  open.fps = (*source)->fps();
+  if (const auto warning = (*source)->warning()) open.warnings.push_back(*warning);
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
+  auto source = synthetic::SyntheticSource::open(text, clock);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  if (const std::int64_t frames = (*source)->remaining(); frames >= 0) open.frames = frames;
+  open.fps = (*source)->fps();
+  for (const synthetic::SimulatedHand& hand : (*source)->hands())
+    open.hands.push_back({[profile = hand.profile] { return Result<HandProfile>(profile); },
+                          "of the simulated " + std::string(to_string(hand.profile.handedness)) + " hand"});
+  open.source = std::move(*source);
+  return open;
+}
+
+Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
+  const auto colon = request.spec.find(':');
+  const std::string kind = request.spec.substr(0, colon);
+  const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
+  if (request.step == 0) return fail("a step of 0 never gets anywhere", "--step", "give 1, 2, ... or -1, -2, ...");
+  const bool recording = kind == "folder" || kind == "log" || (kind == "openni2" && is_oni_file(argument));
+  if (!recording && (request.start || request.step != 1))
+    return fail("--start and --step are for recordings", request.spec, "leave them out");
+  if (kind == "lcm" && colon == std::string::npos) return open_live(request);
+  if (kind == "openni2") return open_openni(argument, request, clock);
+  if (kind == "sim" && !argument.empty()) return open_simulator(argument, clock);
+  if (recording && argument.empty())
+    return fail("the source names no file", request.spec, std::string("give ") + kKinds);
+  if (kind == "folder") return open_folder(argument, request);
+  if (kind == "log") return open_log(argument, request);
+  return fail("unknown source", request.spec, std::string("give ") + kKinds);
+}
+
+}  // namespace
+
+Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
+  auto open = open_kind(request, clock);
+  // The simulator's pictures are what it was asked for: without noise they may well stand still.
+  if (open && !request.spec.starts_with("sim:"))
+    open->source = std::make_unique<WatchedSource>(std::move(open->source), request.depth, clock);
+  return open;
+}
+
+}  // namespace barehand

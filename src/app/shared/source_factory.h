@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/shared/depth_range.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "drivers/openni2/openni_params.h"
+#include "hand/profile.h"
+#include "sensor/frame_source.h"
+#include "sensor/given_intrinsics.h"
+
+namespace barehand {
+
+/// What `--source` and its neighbours say.
+struct SourceRequest {
+  std::string spec;                   ///< folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME
+  std::optional<std::int64_t> start;  ///< first frame of a recording
+  std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
+  std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
+  std::string channel;                ///< glob of LCM channels with frames; "": the driver chooses one
+  GivenIntrinsics foreign;            ///< intrinsics of frames that come without
+  OpenNiParams openni2;               ///< what is wanted of a sensor
+  std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
+  DepthLimits depth;                  ///< where a hand is looked for; where nothing is measured there, that is said
+};
+
+/// A hand that a source knows.
+struct SourceHand {
+  std::function<Result<HandProfile>()> load;  ///< reads its profile
+  std::string name;                           ///< where that comes from, for messages
+};
+
+struct OpenSource {
+  std::unique_ptr<FrameSource> source;
+  std::vector<SourceHand> hands;       ///< the very hands that are seen, the first one first; empty: not known
+  double fps = 0;                      ///< nominal rate at which frames come; 0: not known
+  std::optional<std::int64_t> frames;  ///< how many will come, where that is known
+  std::vector<std::string> warnings;   ///< what the user should know of a source that opened all the same
+};
+
+/// Errors: an unknown kind of source, and whatever the driver says (no such file, no frames, no multicast route, ...).
+/// `clock` outlives the source and paces a live simulator.
+Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock);
+
+}  // namespace barehand

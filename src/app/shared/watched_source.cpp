@@ -1,0 +1,102 @@
+#include "app/shared/watched_source.h"
+
+#include "core/format.h"
+#include "sensor/camera_doubts.h"
+#include "sensor/picture_check.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kRepeatEvery = 10'000'000;  // us
+constexpr std::int64_t kStillFor = 1'000'000;      // us of a recording
+constexpr int kStillFrames = 10;
+
+double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
+
+}  // namespace
+
+WatchedSource::WatchedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock)
+    : source_(std::move(source)), limits_(limits), filter_(clock, kRepeatEvery) {}
+
+SourceEvent WatchedSource::take_next() {
+  SourceEvent event = std::move(to_come_.front());
+  to_come_.pop_front();
+  return event;
+}
+
+SourceEvent WatchedSource::next(std::chrono::milliseconds patience) {
+  if (!to_come_.empty()) return take_next();
+  SourceEvent event = source_->next(patience);
+  if (const auto* frame = std::get_if<FramePtr>(&event)) {
+    if (!look(*frame)) return take_next();
+  } else if (std::holds_alternative<EndOfStream>(event) && range_) {
+    if (const auto doubt = range_->finish()) say("range", *doubt);
+  }
+  if (to_come_.empty()) return event;
+  to_come_.push_back(std::move(event));
+  return take_next();
+}
+
+/// Whether the frame is to be used; what is to be said comes before it.
+bool WatchedSource::look(const FramePtr& frame) {
+  if (!before_ || !(before_->camera == frame->camera) || before_->depth_unit != frame->depth_unit) {
+    look_at_camera(*frame);
+    range_.emplace(limits_);
+  }
+  if (!frame->colour_fault.empty())
+    say("colour", "colour is not used: " + frame->colour_fault, "depth goes on without");
+  if (!look_at_picture(frame)) return false;
+  if (const auto doubt = range_->look(*frame)) say("range", *doubt);
+  before_ = frame;
+  return true;
+}
+
+void WatchedSource::look_at_camera(const RgbdFrame& frame) {
+  for (const std::string& doubt : camera_doubts(frame.camera)) say("camera", doubt);
+}
+
+bool WatchedSource::look_at_picture(const FramePtr& frame) {
+  const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
+  const bool still = fault == DepthFault::repeated;
+  if (live() && (still || fault == DepthFault::senseless)) {
+    to_come_.push_back(SkippedFrame{{still ? "the depth image repeats the one before bit for bit, with a new time stamp"
+                                           : "the depth image is noise",
+                                     name(), "look after the sensor, or the program that sends its frames"}});
+    return false;
+  }
+  if (fault == DepthFault::senseless)
+    say("noise",
+        formatted("the depth image of frame %lld is noise: neighbouring pixels have nothing to do with each other",
+                  static_cast<long long>(frame->number)),
+        "is it a 16-bit image with its bytes in the right order?");
+  look_at_stillness(*frame, still);
+  return true;
+}
+
+/// Of a recording. A sensor's noise never repeats, but a rendered hand may keep still.
+void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
+  if (!still) {
+    still_since_.reset();
+    return;
+  }
+  if (!still_since_) {
+    still_since_ = before_;
+    still_frames_ = 1;
+  }
+  const std::int64_t lasting = std::abs(frame.utime - still_since_->utime);
+  if (++still_frames_ < kStillFrames || lasting < kStillFor) return;
+  say("still",
+      formatted("the picture stands still: from frame %lld to %lld, for %.3g s, every depth image is bit for bit "
+                "the same",
+                static_cast<long long>(still_since_->number), static_cast<long long>(frame.number), seconds(lasting)),
+      "a sensor's noise never repeats: had it stopped?");
+}
+
+void WatchedSource::say(const std::string& kind, const std::string& what, const std::string& remedy) {
+  const auto kept_back = filter_.admit(kind);
+  if (!kept_back) return;
+  const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";
+  to_come_.push_back(SourceNotice{{what + more, name(), remedy}});
+}
+
+}  // namespace barehand

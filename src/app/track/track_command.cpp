@@ -1,0 +1,61 @@
+#include "app/track/track_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/shared/outputs.h"
+#include "app/track/track_options.h"
+#include "app/track/track_run.h"
+#include "core/parallel/parallel.h"
+
+namespace barehand {
+
+void add_track_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<TrackOptions>();
+  TrackOptions& o = *options;
+  o.threads = available_cores();
+  CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
+  track->add_option("--source", o.source, "folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
+  track
+      ->add_option("--config", o.config,
+                   "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
+      ->capture_default_str();
+  track
+      ->add_option("--hand", o.hands,
+                   "hand.json, or right, left, both: the shipped mean adult hand; twice for a right and a left hand "
+                   "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  track->add_option("--start", o.start, "first frame of a recording; backwards, play goes from there down to 0");
+  track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
+  track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
+  track->add_option("--result", o.result, "write the table of segment poses (CSV)");
+  track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
+  track->add_option("--overlay", o.overlay,
+                    "draw the tracked hand over the images: into a folder, or a video (.mp4, .mkv, .webm, .avi)");
+  track->add_option("--save-hand", o.save_hand, "write the hand profile as fitted to the person (hand.json)");
+  track->add_option("--overlay-every", o.overlay_every, "draw every so many frames only")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_overwrite_option(*track, o.overwrite);
+  track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
+  track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
+  track->add_option("--seed", o.seed, "of the random numbers, instead of the configuration's");
+  track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
+  track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
+  track->add_flag("--health", o.health, "print the state of the pipeline every health period");
+  track
+      ->add_flag("--print-config{user}", o.print_config,
+                 "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "
+                 "differs from the defaults")
+      ->check(CLI::IsMember({"user", "all", "changed"}));
+  track->footer(
+      "Ctrl-C ends the run; what was tracked until then is written completely. Files have their names when they are "
+      "whole; until then, and after a crash, they are NAME.unfinished. A live run does not stop at files that exist: "
+      "it "
+      "writes NAME-2, NAME-3 and so on.\n"
+      "Exit code 1 also where no frame of a recording could be read, or more than half of them could not.");
+  track->callback([options, &exit_code] { exit_code = run_track(*options); });
+}
+
+}  // namespace barehand

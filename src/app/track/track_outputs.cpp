@@ -1,0 +1,88 @@
+#include "app/track/track_outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/hand/path_of_hand.h"
+#include "io/video/video_file.h"
+
+namespace barehand {
+namespace {
+
+using Kind = Output::Kind;
+
+/// One a hand.
+std::vector<Output> of_hands(const std::string& option, const std::string& path, const HandsTracker::Profiles& hands) {
+  std::vector<Output> outputs;
+  if (path.empty()) return outputs;
+  for (std::size_t k = 0; k < hands.size(); ++k)
+    outputs.push_back({option, path_of_hand(path, static_cast<int>(k), hands[k]->handedness)});
+  return outputs;
+}
+
+/// LCM's own logs: file://PATH?mode=w.
+Output of_network(const std::string& url) {
+  const std::string file = "file://";
+  const bool writes = url.starts_with(file) && url.find("mode=w") != std::string::npos;
+  return {"--lcm-url", writes ? url.substr(file.size(), url.find('?') - file.size()) : ""};
+}
+
+/// A video, whose name ends like one, is a file; anything else is a folder of pictures.
+Kind kind_of_overlay(const std::string& path) { return video_format(path) ? Kind::file : Kind::pictures; }
+
+std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profiles& hands) {
+  std::vector<Output> outputs = of_hands("--result", o.result, hands);
+  outputs.push_back({"--states-log", o.states_log});
+  outputs.push_back({"--overlay", o.overlay, kind_of_overlay(o.overlay)});
+  for (Output& profile : of_hands("--save-hand", o.save_hand, hands)) outputs.push_back(std::move(profile));
+  outputs.push_back({"--out", o.saved_later});
+  if (!o.no_publish) outputs.push_back(of_network(o.lcm_url));
+  return outputs;
+}
+
+std::string numbered(const std::string& path, int number) {
+  std::filesystem::path whole(path);
+  if (!whole.has_filename()) whole = whole.parent_path();  // "folder/"
+  return whole.parent_path() / (whole.stem().string() + "-" + std::to_string(number) + whole.extension().string());
+}
+
+/// `path`, or the first with a number that is free for all that is_taken asks about.
+template <class IsTaken>
+std::string free_name(const std::string& path, const IsTaken& is_taken) {
+  std::string name = path;
+  for (int number = 2; !name.empty() && is_taken(name); ++number) name = numbered(path, number);
+  return name;
+}
+
+}  // namespace
+
+Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
+                                    const HandsTracker::Profiles& hands, bool live) {
+  // What is read is told by its name as given, before any of the names changes.
+  std::vector<InputFile> inputs{{"--config", config_path}};
+  for (const std::string& hand : options.hands)
+    if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
+  if (options.init != "auto") inputs.push_back({"--init", options.init});
+  const SourceFiles source = files_of_source(options.source);
+  const bool number = live && !options.overwrite;
+  if (const auto good = check_outputs(source, inputs, outputs_of(options, hands), options.overwrite || number); !good)
+    return tl::unexpected(good.error());
+  if (!number) return options;
+
+  // A service goes on beside what the run before it wrote.
+  const auto some_taken = [](const std::vector<Output>& outputs) {
+    for (const Output& output : outputs)
+      if (is_taken(output)) return true;
+    return false;
+  };
+  const auto table_taken = [&](const std::string& path) { return some_taken(of_hands("", path, hands)); };
+  const auto file_taken = [&](const std::string& path) { return is_taken({"", path}); };
+  const auto overlay_taken = [&](const std::string& path) { return is_taken({"", path, kind_of_overlay(path)}); };
+  options.result = free_name(options.result, table_taken);
+  options.states_log = free_name(options.states_log, file_taken);
+  options.overlay = free_name(options.overlay, overlay_taken);
+  options.save_hand = free_name(options.save_hand, table_taken);
+  return check_outputs(source, inputs, outputs_of(options, hands), false).map([&] { return options; });
+}
+
+}  // namespace barehand

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/shared/outputs.h"
+#include "app/track/track_options.h"
+#include "tracking/hands_tracker.h"
+
+namespace barehand {
+
+/// The outputs that `options` names, with those of the second hand, after check_outputs. A live run is not refused
+/// because of files that exist: a service starts again with the same arguments. There, without --overwrite, a taken
+/// name gets the first free number: states.lcmlog becomes states-2.lcmlog. `config_path`: the configuration's file, "":
+/// none.
+Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
+                                    const HandsTracker::Profiles& hands, bool live);
+
+}  // namespace barehand

@@ -1,0 +1,380 @@
+#include "app/track/track_run.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <iostream>
+#include <stop_token>
+
+#include "app/shared/exit_code.h"
+#include "app/shared/interrupt.h"
+#include "app/shared/run_inputs.h"
+#include "app/shared/source_factory.h"
+#include "app/shared/standard_streams.h"
+#include "app/track/track_outputs.h"
+#include "core/available_memory.h"
+#include "core/parallel/parallel.h"
+#include "hand/profile_doubts.h"
+#include "io/data_files.h"
+#include "io/file_bytes.h"
+#include "io/hand/pose_json.h"
+#include "pipeline/config.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/progress.h"
+#include "pipeline/reload.h"
+#include "pipeline/service_manager.h"
+#include "pipeline/sinks/file_sinks.h"
+#include "pipeline/sinks/health_sink.h"
+#include "pipeline/sinks/publish_sink.h"
+#include "pipeline/sinks/service_sink.h"
+#include "pipeline/summary.h"
+#include "pipeline/track_stages.h"
+#include "stages/publish/publisher.h"
+#include "tracking/memory_check.h"
+
+namespace barehand {
+namespace {
+
+using Step = tl::expected<void, TrackFailure>;
+
+tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
+tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
+
+constexpr double kUsualRate = 30;  // Hz, of a film of frames whose rate is not known
+
+/// One run, put together step by step: all input is checked before the first output file is touched.
+class TrackRun {
+ public:
+  TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread,
+           std::vector<std::unique_ptr<Sink>> more)
+      : options_(options),
+        config_(config),
+        reread_(std::move(reread)),
+        log_(make_logger(), clock_),
+        reload_(config, news_),
+        interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()),
+        sinks_(std::move(more)) {}
+
+  Step prepare();
+  TrackOutcome run();
+
+ private:
+  Step open_input();
+  Step use_hands();
+  Step choose_start();
+  Step choose_outputs();
+  Step open_outputs();
+  Step open_bus();
+  CommandedTracker::Inbox inbox() const;
+  template <class Open>
+  auto connect(Open open, bool live) -> decltype(open());
+  TrackFailure no_network(const Error& error) const;
+  void stop();
+  void reload();
+  Result<Reload::Changes> exchange_configuration();
+  Step add(Result<std::unique_ptr<Sink>> sink);
+  int conclude(const RunResult& result);
+  int judge_frames(const PipelineHealth& health);
+
+  TrackOptions options_;
+  const Config& config_;
+  const std::function<Result<Config>()> reread_;
+  SystemClock clock_;
+  RepeatLog log_;
+  ServiceManager service_{clock_};
+  std::stop_source stop_;
+  NewParams news_;
+  Reload reload_;               // watcher's thread only
+  InterruptWatcher interrupt_;  // before anything that starts threads
+  std::unique_ptr<Workers> workers_;
+  OpenSource input_;
+  HandsTracker::Profiles profiles_;
+  std::optional<HandPose> initial_;
+  std::shared_ptr<LcmBus> bus_;
+  std::unique_ptr<CommandInbox> commands_;
+  std::vector<std::unique_ptr<Sink>> sinks_;
+  ProgressSink* progress_ = nullptr;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+Step TrackRun::prepare() {
+  auto workers = make_workers(options_.threads);
+  if (!workers) return usage(workers.error());
+  workers_ = std::move(*workers);
+  if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
+  if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
+  if (const auto possible = check(config_.foreign_camera); !possible) return usage(possible.error());
+  return open_input()
+      .and_then([&] { return use_hands(); })
+      .and_then([&] { return choose_start(); })
+      .and_then([&] { return choose_outputs(); })
+      .and_then([&] { return open_outputs(); });
+}
+
+Step TrackRun::open_input() {
+  SourceRequest request;
+  request.spec = options_.source;
+  request.start = options_.start;
+  request.step = options_.step;
+  request.lcm_url = options_.lcm_url;
+  request.channel = config_.run.frame_channel;
+  request.foreign = config_.foreign_camera;
+  request.openni2 = config_.openni2;
+  request.depth = {config_.preprocess.min_depth, config_.preprocess.max_depth};
+  const bool from_network = options_.source == "lcm";
+  auto input = connect([&] { return open_source(request, clock_); }, from_network);
+  if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
+  input_ = std::move(*input);
+  if (input_.source->live())
+    workers_->go_live();
+  else
+    interrupt_.stop_on_hangup();  // a recording is tracked with one configuration from end to end
+  for (const std::string& warning : input_.warnings) log_.logger().warn(warning);
+  return {};
+}
+
+Step TrackRun::use_hands() {
+  const auto hands = choose_hands(options_.hands, input_);
+  if (!hands) return usage(hands.error());
+  for (const NamedHand& hand : *hands) {
+    log_.logger().info("hand profile: {}", hand.name);
+    for (const std::string& doubt : profile_doubts(*hand.profile)) log_.logger().warn("{}: {}", hand.name, doubt);
+  }
+  profiles_ = profiles_of(*hands);
+  return {};
+}
+
+Step TrackRun::choose_start() {
+  if (options_.init == "auto") return {};
+  auto pose = load_pose(options_.init, *profiles_[0]);
+  if (!pose) return usage(pose.error());
+  initial_ = *pose;
+  return {};
+}
+
+Step TrackRun::choose_outputs() {
+  auto settled = settle_outputs(options_, find_config(options_.config).value_or(""), profiles_, input_.source->live());
+  if (!settled) return usage(settled.error());
+  const auto tell = [&](const std::string& wanted, const std::string& chosen) {
+    if (wanted != chosen) log_.logger().info("{} exists already, writing {}", wanted, chosen);
+  };
+  tell(options_.result, settled->result);
+  tell(options_.states_log, settled->states_log);
+  tell(options_.overlay, settled->overlay);
+  tell(options_.save_hand, settled->save_hand);
+  options_ = std::move(*settled);
+  return {};
+}
+
+Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
+  if (!sink) return failure(sink.error());
+  sinks_.push_back(std::move(*sink));
+  return {};
+}
+
+Step TrackRun::open_outputs() {
+  Step ok;
+  const std::string& prefix = config_.run.channel_prefix;
+  if (!options_.no_publish) ok = open_bus();
+  if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_, options_.overwrite));
+  if (ok && !options_.states_log.empty())
+    ok =
+        add(StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &news_.states_log));
+  if (ok && !options_.overlay.empty())
+    ok = add(OverlaySink::create(
+        options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
+        options_.overlay_every));
+  if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
+  if (!ok) return ok;
+  if (service_.present())
+    sinks_.push_back(std::make_unique<ServiceSink>(
+        service_, [this] { return pipeline_->pulse(); }, [this] { return pipeline_->health(); }, clock_));
+  if (options_.health)
+    sinks_.push_back(std::make_unique<HealthSink>(
+        std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
+        clock_));
+  auto progress = std::make_unique<ProgressSink>(
+      std::cerr,
+      ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
+  progress_ = progress.get();
+  sinks_.push_back(std::move(progress));
+  return {};
+}
+
+Step TrackRun::open_bus() {
+  auto bus = connect([&] { return LcmBus::open(options_.lcm_url, config_.run.lcm_ttl); }, input_.source->live());
+  if (!bus) {
+    bus.error().remedy += "; --no-publish tracks without publishing";
+    return tl::unexpected(no_network(bus.error()));
+  }
+  bus_ = std::move(*bus);
+  if (config_.run.commands) {
+    commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
+    log_.logger().info("following commands on {}COMMAND", config_.run.channel_prefix);
+  }
+  BusSink::Health health{[this] { return pipeline_->take_interval_health(); },
+                         static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
+  return add(
+      BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &news_.bus));
+}
+
+/// What needs the LCM network. A run that waits for live frames waits for a network that is not there yet, too.
+template <class Open>
+auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  while (true) {
+    auto opened = open();
+    if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
+    if (LcmBus::open(options_.lcm_url)) return open();  // it is there now, or something else is wrong
+    log_.warn("LCM", opened.error().message() + "; trying again every second");
+    service_.ready("waiting for the LCM network");
+    service_.alive();
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop_.get_token(), std::chrono::seconds(1), [] { return false; });
+  }
+}
+
+TrackFailure TrackRun::no_network(const Error& error) const {
+  if (!stop_.stop_requested()) return {error, kExitFailure};
+  return {{"stopped while waiting for the LCM network", "", ""},
+          interrupt_.signal() == SIGINT ? kExitInterrupted : kExitOk};
+}
+
+void TrackRun::stop() {
+  service_.stopping();
+  stop_.request_stop();
+}
+
+void TrackRun::reload() {
+  service_.reloading();
+  const auto changes = exchange_configuration();
+  if (!changes) {
+    log_.logger().error("configuration not reloaded, the old one stays in force: {}", changes.error().message());
+    return service_.ready("configuration not reloaded: " + changes.error().what);
+  }
+  for (const std::string& change : changes->made) log_.logger().info("changed {}", change);
+  for (const std::string& change : changes->for_restart) log_.logger().warn("not changed before a restart: {}", change);
+  log_.logger().info("configuration reloaded, {} values changed", changes->made.size());
+  service_.ready("configuration reloaded");
+}
+
+Result<Reload::Changes> TrackRun::exchange_configuration() {
+  const auto config = reread_();
+  if (!config) return tl::unexpected(config.error());
+  if (auto fits = check_memory(config->tracker, available_memory()); !fits) return tl::unexpected(fits.error());
+  return reload_.apply(*config);
+}
+
+CommandedTracker::Inbox TrackRun::inbox() const {
+  if (!commands_) return {};
+  return [commands = commands_.get()] { return commands->take(); };
+}
+
+TrackOutcome TrackRun::run() {
+  TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &news_);
+  PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
+  for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
+  PipelineOptions options;
+  options.threaded = !options_.single_threaded;
+  options.max_failures_in_a_row = config_.run.max_failures_in_a_row;
+  options.stop = stop_.get_token();
+  log_.logger().info("tracking {}, {} threads{}", input_.source->name(), workers_->threads(),
+                     options.threaded ? "" : ", stages inline");
+  pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
+  service_.ready("tracking " + input_.source->name());
+  const std::int64_t start = clock_.steady_us();
+  const RunResult result = pipeline_->run();
+  const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
+  return {result.health, progress_->counts(), seconds, result.stopped, conclude(result)};
+}
+
+int TrackRun::conclude(const RunResult& result) {
+  int exit_code = kExitOk;
+  if (result.stopped) {
+    const bool by_user = interrupt_.signal() == SIGINT;
+    log_.logger().info("stopped by {}; everything tracked until then is written", interrupt_.name());
+    if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // a recording is not done before its end
+  }
+  for (const std::string& sink : result.incomplete) {
+    log_.logger().error("{}: frames are missing", sink);
+    if (!input_.source->live()) exit_code = kExitFailure;  // the world around a daemon is not its failure
+  }
+  if (result.error) {
+    log_.logger().error(result.error->message());
+    exit_code = kExitFailure;
+  }
+  return exit_code == kExitOk ? judge_frames(result.health) : exit_code;
+}
+
+/// Of a run that went to its end: whether a recording was read, and a line where nobody would notice otherwise.
+int TrackRun::judge_frames(const PipelineHealth& health) {
+  const std::int64_t frames = health.captured + health.skipped, unusable = health.skipped + health.failed;
+  if (!input_.source->live() && health.published == 0) {
+    log_.logger().error("{}: nothing was tracked: of {} frames {} could not be read and {} failed; nothing is written",
+                        input_.source->name(), frames, health.skipped, health.failed);
+    return kExitFailure;
+  }
+  if (!input_.source->live() && 2 * unusable > frames) {
+    log_.logger().error("{}: most frames are missing: of {} frames {} could not be read and {} failed",
+                        input_.source->name(), frames, health.skipped, health.failed);
+    return kExitFailure;
+  }
+  const auto tracked = [](const StatusCounts& hand) { return hand.of(TrackStatus::tracking) > 0; };
+  if (const auto& hands = progress_->counts(); health.published > 0 && std::ranges::none_of(hands, tracked))
+    log_.logger().warn("no hand was found in any of {} frames", health.published);
+  return kExitOk;
+}
+
+Result<Config> configuration(const TrackOptions& options) {
+  auto config = read_configuration(options.config);
+  if (config && options.seed) config->run.seed = *options.seed;
+  return config;
+}
+
+ConfigKeys keys_named(const std::string& name) {
+  if (name == "all") return ConfigKeys::all;
+  return name == "changed" ? ConfigKeys::changed : ConfigKeys::user;
+}
+
+int tell(const TrackFailure& failure) {
+  std::cerr << "barehand track: " << failure.error.message() << std::endl;
+  return failure.exit_code;
+}
+
+}  // namespace
+
+tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
+                                               std::function<Result<Config>()> reread,
+                                               std::vector<std::unique_ptr<Sink>> more) {
+  TrackRun run(options, config, std::move(reread), std::move(more));
+  if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
+  return run.run();
+}
+
+int run_track(const TrackOptions& options) {
+  const auto config = configuration(options);
+  if (!config) return tell({config.error(), kExitUsage});
+  if (!options.print_config.empty()) {
+    std::cout << print_config(*config, keys_named(options.print_config));
+    return printed(kExitOk);
+  }
+  if (options.source.empty())
+    return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
+  // Where there is a terminal, SIGHUP means that it is gone.
+  const bool daemon = isatty(STDIN_FILENO) == 0;
+  const auto reread = [&]() -> Result<Config> {
+    if (is_pipe(options.config))
+      return fail("was a pipe, which cannot be read again", options.config, "start with a file to change it later");
+    return configuration(options);
+  };
+  const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
+  if (!outcome) return tell(outcome.error());
+  std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
+  return outcome->exit_code;
+}
+
+}  // namespace barehand

@@ -1,0 +1,32 @@
+#include "io/config/config_writer.h"
+
+namespace barehand {
+
+bool ConfigWriter::is_shown(const std::string& key, const std::string& value) const {
+  if (keys_ == ConfigKeys::all || (keys_ == ConfigKeys::user && level() == ConfigLevel::user)) return true;
+  std::string path;
+  for (const Group& group : groups_) path += group.key + ".";
+  const auto usual = defaults_.find(path + key);
+  return usual == defaults_.end() || usual->second != value;
+}
+
+void ConfigWriter::entry(const std::string& key, const std::string& value, const std::string& range, const char* doc) {
+  if (!is_shown(key, value)) return;
+
+  // The groups around the key, unless an earlier key has brought them.
+  for (std::size_t depth = 0; depth < groups_.size(); ++depth) {
+    Group& group = groups_[depth];
+    if (group.written) continue;
+    if (!text_.empty() && !text_.ends_with(":\n")) text_ += "\n";
+    line(depth, "# " + group.doc);
+    line(depth, group.key + ":");
+    group.written = true;
+  }
+
+  line(groups_.size(), "# " + std::string(doc) + (range.empty() ? "" : " " + range));
+  line(groups_.size(), key + ": " + value);
+}
+
+void ConfigWriter::begin_group(const char* key, const char* doc) { groups_.push_back({key, doc}); }
+
+}  // namespace barehand

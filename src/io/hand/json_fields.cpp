@@ -1,0 +1,130 @@
+#include "io/hand/json_fields.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "io/file_bytes.h"
+#include "io/whole_file.h"
+
+namespace barehand::json_fields {
+
+using namespace std::string_literals;
+
+namespace {
+
+std::string range_text(double lo, double hi) {
+  std::ostringstream text;
+  text << "a number from " << lo << " to " << hi;
+  return text.str();
+}
+
+tl::unexpected<Error> bad(const Object& object, const char* key, const std::string& what, const std::string& wanted) {
+  return fail("\"" + std::string(key) + "\" " + what, object.where, "it must be " + wanted);
+}
+
+Result<double> checked(const Object& object, const char* key, const Json& value, double lo, double hi) {
+  if (!value.is_number()) return bad(object, key, "is " + value.dump() + ", not a number", range_text(lo, hi));
+  const double number = value.get<double>();
+  if (!(number >= lo && number <= hi))  // also catches NaN
+    return bad(object, key, "is " + value.dump(), range_text(lo, hi));
+  return number;
+}
+
+}  // namespace
+
+Result<Json> read_json(const std::string& path) {
+  return read_text(path).and_then([&](const std::string& text) { return parse_json(text, path); });
+}
+
+Result<Json> parse_json(const std::string& text, const std::string& where) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    return fail(std::string("is not valid JSON: ") + error.what(), where, "correct the place named");
+  }
+}
+
+Result<void> write_json(const std::string& path, const Json& json) {
+  // Paths need not be UTF-8.
+  return write_whole_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Result<double> Object::number(const char* key, double lo, double hi) const {
+  if (!has(key)) return bad(*this, key, "is missing", range_text(lo, hi));
+  return checked(*this, key, json.at(key), lo, hi);
+}
+
+Result<double> Object::number_or(const char* key, double fallback, double lo, double hi) const {
+  return has(key) ? number(key, lo, hi) : fallback;
+}
+
+Result<std::vector<double>> Object::numbers(const char* key, std::size_t count, double lo, double hi) const {
+  // The shape of the list.
+  const std::string wanted = "a list of " + std::to_string(count) + " numbers";
+  if (!has(key)) return bad(*this, key, "is missing", wanted);
+  const Json& list = json.at(key);
+  if (!list.is_array() || list.size() != count) return bad(*this, key, "has the wrong shape", wanted);
+
+  // Its values.
+  std::vector<double> values;
+  for (const Json& element : list) {
+    const auto value = checked(*this, key, element, lo, hi);
+    if (!value) return tl::unexpected(value.error());
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Result<std::string> Object::text(const char* key) const {
+  if (!has(key)) return bad(*this, key, "is missing", "a text");
+  if (!json.at(key).is_string()) return bad(*this, key, "is " + json.at(key).dump(), "a text");
+  return json.at(key).get<std::string>();
+}
+
+Result<SE3> Object::transform(const char* key) const {
+  const char* wanted = "a 4x4 rigid transform, row by row, in metres";
+
+  // The shape of the matrix.
+  if (!has(key)) return bad(*this, key, "is missing", wanted);
+  const Json& rows = json.at(key);
+  if (!rows.is_array() || rows.size() != 4) return bad(*this, key, "does not have 4 rows", wanted);
+
+  // Its numbers.
+  Eigen::Matrix4d m;
+  for (int r = 0; r < 4; ++r) {
+    if (!rows[r].is_array() || rows[r].size() != 4) return bad(*this, key, "has a row without 4 numbers", wanted);
+    for (int c = 0; c < 4; ++c) {
+      const auto value = checked(*this, key, rows[r][c], -100, 100);
+      if (!value) return tl::unexpected(value.error());
+      m(r, c) = *value;
+    }
+  }
+
+  // Only a rigid motion is accepted.
+  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
+  const double skew = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();
+  if (R.determinant() > 0 && skew >= 1e-3 && skew < 0.1)
+    return bad(*this, key, "holds no exact rotation: perhaps its numbers are rounded",
+               wanted + ", with 4 decimals or more"s);
+  if (!(skew < 1e-3 && R.determinant() > 0)) return bad(*this, key, "holds no right-handed rotation", wanted);
+  if ((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9)
+    return bad(*this, key, "does not end with the row 0 0 0 1", wanted);
+  return SE3{orthonormalised(R), m.topRightCorner<3, 1>()};
+}
+
+double rounded(double value) {
+  const double r = std::round(value * 1e9) / 1e9;
+  return r == 0 ? 0.0 : r;  // avoids "-0.0" in files
+}
+
+Json to_json(const SE3& T) {
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) {
+    Json row = Json::array();
+    for (int c = 0; c < 4; ++c) row.push_back(rounded(T.matrix()(r, c)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace barehand::json_fields

@@ -1,0 +1,197 @@
+#include "io/hand/result_table.h"
+
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "core/format.h"
+#include "hand/joint_angles.h"
+#include "io/file_bytes.h"
+#include "sensor/frame_order.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,visible";
+constexpr std::size_t kColumns = 10;
+// No table has more; differences and sums of what is within stay numbers.
+constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
+constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // s: no source has later frames
+constexpr double kFarthest = 1e6;                                          // m
+
+struct ParsedLine {
+  std::int64_t number = 0;
+  double timestamp = 0;
+  int segment = 0;
+  TableRow row;
+};
+
+template <typename T>
+bool parse(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// False for NaN.
+bool within(double value, double largest) { return std::abs(value) <= largest; }
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> fields;
+  for (std::size_t from = 0;;) {
+    const std::size_t comma = text.find(',', from);
+    fields.push_back(text.substr(from, comma - from));
+    if (comma == std::string_view::npos) return fields;
+    from = comma + 1;
+  }
+}
+
+std::optional<ParsedLine> parse_line(std::string_view text) {
+  const auto fields = split(text);
+  ParsedLine line;
+  if (fields.size() != kColumns || !parse(fields[0], line.number) || !parse(fields[1], line.timestamp)) return {};
+  if (line.number < -kLargestNumber || line.number > kLargestNumber || !within(line.timestamp, kLargestTime)) return {};
+  const auto segment = segment_from_name(fields[2]);
+  if (!segment) return {};
+  line.segment = *segment;
+  std::array<double, 7> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!parse(fields[3 + i], numbers[i]) || !within(numbers[i], kFarthest)) return {};
+  line.row = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6]};
+  return line;
+}
+
+/// Collects rows into frames.
+class TableBuilder {
+ public:
+  /// What is wrong with the line, or "".
+  std::string add(const ParsedLine& line) {
+    if (!open() || line.number != table_.frames.back().number) {
+      if (open()) return "frame " + std::to_string(table_.frames.back().number) + " ended before all its segments";
+      if (!numbers_.insert(line.number).second) return "frame " + std::to_string(line.number) + " occurs twice";
+      table_.frames.push_back({line.number, line.timestamp, {}});
+      seen_ = {};
+      missing_ = kSegmentCount;
+    }
+    if (seen_[line.segment]) return "segment " + std::string(kSegmentNames[line.segment]) + " occurs twice in a frame";
+    seen_[line.segment] = true;
+    --missing_;
+    table_.frames.back().rows[line.segment] = line.row;
+    return {};
+  }
+  ResultTable finish(bool cut_line) {
+    table_.truncated = cut_line || open();
+    if (open()) table_.frames.pop_back();
+    return std::move(table_);
+  }
+
+ private:
+  bool open() const { return missing_ > 0; }
+
+  ResultTable table_;
+  std::set<std::int64_t> numbers_;
+  std::array<bool, kSegmentCount> seen_{};
+  int missing_ = 0;
+};
+
+std::string format_row(const TableFrame& frame, int segment) {
+  const TableRow& row = frame.rows[segment];
+  return formatted("%lld,%.6f,%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", static_cast<long long>(frame.number),
+                   frame.timestamp, kSegmentNames[segment].data(), row.proximal.x(), row.proximal.y(), row.proximal.z(),
+                   row.distal.x(), row.distal.y(), row.distal.z(), row.visible);
+}
+
+}  // namespace
+
+TableFrame table_frame(const HandEstimate& estimate) {
+  assert(estimate.has_pose() && estimate.profile);
+  TableFrame frame{estimate.number, static_cast<double>(estimate.utime) * 1e-6, {}};
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentState& state = estimate.segments[s];
+    frame.rows[s] = {state.T_camera_segment.t, state.T_camera_segment * estimate.profile->segments[s].distal,
+                     state.visible};
+  }
+  return frame;
+}
+
+Result<ResultTable> read_table(const std::string& path) {
+  auto content = read_text(path);
+  if (!content) return tl::unexpected(content.error());
+  std::istringstream file(std::move(*content));
+  std::string text;
+  std::getline(file, text);
+  if (text != kHeader)
+    return fail("line 1 is no truth or result table's", path, "it must be \"" + std::string(kHeader) + "\"");
+  TableBuilder builder;
+  for (int number = 2; std::getline(file, text); ++number) {
+    const bool ended = !file.eof();  // false: the last line has no line feed
+    if (text.empty()) continue;
+    const auto line = parse_line(text);
+    if (!line && !ended) return builder.finish(true);
+    const std::string complaint = line ? builder.add(*line) : "is \"" + text + "\"";
+    if (!complaint.empty())
+      return fail("line " + std::to_string(number) + ": " + complaint, path, "see docs/formats.md for the columns");
+  }
+  return builder.finish(false);
+}
+
+Result<TableWriter> TableWriter::create(const std::string& path, bool overwrite) {
+  auto whole = WholeFile::create(path, overwrite);
+  if (!whole) return tl::unexpected(whole.error());
+  TableWriter writer(path, std::move(*whole));
+  writer.file_.reset(std::fopen(writer.whole_.draft().c_str(), "w"));
+  if (writer.file_) std::setvbuf(writer.file_.get(), nullptr, _IONBF, 0);
+  if (!writer.file_ || !writer.append(std::string(kHeader) + "\n"))
+    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
+                "check the folder, its permissions and the free space");
+  return writer;
+}
+
+TableWriter::~TableWriter() {
+  if (frames_ > 0) (void)finish();
+}
+
+Result<void> TableWriter::finish() {
+  if (!file_) return {};
+  file_.reset();
+  return whole_.finish();
+}
+
+bool TableWriter::append(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) return false;
+  good_ += static_cast<std::int64_t>(text.size());
+  return true;
+}
+
+Result<void> TableWriter::write(const TableFrame& frame) {
+  if (!file_) return fail("the table is finished, nothing more is written", path_);
+  if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  std::string text;
+  for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
+  if (append(text)) {
+    ++frames_;
+    return {};
+  }
+  const int reason = errno;
+  std::FILE* file = file_.get();
+  std::clearerr(file);
+  torn_ = ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+              torn_ ? "the table ends in a torn frame; readers leave it out"
+                    : "the frames before this one are kept; make room");
+}
+
+Result<void> TableWriter::write(const HandEstimate& estimate) {
+  if (estimate.status != TrackStatus::tracking) return {};
+  return write(table_frame(estimate));
+}
+
+}  // namespace barehand

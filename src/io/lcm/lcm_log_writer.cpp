@@ -1,0 +1,77 @@
+#include "io/lcm/lcm_log_writer.h"
+
+#include <fcntl.h>
+#include <stdio_ext.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <lcm/lcm-cpp.hpp>
+
+namespace barehand {
+
+LcmLogWriter::LcmLogWriter(std::string path, WholeFile file, std::unique_ptr<lcm::LogFile> log)
+    : path_(std::move(path)), file_(std::move(file)), log_(std::move(log)) {}
+
+LcmLogWriter::~LcmLogWriter() {
+  if (events_ > 0) (void)finish();
+}
+
+Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& path, bool overwrite) {
+  auto file = WholeFile::create(path, overwrite);
+  if (!file) return tl::unexpected(file.error());
+  errno = 0;
+  auto log = std::make_unique<lcm::LogFile>(file->draft(), "w");
+  if (!log->good()) {
+    return fail(std::string("cannot create the log: ") + std::strerror(errno), path,
+                "check the folder and its permissions");
+  }
+  return std::unique_ptr<LcmLogWriter>(new LcmLogWriter(path, std::move(*file), std::move(log)));
+}
+
+Result<void> LcmLogWriter::finish() {
+  if (!log_) return {};
+  log_.reset();
+  return file_.finish();
+}
+
+Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
+  if (!log_) return fail("the log is finished, nothing more is written", path_);
+  if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  if (channel.empty() || channel.size() > kLongestChannel)
+    return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
+  lcm::LogEvent event;
+  event.eventnum = 0;  // set by LogFile
+  event.timestamp = utime;
+  event.channel = channel;
+  event.datalen = static_cast<std::int32_t>(message.size());
+  event.data = const_cast<std::uint8_t*>(message.data());
+  errno = 0;
+  if (log_->writeEvent(&event) != 0 || std::fflush(log_->getFilePtr()) != 0) return cut_back(errno);
+  disk_full_ = false;
+  good_ += kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
+  ++events_;
+  start_write_back();
+  return {};
+}
+
+/// Now and then, so that not all of a large log is left to be waited for when it is finished.
+void LcmLogWriter::start_write_back() {
+  constexpr std::int64_t kPiece = 8 << 20;
+  if (good_ - written_back_ < kPiece) return;
+  (void)sync_file_range(fileno(log_->getFilePtr()), written_back_, good_ - written_back_, SYNC_FILE_RANGE_WRITE);
+  written_back_ = good_;
+}
+
+tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
+  std::FILE* file = log_->getFilePtr();
+  __fpurge(file);  // or closing the file would append the rest of the event that failed
+  const bool cut = ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
+  failed_ = !cut;
+  disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);
+  return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
+              cut ? "the " + std::to_string(events_) + " events before are kept; make room"
+                  : "the log ends in a broken event; readers skip it");
+}
+
+}  // namespace barehand

@@ -1,0 +1,91 @@
+#include "io/overlay/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "core/format.h"
+#include "io/overlay/overlay_drawing.h"
+#include "io/recording/image_file.h"
+#include "io/video/video_file.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+namespace {
+
+/// A name that nobody wants for a folder.
+bool is_other_video(const std::string& path) {
+  constexpr std::array kEndings = {".mov", ".m4v", ".mpg", ".mpeg", ".wmv", ".flv", ".ogv", ".gif"};
+  const std::string ending = lower_case_ending(path);
+  std::error_code error;
+  return !fs::is_directory(path, error) && std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+}  // namespace
+
+class OverlayWriter::Output {
+ public:
+  virtual ~Output() = default;
+  virtual Result<void> write(const Image<Rgb>& picture, std::int64_t number) = 0;
+  virtual Result<void> finish() { return {}; }
+};
+
+class OverlayWriter::Folder : public OverlayWriter::Output {
+ public:
+  explicit Folder(std::string path) : path_(std::move(path)) {}
+  Result<void> write(const Image<Rgb>& picture, std::int64_t number) override {
+    return write_colour(path_ + formatted("/%06lld.jpg", static_cast<long long>(number)), picture);
+  }
+
+ private:
+  std::string path_;
+};
+
+class OverlayWriter::Video : public OverlayWriter::Output {
+ public:
+  explicit Video(VideoFile file) : file_(std::move(file)) {}
+  Result<void> write(const Image<Rgb>& picture, std::int64_t) override { return file_.write(picture); }
+  Result<void> finish() override { return file_.finish(); }
+
+ private:
+  VideoFile file_;
+};
+
+Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps) {
+  if (video_format(path)) {
+    return VideoFile::create(path, fps).map(
+        [](VideoFile&& file) { return OverlayWriter(std::make_unique<Video>(std::move(file))); });
+  }
+  if (is_other_video(path))
+    return fail("is no kind of video that can be written", path, "let the name end in .mp4, .mkv, .webm or .avi");
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) return fail("cannot be made: " + error.message(), path, "check the path and its permissions");
+  return OverlayWriter(std::make_unique<Folder>(path));
+}
+
+OverlayWriter::OverlayWriter(std::unique_ptr<Output> output) : output_(std::move(output)) {}
+OverlayWriter::OverlayWriter(OverlayWriter&&) noexcept = default;
+OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
+OverlayWriter::~OverlayWriter() = default;
+
+void OverlayWriter::Outline::follow(const HandEstimate& estimate) {
+  constexpr int kPoints = 240;  // a segment; enough for a smooth outline
+  if (!estimate.profile || estimate.profile == profile) return;
+  profile = estimate.profile;
+  surface = make_cylinder_surface(*profile, kPoints);
+}
+
+Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimates& estimates) {
+  outlines_.resize(estimates.size());
+  std::vector<DrawnHand> hands;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    outlines_[k].follow(*estimates[k]);
+    hands.push_back({*estimates[k], outlines_[k].surface});
+  }
+  return output_->write(draw_overlay(frame, hands), frame.number);
+}
+
+Result<void> OverlayWriter::finish() { return output_->finish(); }
+
+}  // namespace barehand

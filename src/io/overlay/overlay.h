@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "hand/hand_pose.h"
+#include "hand/surface.h"
+#include "sensor/rgbd_frame.h"
+
+namespace barehand {
+
+/// Writes what draw_overlay draws: to a video (VideoFile; `path` ends in .mp4, .mkv, .webm or .avi) or as one JPEG per
+/// frame, named by its number, into a folder, which is made.
+class OverlayWriter {
+ public:
+  /// `fps`: of the video. Errors: a folder that cannot be made; those of VideoFile.
+  static Result<OverlayWriter> open(const std::string& path, double fps);
+  OverlayWriter(OverlayWriter&&) noexcept;
+  OverlayWriter& operator=(OverlayWriter&&) noexcept;
+  ~OverlayWriter();
+
+  /// Errors: a full disk; in a video, frames that change their size.
+  Result<void> write(const RgbdFrame& frame, const HandEstimates& estimates);
+  /// Ends a video and gives it its name; the destructor does so too, but cannot report errors.
+  Result<void> finish();
+
+ private:
+  class Output;
+  class Folder;
+  class Video;
+  explicit OverlayWriter(std::unique_ptr<Output> output);
+
+  /// Of the cylinders of a hand's profile.
+  struct Outline {
+    std::shared_ptr<const HandProfile> profile;
+    HandSurface surface;
+    void follow(const HandEstimate& estimate);
+  };
+
+  std::unique_ptr<Output> output_;
+  std::vector<Outline> outlines_;  // one a hand
+};
+
+}  // namespace barehand

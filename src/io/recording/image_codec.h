@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+#include "sensor/rgbd_frame.h"
+
+namespace barehand {
+
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+
+/// Size that the header of a PNG or JPEG in memory states, without decoding it. An error if it is neither.
+Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes);
+
+/// Decodes an 8-bit PNG or JPEG in memory. The header is compared with `expected` first, so a lying or foreign image
+/// is an error before memory is spent on it.
+Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected);
+
+/// Decodes a 16-bit PNG of one channel in memory, counts as stored. A JPEG is an error, as is any other PNG.
+Result<Image<std::uint16_t>> decode_depth_image(std::span<const std::uint8_t> bytes);
+
+}  // namespace barehand

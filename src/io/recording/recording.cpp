@@ -1,0 +1,158 @@
+#include "io/recording/recording.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/format.h"
+#include "io/file_bytes.h"
+#include "io/recording/camera_json.h"
+#include "io/recording/image_file.h"
+#include "io/recording/stamped_list.h"
+#include "sensor/frame_order.h"
+
+namespace barehand {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The typical time between two frames [us].
+std::int64_t frame_interval(const std::vector<StampedFile>& depth) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < depth.size(); ++i) steps.push_back(depth[i].utime - depth[i - 1].utime);
+  if (steps.empty()) return 50'000;
+  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+  return std::max<std::int64_t>(steps[steps.size() / 2], 1);
+}
+
+/// The file nearest in time, or "" if none lies within one frame interval: older colour belongs to another pose.
+std::string nearest_file(const std::vector<StampedFile>& sorted, std::int64_t utime, std::int64_t window) {
+  const auto after = std::lower_bound(sorted.begin(), sorted.end(), utime,
+                                      [](const StampedFile& file, std::int64_t t) { return file.utime < t; });
+  auto best = after;
+  if (after == sorted.end() || (after != sorted.begin() && utime - std::prev(after)->utime <= after->utime - utime))
+    best = after == sorted.begin() ? after : std::prev(after);
+  if (best == sorted.end() || std::abs(best->utime - utime) > window) return {};
+  return best->file;
+}
+
+/// Sorted by time; none where there is no list, or none that makes sense, which is then said.
+std::vector<StampedFile> read_colour_list(Recording& recording) {
+  const std::string path = recording.directory + "/rgb.txt";
+  if (is_missing(path)) return {};
+  auto files = read_stamped_list(path);
+  if (!files || files->empty()) {
+    recording.doubts.push_back(files ? path + ": lists no images; depth is used without colour"
+                                     : files.error().message() + "; depth is used without colour");
+    return {};
+  }
+  std::stable_sort(files->begin(), files->end(),
+                   [](const StampedFile& a, const StampedFile& b) { return a.utime < b.utime; });
+  return *std::move(files);
+}
+
+/// The frames of depth.txt with their colour, and what their stamps say.
+void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
+  const std::vector<StampedFile> colour = read_colour_list(recording);
+  const std::int64_t window = frame_interval(depth);
+  FrameOrder order(StampUnit::seconds);
+  for (const StampedFile& file : depth) {
+    RecordingEntry entry{file.utime, file.file, nearest_file(colour, file.utime, window), {}, {}};
+    if (entry.colour_file.empty() && !colour.empty())
+      entry.colour_fault = formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(window));
+    const auto number = static_cast<std::int64_t>(recording.entries.size());
+    if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
+    recording.entries.push_back(std::move(entry));
+  }
+  for (const std::string& doubt : order.take_last_doubts())
+    recording.doubts.push_back(recording.directory + "/depth.txt: " + doubt);
+}
+
+/// Takes over what the file says of the camera; a lens' images are made a pinhole's where that is known how.
+void use_camera(CameraFile file, const std::string& path, Recording& recording) {
+  constexpr double kNoticed = 0.5;  // px
+  constexpr double kLeast = 0.5;    // of the image
+  recording.camera = file.camera;
+  recording.depth_unit = file.depth_unit;
+  recording.fps = file.fps;
+  recording.doubts = std::move(file.doubts);
+  if (file.distortion == Distortion{}) return;
+  auto undistortion = std::make_shared<const Undistortion>(file.camera, file.distortion);
+  if (undistortion->shown() < kLeast) {
+    recording.doubts.push_back(path +
+                               ": no lens has these coefficients of distortion; they are not used (are they in "
+                               "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
+  } else if (undistortion->largest_shift() > kNoticed) {
+    recording.doubts.push_back(
+        path + formatted(": the images are undistorted with the coefficients given, by up to %.3g pixels (if they are "
+                         "rectified already, add \"rectified\": true)",
+                         undistortion->largest_shift()));
+    recording.undistortion = std::move(undistortion);
+  }
+}
+
+/// One look at the start, so that a wrong camera.json stops the run instead of having every frame skipped.
+Result<void> check_first_image(const Recording& recording) {
+  const auto image = read_depth_png(recording.entries.front().depth_file);
+  if (!image) return {};  // one bad file is a skipped frame, not a bad recording
+  return check_size(image->width(), image->height(), recording.camera, recording.entries.front().depth_file);
+}
+
+/// The colour of a frame, or why there is none.
+Result<Image<Rgb>> read_frame_colour(const Recording& recording, const std::string& path) {
+  auto colour = read_colour(path);
+  if (!colour) return colour;
+  const Intrinsics& camera = recording.camera;
+  if (colour->width() != camera.width || colour->height() != camera.height)
+    return fail(formatted("is %dx%d, depth is %dx%d", colour->width(), colour->height(), camera.width, camera.height),
+                path, "register colour to depth: the same pixel must be the same ray");
+  return colour;
+}
+
+}  // namespace
+
+Result<Recording> open_recording(const std::string& directory) {
+  std::error_code error;
+  if (!fs::is_directory(directory, error))
+    return fail("is no folder" + (error ? ": " + error.message() : ""), directory, "name a recording folder");
+  Recording recording;
+  recording.directory = directory;
+  const std::string camera_path = directory + "/camera.json";
+  auto camera = read_camera_json(camera_path);
+  if (!camera) return tl::unexpected(camera.error());
+  use_camera(*std::move(camera), camera_path, recording);
+
+  const std::string list = directory + "/depth.txt";
+  const auto depth = read_stamped_list(list);
+  if (!depth) return tl::unexpected(depth.error());
+  if (depth->empty()) return fail("lists no frames", list, "the recording is empty");
+  list_frames(*depth, recording);
+  if (const auto first = check_first_image(recording); !first) return tl::unexpected(first.error());
+  return recording;
+}
+
+Result<FramePtr> read_frame(const Recording& recording, std::int64_t number) {
+  const RecordingEntry& entry = recording.entries.at(static_cast<std::size_t>(number));
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->utime = entry.utime;
+  frame->number = number;
+  frame->camera = recording.camera;
+  frame->depth_unit = recording.depth_unit;
+  auto depth = read_depth_png(entry.depth_file);
+  if (!depth) return tl::unexpected(depth.error());
+  const auto depth_size = check_size(depth->width(), depth->height(), recording.camera, entry.depth_file);
+  if (!depth_size) return tl::unexpected(depth_size.error());
+  const Undistortion* lens = recording.undistortion.get();
+  frame->depth = lens ? lens->apply(*depth) : std::move(*depth);
+
+  // Depth is what is tracked: it goes on without colour.
+  frame->colour_fault = entry.colour_fault;
+  if (entry.colour_file.empty()) return frame;
+  auto colour = read_frame_colour(recording, entry.colour_file);
+  if (colour)
+    frame->colour = lens ? lens->apply(*colour) : std::move(*colour);
+  else
+    frame->colour_fault = colour.error().message();
+  return frame;
+}
+
+}  // namespace barehand

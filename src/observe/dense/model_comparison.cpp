@@ -1,0 +1,154 @@
+#include "observe/dense/model_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+using Kind = Correspondence::Kind;
+
+constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
+constexpr float kStandsOut = 0.005f;    // skin that stands out of an occluder by less than this may move behind it [m]
+
+/// Classifies every cell of the grid and collects the correspondences.
+class Comparer {
+ public:
+  Comparer(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+           const ComparisonParams& params, ModelComparison& out)
+      : obs_(observation), skin_(skin), rendered_(rendered), params_(params), out_(out) {
+    // The wrist plane in camera coordinates, and the area of a cell at a depth of 1 m.
+    const SE3 T_palm_camera = pose[kPalm].inverse();
+    wrist_axis_ = T_palm_camera.R.row(2).cast<float>();
+    wrist_offset_ = static_cast<float>(T_palm_camera.t.z());
+    const Intrinsics& c = obs_.frame->camera;
+    const int stride = rendered.grid.stride;
+    cell_area_per_z_sq_ = static_cast<float>(stride * stride / (c.fx * c.fy)) / kReferenceArea;
+  }
+
+  void run() {
+    // Forget the previous frame's results.
+    out_.correspondences.clear();
+    out_.visible.fill(0);
+    out_.matched.fill(0);
+    out_.rays.reset(obs_.frame->camera, obs_.u0, obs_.v0, obs_.depth.width(), obs_.depth.height());
+    out_.nearest_model.index(rendered_.vertex);
+
+    // Every cell that shows model or hand data is one piece of evidence.
+    const CellGrid& g = rendered_.grid;
+    for (int j = 0; j < g.height; ++j)
+      for (int i = 0; i < g.width; ++i) {
+        const int u = i * g.stride, v = j * g.stride;
+        if (rendered_.vertex.at(i, j) >= 0)
+          judge_model(i, j, u, v);
+        else if (obs_.label.at(u, v) == PixelLabel::hand)
+          judge_unexplained(i, j, u, v);
+      }
+
+    // The score is the weighted mean.
+    out_.score = total_weight_ > 0 ? total_ / total_weight_ : params_.distance_cap;
+  }
+
+ private:
+  Vector3f model_point(int i, int j) const {
+    return out_.rays.point(i * rendered_.grid.stride, j * rendered_.grid.stride, rendered_.depth.at(i, j));
+  }
+  Vector3f data_point(int u, int v) const { return out_.rays.point(u, v, obs_.depth.at(u, v)); }
+
+  // Adds the correspondence of cell (i, j) and its share of the score. `cost_distance`: uncapped distance [m].
+  void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
+    const int vertex = rendered_.vertex.at(i, j);
+    const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
+    const float weight = cell_area_per_z_sq_ * z * z;
+    const Vector3f normal = rendered_.normal.empty() ? Vector3f(Vector3f::Zero()) : rendered_.normal[vertex];
+    out_.correspondences.push_back({kind, vertex, model_point(i, j), normal, data, weight});
+    total_ += weight * std::min<double>(cost_distance, params_.distance_cap);
+    total_weight_ += weight;
+  }
+
+  /// Classifies a cell that shows the model; (u, v): its pixel in the region of interest.
+  void judge_model(int i, int j, int u, int v) {
+    const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
+    const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
+    const PixelLabel label = obs_.label.at(u, v);
+
+    // Missing depth is no evidence.
+    if (label == PixelLabel::unknown || z_data <= 0) {
+      ++out_.visible[segment];  // a hole in the data does not hide the segment
+      return;
+    }
+
+    // Both are hand: a surface correspondence.
+    if (label == PixelLabel::hand) {
+      ++out_.visible[segment];
+      if (std::abs(z_data - z_model) < params_.self_occlusion) ++out_.matched[segment];
+      add(Kind::surface, i, j, data_point(u, v), std::abs(z_data - z_model));
+      return;
+    }
+
+    // Anything else in front of the model hides it; behind the model it contradicts the model.
+    const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
+    if (z_data < z_model + tolerance) return;
+    ++out_.visible[segment];
+    const std::int32_t hand = obs_.nearest_hand.at(u, v);
+    if (hand < 0) return;
+
+    // The model should not be visible here. It moves to whichever explanation is nearer: aside, onto the hand's data
+    // (Eq. 1), or back behind the measured surface if it stands out of it by little.
+    const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
+    const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
+    if (back < std::min(kStandsOut, distance_aside))
+      add(Kind::behind, i, j, out_.rays.point(u, v, z_model + back), back);
+    else
+      add(Kind::outside, i, j, aside, distance_aside);
+  }
+
+  // The nearest place beside the cell that would explain the model: the hand data at the pixel `hand`, or, where data
+  // there or the nearest object is in front of the model, the point hidden behind it at the model's own depth.
+  Vector3f nearest_aside(int u, int v, std::int32_t hand, const Vector3f& model) const {
+    const auto behind = [&](std::int32_t pixel) {
+      const int row = out_.rays.row_of(pixel);
+      return out_.rays.point(pixel - row * obs_.depth.width(), row, model.z());
+    };
+    const bool hand_hides = obs_.depth[hand] < model.z() - static_cast<float>(params_.self_occlusion);
+    const Vector3f at_hand = hand_hides ? behind(hand) : out_.rays.point(hand, obs_.depth);
+    const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
+    if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance)) return at_hand;
+    const Vector3f at_object = behind(object);
+    return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
+  }
+
+  /// Classifies a cell that shows hand data but no model.
+  void judge_unexplained(int i, int j, int u, int v) {
+    const Vector3f data = data_point(u, v);
+    if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // the forearm is not part of the model
+    const std::int32_t nearest = out_.nearest_model.find(i, j);
+    if (nearest < 0) return;
+    const int mi = nearest % rendered_.grid.width, mj = nearest / rendered_.grid.width;
+    add(Kind::unexplained, mi, mj, data, (data - model_point(mi, mj)).norm());
+  }
+
+  const HandObservation& obs_;
+  const Skin& skin_;
+  const RenderedHand& rendered_;
+  const ComparisonParams& params_;
+  ModelComparison& out_;
+  Vector3f wrist_axis_;
+  float wrist_offset_ = 0, cell_area_per_z_sq_ = 0;
+  double total_ = 0, total_weight_ = 0;
+};
+
+}  // namespace
+
+CellGrid grid_of(const HandObservation& observation, int stride) {
+  return {observation.u0, observation.v0, stride, (observation.depth.width() + stride - 1) / stride,
+          (observation.depth.height() + stride - 1) / stride};
+}
+
+void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+             const ComparisonParams& params, ModelComparison& out) {
+  Comparer(observation, skin, pose, rendered, params, out).run();
+}
+
+}  // namespace barehand

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "observe/dense/hand_renderer.h"
+#include "observe/dense/nearest_cell.h"
+#include "observe/dense/pixel_rays.h"
+#include "observe/observation.h"
+
+namespace barehand {
+
+/// The area of skin that a correspondence of weight 1 stands for [m^2]: a cell of 2 x 2 pixels at 0.6 m with a focal
+/// length of 525 px.
+inline constexpr float kReferenceArea = 5e-6f;
+
+/// Settings of the comparison of model and data.
+struct ComparisonParams {
+  int stride = 2;                      ///< compare every n-th pixel of the region of interest
+  double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
+  double occlusion_tolerance = 0.004;  ///< m, an object this far behind the model may still hide it
+  double self_occlusion = 0.010;  ///< m, hand data this far in front of the model belongs to another part (Sec. 4.2)
+  bool operator==(const ComparisonParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, ComparisonParams& p) {
+  v.user("stride", p.stride, 1, 16, "compare every n-th pixel of the region of interest");
+  v("distance_cap", p.distance_cap, 1e-3, 0.2, "m, no pixel costs more than this in the global score");
+  v("occlusion_tolerance", p.occlusion_tolerance, 0.0, 0.05,
+    "m, an object this far behind the model may still hide it");
+  v("self_occlusion", p.self_occlusion, 1e-3, 0.1,
+    "m, hand data this far in front of the model is another part (Sec. 4.2)");
+}
+
+/// One piece of evidence: a point of the model and the point of the data that it should move to.
+struct Correspondence {
+  /// surface: model and data are both hand. outside: there is model but no hand data, and the nearest explanation is
+  /// beside it in the image. behind: the same, but the nearest explanation is just behind the surface that is measured
+  /// there. unexplained: there is hand data but no model.
+  enum class Kind { surface, outside, behind, unexplained };
+  Kind kind;
+  int vertex;                           ///< skin vertex that carries the model point
+  Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero where it was left out
+  float weight;                         ///< skin area of the cell relative to kReferenceArea
+};
+
+/// All correspondences of a rendered hand and an observation, in both directions: model explained by data (surface,
+/// outside, behind) and data explained by the model (unexplained). Missing depth is no evidence.
+struct ModelComparison {
+  std::vector<Correspondence> correspondences;
+  double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence
+  std::array<int, kSegmentCount> visible{};  ///< cells where a segment is front-most and not hidden by an object
+  std::array<int, kSegmentCount> matched{};  ///< those of them with hand data near the model
+  NearestCell nearest_model;                 ///< scratch: look-up of the nearest cell of the rendered hand
+  PixelRays rays;                            ///< scratch: points of the observed pixels
+};
+
+/// The cells that cover the whole region of interest with this stride.
+CellGrid grid_of(const HandObservation& observation, int stride);
+
+/// Compares the observation with the rendered `skin` cell by cell. The grid of `rendered` sets the spacing; the stride
+/// of `params` is not used here.
+void compare(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
+             const ComparisonParams& params, ModelComparison& out);
+
+}  // namespace barehand

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <span>
+
+#include "observe/registration/observed_cloud.h"
+#include "observe/registration/visible_points.h"
+
+namespace barehand {
+
+/// Rigid registration of a posed hand surface to a frame (paper Sec. 4.4, its [2]).
+struct RegistrationParams {
+  bool enabled = true;
+  int model_points = 200;      ///< visible surface points that take part
+  int iterations = 30;         ///< per start, at most
+  double scale_start = 0.030;  ///< [m] Geman-McClure scale of the first iteration
+  double scale_end = 0.004;    ///< [m] and of the last
+  double point_weight = 0.03;  ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
+  int min_points = 100;        ///< fewer observed points: hold
+  double min_inliers = 0.5;    ///< fraction of unhidden model points that must match to be reliable
+  double slack = 0.03;         ///< [m] motion that is always believed; rotations: slack / 0.1 m
+  bool operator==(const RegistrationParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, RegistrationParams& p) {
+  v("enabled", p.enabled, "align rigidly by ICP (Sec. 4.4); off: no motion");
+  v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
+  v("iterations", p.iterations, 1, 200, "per start, at most");
+  v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
+  v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
+  v("point_weight", p.point_weight, 1e-6, 1.0,
+    "weight of point-to-point beside point-to-plane in the last iteration; 1 in the first");
+  v("min_points", p.min_points, 3, 1000000, "fewer observed points: no motion");
+  v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of unhidden model points that must match");
+  v("slack", p.slack, 0.0, 1.0, "m, motion that is always believed (rotation: slack / 0.1 m)");
+}
+
+/// Registration of the previous hand surface to the new frame: the large global motion. It may be faster than slack
+/// allows by these times the frame interval.
+struct IcpParams : RegistrationParams {
+  double max_speed = 4.0;         ///< [m/s]
+  double max_angular_speed = 20;  ///< [rad/s]
+  bool operator==(const IcpParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, IcpParams& p) {
+  visit(v, static_cast<RegistrationParams&>(p));
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion between two frames is not believed");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is not believed");
+}
+
+/// Motion beyond these is not believed.
+struct MotionBound {
+  double shift;  ///< [m] of the model's centroid
+  double angle;  ///< [rad]
+};
+inline MotionBound motion_bound(const RegistrationParams& p) { return {p.slack, p.slack / 0.1}; }
+/// `dt` [s] since the frame in which the model was posed.
+inline MotionBound motion_bound(const IcpParams& p, double dt) {
+  const MotionBound always = motion_bound(p);
+  return {always.shift + p.max_speed * dt, always.angle + p.max_angular_speed * dt};
+}
+
+/// Motion of the hand between two frames in camera coordinates: p_new = motion * p_old.
+struct IcpResult {
+  SE3 motion;
+  double rms = 0;         ///< [m] point-to-plane, over the matching points
+  double inliers = 0;     ///< fraction of unhidden model points that match
+  bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
+};
+
+/// Best of three starts: identity, shift of the centroid, `last_motion` (already scaled to this frame interval).
+IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
+                      const MotionBound& bound, const RegistrationParams& params);
+
+/// A matched pair with the plane normal used for it.
+struct IcpPair {
+  Eigen::Vector3d model, data, normal;
+};
+/// Residuals (point-to-plane, then the three point-to-point components, not weighted) of a pair whose model point,
+/// given in a frame at the pivot, was moved by `T_camera_pivot`; and their derivative by the boxplus twist.
+struct IcpResidual {
+  Eigen::Vector4d value;
+  Eigen::Matrix<double, 4, 6> jacobian;
+};
+IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair);
+
+}  // namespace barehand

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "observe/observation.h"
+#include "person/shape_fit.h"
+#include "stages/refinement/refinement.h"
+
+namespace barehand {
+
+/// Adapts a mean hand to the person in view. It looks at frames that the hand explains well and, after each look, says
+/// how the tracked hand should change.
+class PersonFit {
+ public:
+  /// `mean`: the mean hand that is to be adapted.
+  PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandProfile> mean);
+
+  /// none: nothing changes; small: use `profile` and `skin` from now on; large: build a new skin for `profile`, too.
+  enum class Change { none, small, large };
+  /// Evaluates one frame at its refined pose. `refinement` and `skin` are those of the tracked hand.
+  Change look(const HandObservation& observation, const HandPose& pose, const Refinement& refinement,
+              const std::shared_ptr<const Skin>& skin);
+
+  /// Call when the tracked hand gets a new skin that was built for `profile`.
+  void expect_new_skin() { basis_.reset(); }
+
+  std::shared_ptr<const HandProfile> profile() const { return profile_; }
+  std::shared_ptr<const Skin> skin() const { return skin_; }
+  const ShapeFit& fit() const { return fit_; }
+
+ private:
+  // Whether the shape should be looked at in this frame.
+  bool due();
+
+  ShapeFitParams params_;
+  std::shared_ptr<const HandProfile> mean_, profile_;
+  std::shared_ptr<const Skin> skin_, made_skin_;  // the current skin, and the last one that was built for a profile
+  ShapeFit fit_;
+  HandShape shape_ = HandShape::Zero(), made_shape_ = HandShape::Zero();  // the current shape, and that of made_skin_
+  std::optional<ShapeBasis> basis_;                                       // belongs to made_skin_
+  ShapeEquations equations_;
+  int frames_ = 0, next_skin_;  // next_skin_: looks until a skin is built anew
+};
+
+}  // namespace barehand

@@ -1,0 +1,116 @@
+#include "person/person_scan.h"
+
+#include <limits>
+
+#include "person/person_fit.h"
+
+namespace barehand {
+namespace {
+
+constexpr int kSettling = 8, kMost = 32;  // tracked frames before the first that is kept, and frames kept
+constexpr int kPasses = 4;                // over all frames, while a mean hand is fitted to them
+constexpr int kIterations = 8;            // Gauss-Newton steps of a pose
+
+/// Fits the poses of frames to a hand and, with look(), the hand to the frames.
+class BatchFit {
+ public:
+  BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given)
+      : params_(params), fit_(every_frame(params.shape_fit), given) {
+    use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell)));
+  }
+
+  // Refines the pose of a frame and fits the hand to it.
+  void look(ScanFrame& frame) {
+    refine(frame);
+    const auto change = fit_.look(*frame.observation, frame.pose, *refinement_, skin_);
+    if (change == PersonFit::Change::large)
+      use(fit_.profile(), std::make_shared<const Skin>(make_skin(*fit_.profile(), params_.skin_cell)));
+    else if (change == PersonFit::Change::small)
+      use(fit_.profile(), fit_.skin());
+  }
+  void refine(ScanFrame& frame) const {
+    frame.pose = refinement_->refine(*frame.observation, frame.pose, frame.pose, kIterations).pose;
+  }
+  const HandProfile& profile() const { return *fit_.profile(); }
+
+ private:
+  static ShapeFitParams every_frame(ShapeFitParams params) {
+    params.every = 1;
+    params.eager_looks = std::numeric_limits<int>::max();
+    return params;
+  }
+  void use(std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin) {
+    skin_ = skin;
+    refinement_ = std::make_unique<Refinement>(params_.refinement, std::move(profile), std::move(skin));
+  }
+
+  const PersonScanParams& params_;
+  PersonFit fit_;
+  std::shared_ptr<const Skin> skin_;
+  std::unique_ptr<Refinement> refinement_;
+};
+
+/// Runs in the background: fits a mean hand to the frames, refines their poses and scans the skin. Null: stopped, or
+/// the frames do not yield a hand.
+std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::shared_ptr<const HandProfile> given,
+                                           std::vector<ScanFrame> frames, Workers& workers,
+                                           const std::stop_token& stop) {
+  // Only a mean hand needs to be fitted first.
+  BatchFit fit(params, given);
+  const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
+  for (int pass = 0; pass < passes; ++pass)
+    for (ScanFrame& frame : frames) {
+      if (stop.stop_requested()) return nullptr;
+      fit.look(frame);
+    }
+
+  // Refine the poses with the final bones, and scan.
+  workers.for_each_index(static_cast<int>(frames.size()), [&](int i) { fit.refine(frames[i]); });
+  auto hand = scan_hand(fit.profile(), params.skin_cell, std::move(frames), workers, {}, stop);
+  if (!hand) return nullptr;
+  if (given->origin != ProfileOrigin::measured) hand->origin = ProfileOrigin::fitted;
+  return std::make_shared<const HandProfile>(*std::move(hand));
+}
+
+}  // namespace
+
+PersonScan::PersonScan(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, Workers& workers)
+    : params_(params),
+      given_(std::move(given)),
+      workers_(workers),
+      frames_(kSettling, kMost),
+      next_(params.shape_fit.scan_after) {}
+
+PersonScan::~PersonScan() { stop_.request_stop(); }  // the destructor of the future waits
+
+void PersonScan::add(const HandObservation& observation, const HandPose& pose) {
+  if (scans_ == params_.shape_fit.scans) return;
+  if (frames_.wants()) frames_.keep(std::make_shared<const HandObservation>(observation), pose);
+  const bool enough = static_cast<int>(frames_.frames().size()) >= ScanFrames::kFewest;
+  if (enough && frames_.tracked() >= next_ && !scan_.valid()) start();
+}
+
+void PersonScan::start() {
+  next_ *= 2;
+  of_hand_before_ = false;
+  scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
+                             Workers& workers) { return scanned(params, given, frames, workers, stop); });
+  // The frames need much memory and are no longer needed.
+  if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};
+}
+
+void PersonScan::restart() {
+  frames_ = {kSettling, kMost};
+  of_hand_before_ = scan_.valid();
+  next_ = params_.shape_fit.scan_after;
+  if (scans_ == 0) return;
+  scans_ = params_.shape_fit.scans - 1;
+  next_ <<= scans_;
+}
+
+std::shared_ptr<const HandProfile> PersonScan::take() {
+  if (!scan_.valid() || scan_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+  return scan_.get();
+}
+
+}  // namespace barehand

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <future>
+#include <stop_token>
+
+#include "person/scan_frames.h"
+#include "person/shape_fit.h"
+#include "stages/refinement/refinement.h"
+
+namespace barehand {
+
+/// What a scan needs of the tracker's parameters.
+struct PersonScanParams {
+  RefinementParams refinement;
+  ShapeFitParams shape_fit;
+  double skin_cell = 0.004;  ///< m, size of the smooth skin's triangles
+};
+
+/// Scans a person's hand in the background while it is tracked, as `barehand calibrate` does. After a number of
+/// tracked frames, and again after twice and four times as many, the skin is scanned from the frames that were kept. A
+/// mean hand is first fitted to these frames; the joints of a measured hand stay fixed. The work is done by
+/// Workers::aside.
+class PersonScan {
+ public:
+  /// `given`: the hand before anything was learnt. `workers` must outlive this object.
+  PersonScan(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, Workers& workers);
+  /// Waits until a running scan has stopped, about half a second.
+  ~PersonScan();
+  PersonScan(const PersonScan&) = delete;
+  PersonScan& operator=(const PersonScan&) = delete;
+
+  /// Adds a tracked frame that is explained well, with its refined pose.
+  void add(const HandObservation& observation, const HandPose& pose);
+  /// Call when a new track begins, most likely of the same person. The hand is scanned once more as soon as as much
+  /// was seen of it as for the last scan.
+  void restart();
+  /// Returns the scanned hand once after a scan has ended; null: there is nothing new. Rethrows what the scan threw.
+  std::shared_ptr<const HandProfile> take();
+  /// Whether the scan that take() returned last began before the last restart, so that it may show another person's
+  /// hand.
+  bool of_hand_before() const { return of_hand_before_; }
+
+ private:
+  using Hand = std::shared_ptr<const HandProfile>;  // null: the frames did not yield a hand
+  void start();
+
+  const PersonScanParams params_;
+  const Hand given_;
+  Workers& workers_;
+  ScanFrames frames_;
+  int scans_ = 0, next_;
+  bool of_hand_before_ = false;
+  std::stop_source stop_;
+  std::future<Hand> scan_;
+};
+
+}  // namespace barehand

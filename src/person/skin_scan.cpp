@@ -1,0 +1,104 @@
+#include "person/skin_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/angles.h"
+#include "person/scan_prior.h"
+#include "person/scan_system.h"
+
+namespace barehand {
+namespace {
+
+constexpr int kRounds = 40, kRoundsOfSkin = 16;  // the latter if the joints stay fixed
+constexpr int kSkinRounds = 2;                   // the first rounds move the skin alone, which is farthest off
+// Number of frames whose total weight is not exceeded: more of them add no information, as their errors are
+// correlated. With fixed joints the limit is lower, because partly seen skin would drift.
+constexpr double kFullScan = 100, kFullScanOfSkin = 46;
+constexpr double kWidening = 20 * kDegree;  // of the joint limits
+
+/// The state of a running scan.
+class Scan {
+ public:
+  Scan(const HandProfile& start, double cell, std::vector<ScanFrame> frames, Workers& workers)
+      : start_(make_scan_model(start, cell)),
+        model_(start_),
+        variables_(model_),
+        limits_(widened_limits(start, kWidening)),
+        frames_(std::move(frames)),
+        equations_(frames_.size()),
+        workers_(workers) {}
+
+  // Number of rounds of the whole scan.
+  int rounds() const { return start_.joints_are_known() ? kRoundsOfSkin : kRounds; }
+  /// One Gauss-Newton step on everything. `skin_only`: poses and joints stay. Returns the root mean square mismatch
+  /// before the step [m]; none if it cannot be solved.
+  std::optional<double> round(bool skin_only) {
+    // Linearise all frames in parallel.
+    const int frames = static_cast<int>(frames_.size());
+    std::vector<char> fine(frames_.size());
+    workers_.for_each_index(
+        frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
+    if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
+
+    // Sum up the prior and all frames, whose total weight is bounded.
+    const double weight = std::min(1.0, (start_.joints_are_known() ? kFullScanOfSkin : kFullScan) / frames);
+    ScanEquations shared;
+    shared.set_zero(variables_.count());
+    add_scan_prior(model_, start_, variables_, skin_only || start_.joints_are_known(), shared);
+
+    double squares = 0;
+    int residuals = 0;
+    for (const ScanFrameEquations& equations : equations_) {
+      equations.add_to(shared, weight);
+      squares += equations.squares();
+      residuals += equations.residuals();
+    }
+    if (residuals == 0) return std::nullopt;
+
+    // Solve and move everything.
+    const auto step = ScanSystem(shared, equations_, weight, workers_).solve();
+    if (!step) return std::nullopt;
+    workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });
+    variables_.apply(*step, model_);
+    return std::sqrt(squares / residuals);
+  }
+
+  HandProfile hand() const { return scanned_profile(start_, model_); }
+
+ private:
+  const ScanModel start_;
+  ScanModel model_;
+  const ScanVariables variables_;
+  const std::array<JointLimits, kSegmentCount> limits_;
+  std::vector<ScanFrame> frames_;
+  std::vector<ScanFrameEquations> equations_;
+  Workers& workers_;
+};
+
+}  // namespace
+
+std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std::vector<ScanFrame> frames,
+                                     Workers& workers, const std::function<void(const ScanProgress&)>& progress,
+                                     const std::stop_token& stop) {
+  if (frames.empty()) return std::nullopt;
+  Scan scan(start, cell, std::move(frames), workers);
+  double first = 0, last = 0;
+
+  // Iterate, unless the caller stops the scan or a round cannot be solved.
+  for (int round = 0; round < scan.rounds(); ++round) {
+    if (stop.stop_requested()) return std::nullopt;
+    const auto mismatch = scan.round(round < kSkinRounds);
+    if (!mismatch) return std::nullopt;
+    last = *mismatch;
+    if (round == 0) first = last;
+    if (progress) progress({round + 1, scan.rounds(), last});
+  }
+
+  // A hand that explains the frames worse than the start does is refused.
+  if (last > first) return std::nullopt;
+  return scan.hand();
+}
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "drivers/openni2/openni_params.h"
+#include "io/config/config_file.h"
+#include "io/config/config_writer.h"
+#include "pipeline/run_params.h"
+#include "sensor/given_intrinsics.h"
+#include "stages/detection/params.h"
+#include "stages/preprocess/params.h"
+#include "stages/publish/publish_params.h"
+#include "tracking/tracker_params.h"
+
+namespace barehand {
+
+/// Everything a configuration file says: one group per stage.
+struct Config {
+  RunParams run;
+  DetectionParams detection;
+  PreprocessParams preprocess;
+  TrackerParams tracker;
+  PublishParams publish;
+  GivenIntrinsics foreign_camera;
+  OpenNiParams openni2;
+};
+template <class V>
+void visit(V& v, Config& c) {
+  v("run", c.run, "the run as a whole");
+  v("detection", c.detection, "hands found by networks");
+  v("preprocess", c.preprocess, "from frames to observations of a hand");
+  v("tracker", c.tracker, "from observations to hand poses");
+  v("publish", c.publish, "from estimates to LCM messages");
+  v("foreign_camera", c.foreign_camera, "for kinect.frame_msg_t and bot_core.images_t, which carry no intrinsics");
+  v("openni2", c.openni2,
+    "what is wanted of an OpenNI2 sensor, and when it is opened again; fx, fy, cx and cy replace its own");
+
+  // One key serves the tracker and what is published.
+  c.publish.hold_time = c.tracker.loss.hold_time;
+}
+
+}  // namespace barehand

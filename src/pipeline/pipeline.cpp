@@ -1,0 +1,311 @@
+#include "pipeline/pipeline.h"
+
+#include <bit>
+#include <thread>
+
+namespace barehand {
+namespace {
+
+Overflow door_policy(const FrameSource& source) { return source.live() ? Overflow::drop_oldest : Overflow::block; }
+
+/// A live run holds one item between two stages, since a longer queue would only add latency.
+std::size_t capacity(const FrameSource& source, const PipelineOptions& options) {
+  return source.live() ? 1 : options.replay_capacity;
+}
+
+/// If the sensor's clock differs by more than this from ours, it says nothing about latency (for example when a log is
+/// replayed to the bus).
+constexpr std::int64_t kMaxLatencyUs = 10'000'000;
+/// The inline runner takes at most this many frames at once from a live source, since a source that never pauses must
+/// not starve the tracker.
+constexpr int kMaxBacklog = 64;
+
+}  // namespace
+
+Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log)
+    : stages_(std::move(stages)),
+      options_(options),
+      clock_(clock),
+      log_(log),
+      queues_{Queue{"door", capacity(stages_.source, options), door_policy(stages_.source)},
+              Queue{"to track", capacity(stages_.source, options), Overflow::block},
+              Queue{"to sinks", capacity(stages_.source, options), Overflow::block}},
+      preprocess_monitor_("preprocess", clock),
+      track_monitor_("track", clock) {
+  for (const Sink* sink : stages_.sinks) sink_monitors_.push_back(std::make_unique<StageMonitor>(sink->name(), clock));
+}
+
+RunResult Pipeline::run() {
+  options_.threaded ? run_threaded() : run_inline();
+
+  // Collect how the run ended.
+  finish_sinks();
+  RunResult result{health(), std::nullopt, {}, stopped()};
+  for (const auto& monitor : sink_monitors_)
+    if (monitor->health().failed > 0) result.incomplete.push_back(monitor->name());
+  std::unique_lock lock(mutex_);
+  result.error = error_;
+  return result;
+}
+
+void Pipeline::run_threaded() {
+  // Each stage ends when its input queue is closed and empty, and then closes the next queue.
+  std::jthread sinks([&] {
+    while (!queues_[kToSinks].drained()) {
+      if (auto item = waited_for(kToSinks, queues_[kToSinks].pop_within(options_.patience)))
+        deliver(*item);
+      else
+        idle();
+    }
+  });
+
+  std::jthread tracker([&] {
+    while (auto item = pop(kToTrack))
+      if (track(*item)) push(kToSinks, std::move(*item));
+    queues_[kToSinks].close();
+  });
+
+  std::jthread preprocessor([&] {
+    while (true) {
+      // Taken first: meanwhile a frame at the door can still be replaced by a newer one.
+      const HandEstimates hints = take_hints();
+      auto item = pop(kDoor);
+      if (!item) break;
+      if (preprocess(*item, hints)) push(kToTrack, std::move(*item));
+    }
+    queues_[kToTrack].close();
+  });
+
+  // The calling thread serves the source.
+  while (capture(options_.patience) != Capture::end) {
+  }
+  queues_[kDoor].close();  // the other queues are closed in turn, and the threads join
+}
+
+void Pipeline::run_inline() {
+  Capture captured = Capture::nothing;
+  while (captured != Capture::end) {
+    captured = capture(options_.patience);
+    if (stages_.source.live())  // as with threads, the newest of the frames that arrived meanwhile wins
+      for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
+    while (auto item = try_pop(kDoor)) process(std::move(*item));
+    if (captured == Capture::nothing) idle();
+  }
+}
+
+bool Pipeline::push(QueueIndex queue, Item item) {
+  item.queued_us = clock_.steady_us();
+  return queues_[queue].push(std::move(item));
+}
+
+std::optional<Pipeline::Item> Pipeline::pop(QueueIndex queue) { return waited_for(queue, queues_[queue].pop()); }
+
+std::optional<Pipeline::Item> Pipeline::try_pop(QueueIndex queue) {
+  return waited_for(queue, queues_[queue].try_pop());
+}
+
+std::optional<Pipeline::Item> Pipeline::waited_for(QueueIndex queue, std::optional<Item> item) {
+  if (!item) return item;
+  const std::int64_t wait_us = clock_.steady_us() - item->queued_us;
+  std::unique_lock lock(mutex_);
+  wait_[queue].add(wait_us);
+  interval_wait_[queue].add(wait_us);
+  return item;
+}
+
+void Pipeline::process(Item item) {
+  const HandEstimates hints = take_hints();
+  if (preprocess(item, hints) && track(item)) deliver(item);
+}
+
+HandEstimates Pipeline::take_hints() {
+  return next_index_ >= kFeedbackLag ? feedback_.take(next_index_ - kFeedbackLag) : HandEstimates{};
+}
+
+Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
+  if (stopped() || ending_) return Capture::end;
+
+  // A source that throws has failed.
+  SourceEvent event;
+  try {
+    event = stages_.source.next(patience);
+  } catch (const std::exception& e) {
+    event = SourceFailed{{std::string("threw: ") + e.what(), stages_.source.name(), ""}};
+  }
+
+  ++answers_;
+
+  // A frame goes into the input queue.
+  if (auto* frame = std::get_if<FramePtr>(&event)) {
+    waited_ = {};
+    notice_at_ = kFirstNotice;
+    push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), {}, {}}});
+    return Capture::frame;
+  }
+
+  // Anything else is reported; only a failure or the end of the source ends the run.
+  if (auto* skipped = std::get_if<SkippedFrame>(&event)) {
+    ++skipped_;
+    log_.warn("skipped", "skipped a frame: " + skipped->error.message());
+    return Capture::frame;
+  }
+
+  if (const auto* notice = std::get_if<SourceNotice>(&event)) {
+    log_.logger().log(notice->trouble ? spdlog::level::warn : spdlog::level::info, notice->error.message());
+    return Capture::nothing;
+  }
+
+  if (std::holds_alternative<Timeout>(event)) return waited(patience);
+  if (auto* failed = std::get_if<SourceFailed>(&event)) end_with(failed->error);
+  return Capture::end;
+}
+
+Pipeline::Capture Pipeline::waited(std::chrono::milliseconds patience) {
+  waited_ += patience;
+  if (waited_ >= notice_at_) {
+    log_.logger().info("{}: no frames for {} s, still waiting", stages_.source.name(), waited_.count() / 1000);
+    notice_at_ = 4 * waited_;
+  }
+  return Capture::nothing;
+}
+
+bool Pipeline::preprocess(Item& item, const HandEstimates& hints) {
+  item.index = next_index_++;
+
+  auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, hints); });
+  if (observations) {
+    item.data.observations = std::move(*observations);
+    return true;
+  }
+
+  // The tracker's estimate of this frame will be missing, so later frames get empty hints.
+  feedback_.post(item.index, {});
+  ++failed_;
+  report(preprocess_monitor_, item, observations.error());
+  end_if_hopeless(preprocess_monitor_, observations.error());
+  return false;
+}
+
+bool Pipeline::track(Item& item) {
+  auto estimates = track_monitor_.run([&] { return stages_.track(item.data.observations); });
+  if (estimates) item.data.estimates = std::move(*estimates);
+  feedback_.post(item.index, item.data.estimates);
+  if (estimates) return true;
+  ++failed_;
+  report(track_monitor_, item, estimates.error());
+  end_if_hopeless(track_monitor_, estimates.error());
+  return false;
+}
+
+void Pipeline::deliver(const Item& item) {
+  bool delivered = true;
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // a failing sink does not keep the frame from the others
+    StageMonitor& monitor = *sink_monitors_[i];
+    const int missed = monitor.failures_in_a_row();
+    const auto consumed = monitor.run([&] { return stages_.sinks[i]->consume(item.data); });
+    if (consumed) {
+      if (missed > 0) log_.logger().info("{} works again; it misses {} frames", monitor.name(), missed);
+      continue;
+    }
+    delivered = false;
+    // A failure that lasts for hours is reported ever more rarely: after 1, 2, 4, 8, ... frames.
+    if (std::has_single_bit(static_cast<unsigned>(missed) + 1)) report(monitor, item, consumed.error());
+    if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
+  }
+
+  // Count the frame, and record its latency once.
+  ++(delivered ? published_ : failed_);
+  std::unique_lock lock(mutex_);
+  latency_.add(latency_us(item));
+  interval_latency_.add(latency_us(item));
+}
+
+void Pipeline::idle() {
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {
+    const auto done = sink_monitors_[i]->guarded([&] { return stages_.sinks[i]->idle(); });
+    if (!done) log_.warn(stages_.sinks[i]->name(), stages_.sinks[i]->name() + ": " + done.error().message());
+  }
+}
+
+void Pipeline::finish_sinks() {
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {
+    const auto finished = sink_monitors_[i]->guarded([&] { return stages_.sinks[i]->finish(); });
+    if (!finished) end_with(finished.error());
+  }
+}
+
+void Pipeline::report(const StageMonitor& stage, const Item& item, const Error& error) {
+  log_.warn(stage.name(),
+            "frame " + std::to_string(item.data.frame->number) + " failed in " + stage.name() + ": " + error.message());
+}
+
+void Pipeline::end_if_hopeless(const StageMonitor& stage, const Error& error) {
+  const int failures = stage.failures_in_a_row();
+  if (failures < options_.max_failures_in_a_row) return;
+  Error last = error;
+  last.what = stage.name() + " failed on " + std::to_string(failures) + " frames in a row, the last time: " + last.what;
+  end_with(std::move(last));
+}
+
+void Pipeline::end_with(Error error) {
+  ending_ = true;
+  std::unique_lock lock(mutex_);
+  if (!error_) error_ = std::move(error);
+}
+
+std::int64_t Pipeline::latency_us(const Item& item) const {
+  const std::int64_t since_capture = clock_.utime() - item.data.frame->utime;
+  const bool clocks_agree = stages_.source.live() && since_capture >= 0 && since_capture < kMaxLatencyUs;
+  return clocks_agree ? since_capture : clock_.steady_us() - item.arrived_us;
+}
+
+std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
+  return std::span(health.queues).last(kQueueCount);
+}
+
+PipelinePulse Pipeline::pulse() const {
+  // Read before the queue, so that the number of frames inside is never too small.
+  const std::int64_t finished = published_ + failed_;
+  const QueueHealth door = queues_[kDoor].health();
+  return {answers_, finished, door.pushed - door.dropped - finished};
+}
+
+PipelineHealth Pipeline::counts() const {
+  PipelineHealth health;
+  health.published = published_;
+  health.failed = failed_;
+  health.skipped = skipped_;
+  health.queues = stages_.source.queues();
+  for (const Queue& queue : queues_) health.queues.push_back(queue.health());
+  const QueueHealth& door = own_queues(health)[kDoor];
+  health.captured = door.pushed;
+  health.dropped = door.dropped;
+  return health;
+}
+
+PipelineHealth Pipeline::health() const {
+  PipelineHealth health = counts();
+  health.stages = {preprocess_monitor_.health(), track_monitor_.health()};
+  for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->health());
+  std::unique_lock lock(mutex_);
+  health.latency = latency_.summary();
+  for (int q = 0; q < kQueueCount; ++q) own_queues(health)[q].wait = wait_[q].summary();
+  return health;
+}
+
+PipelineHealth Pipeline::take_interval_health() {
+  PipelineHealth health = counts();
+  health.stages = {preprocess_monitor_.take_interval(), track_monitor_.take_interval()};
+  for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->take_interval());
+  std::unique_lock lock(mutex_);
+
+  health.latency = interval_latency_.summary();
+  for (int q = 0; q < kQueueCount; ++q) {
+    own_queues(health)[q].wait = interval_wait_[q].summary();
+    interval_wait_[q].clear();
+  }
+  interval_latency_.clear();
+  return health;
+}
+
+}  // namespace barehand

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/feedback.h"
+#include "core/log.h"
+#include "core/queue.h"
+#include "core/stage_monitor.h"
+#include "pipeline/sink.h"
+#include "sensor/frame_source.h"
+
+namespace barehand {
+
+/// Preprocessing of frame k gets the estimates of exactly frame k - kFeedbackLag, so that the threaded and the inline
+/// runner give identical results. With 1, preprocessing would wait until the previous frame is tracked, and nothing
+/// would run in parallel; 2 lets preprocessing of one frame overlap with tracking of the one before.
+inline constexpr std::int64_t kFeedbackLag = 2;
+
+/// The stages that the pipeline connects. The source and each function are used by one thread only.
+struct PipelineStages {
+  FrameSource& source;
+  /// `hints`: the estimates of an earlier frame, see kFeedbackLag; empty for the first frames and where a stage
+  /// failed.
+  std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& hints)> preprocess;
+  std::function<Result<HandEstimates>(const HandObservations& observations)> track;
+  std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
+};
+
+/// How the pipeline runs.
+struct PipelineOptions {
+  bool threaded = true;                    ///< false: everything on the calling thread
+  int max_failures_in_a_row = 30;          ///< this many failures of one stage or sink end the run
+  std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
+  std::stop_token stop;                    ///< the same as request_stop(), for owners that outlive the pipeline
+  std::chrono::milliseconds patience{50};  ///< longest wait of one call of a live source; bounds the time to stop
+};
+
+/// How a run ended.
+struct RunResult {
+  PipelineHealth health;
+  std::optional<Error> error;           ///< why the run ended early, or a sink could not finish
+  std::vector<std::string> incomplete;  ///< names of the sinks that missed frames
+  bool stopped = false;                 ///< by request_stop() or the stop token
+};
+
+/// Counters that show whether the pipeline is alive, since the start of the run.
+struct PipelinePulse {
+  std::int64_t answers = 0;   ///< calls of the source that returned, with or without a frame
+  std::int64_t finished = 0;  ///< frames that left the pipeline, published or failed
+  std::int64_t inside = 0;    ///< frames on their way through it
+};
+
+/// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on
+/// a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue ("door")
+/// drops the oldest frames; frames of a replay are never dropped. A frame on which a stage fails is counted, reported
+/// and left out. When the source ends or fails, or the run is stopped, the frames in flight are processed and every
+/// sink is finished. A stage that keeps failing ends the run, and so does a sink of a replay; a sink of a live run
+/// does not, since the network or disk that it writes to may come back.
+class Pipeline {
+ public:
+  /// `clock` and `log` must outlive the pipeline, and so must the source and the sinks.
+  Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log);
+
+  /// Call once. Returns when all frames are processed.
+  RunResult run();
+  /// No more frames are taken from the source. Any thread may call it.
+  void request_stop() { stop_ = true; }
+  /// Counters since the start of the run. Any thread may call it at any time.
+  PipelineHealth health() const;
+  /// The same, with times and latency since the last call of this function. Only one caller may use it.
+  PipelineHealth take_interval_health();
+  /// Any thread may call it at any time.
+  PipelinePulse pulse() const;
+
+ private:
+  struct Item {
+    std::int64_t index = 0;       ///< number of the frame among those that entered the input queue
+    std::int64_t arrived_us = 0;  ///< steady clock
+    std::int64_t queued_us = 0;   ///< steady clock, when it entered the queue that it is in
+    TrackedFrame data;
+  };
+  using Queue = BoundedQueue<Item>;
+  enum QueueIndex { kDoor, kToTrack, kToSinks, kQueueCount };
+  enum class Capture { frame, nothing, end };
+
+  // Queues, with the waiting time of each frame.
+  bool push(QueueIndex queue, Item item);
+  std::optional<Item> pop(QueueIndex queue);
+  std::optional<Item> try_pop(QueueIndex queue);
+  // Records how long the item waited.
+  std::optional<Item> waited_for(QueueIndex queue, std::optional<Item> item);
+  bool stopped() const { return stop_ || options_.stop.stop_requested(); }
+  // Takes one event from the source.
+  Capture capture(std::chrono::milliseconds patience);
+  // Reports, ever more rarely, that a live source delivers no frames.
+  Capture waited(std::chrono::milliseconds patience);
+  void run_inline();
+  void run_threaded();
+  // One frame through all stages, on the calling thread.
+  void process(Item item);
+  HandEstimates take_hints();
+  bool preprocess(Item& item, const HandEstimates& hints);
+  bool track(Item& item);
+  void deliver(const Item& item);
+  void idle();
+  void finish_sinks();
+
+  // Logs a failure.
+  void report(const StageMonitor& stage, const Item& item, const Error& error);
+  // Ends the run if the stage failed too often in a row.
+  void end_if_hopeless(const StageMonitor& stage, const Error& error);
+  void end_with(Error error);
+  std::int64_t latency_us(const Item& item) const;
+  PipelineHealth counts() const;
+  /// The pipeline's own queues, indexed by QueueIndex; they follow the queues of the source.
+  static std::span<QueueHealth> own_queues(PipelineHealth& health);
+
+  PipelineStages stages_;
+  const PipelineOptions options_;
+  const Clock& clock_;
+  RepeatLog& log_;
+
+  std::array<Queue, kQueueCount> queues_;
+  Feedback<HandEstimates> feedback_;
+  StageMonitor preprocess_monitor_, track_monitor_;
+  std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
+  std::atomic<bool> stop_ = false, ending_ = false;
+  std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0, answers_ = 0;
+  std::int64_t next_index_ = 0;  // used by the preprocessing thread only
+  static constexpr std::chrono::milliseconds kFirstNotice{3000};
+  std::chrono::milliseconds waited_{0}, notice_at_ = kFirstNotice;  // used by the source's thread only
+
+  mutable std::mutex mutex_;  // protects the members below
+  std::optional<Error> error_;
+  TimeHistogram latency_, interval_latency_;
+  std::array<TimeHistogram, kQueueCount> wait_, interval_wait_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,48 @@
+#include "pipeline/reload.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "io/config/config_values.h"
+
+namespace barehand {
+namespace {
+
+/// Sources, channels and the counting of failures are set up once; the fit to the person is not begun anew.
+bool fixed(const std::string& key) {
+  constexpr const char* kFixed[] = {"run.", "detection.", "foreign_camera.", "openni2.", "tracker.shape_fit."};
+  return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
+}
+
+template <class Group>
+void put_if_changed(Slot<Group>& slot, const Group& before, const Group& after) {
+  if (before != after) slot.put(after);
+}
+
+}  // namespace
+
+Reload::Changes Reload::apply(const Config& wanted) {
+  // List the changes.
+  Changes changes;
+  const ConfigValues before = config_values(in_force_);
+  for (const auto& [key, value] : config_values(wanted)) {
+    const std::string& old = before.at(key);
+    if (old == value) continue;
+    (fixed(key) ? changes.for_restart : changes.made).push_back(key + ": " + old + " -> " + value);
+  }
+
+  Config next = in_force_;
+  next.preprocess = wanted.preprocess;
+  next.tracker = wanted.tracker;
+  next.tracker.shape_fit = in_force_.tracker.shape_fit;
+  next.publish = wanted.publish;
+
+  put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
+  put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
+  put_if_changed(out_.bus, in_force_.publish, next.publish);
+  put_if_changed(out_.states_log, in_force_.publish, next.publish);
+  in_force_ = next;
+  return changes;
+}
+
+}  // namespace barehand

@@ -1,0 +1,79 @@
+#include "pipeline/sinks/file_sinks.h"
+
+#include <filesystem>
+
+#include "io/hand/hand_json.h"
+#include "io/hand/path_of_hand.h"
+
+namespace barehand {
+
+Result<std::unique_ptr<Sink>> ResultTableSink::create(const std::string& path,
+                                                      const std::vector<std::shared_ptr<const HandProfile>>& profiles,
+                                                      bool overwrite) {
+  std::vector<TableWriter> writers;
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    auto writer = TableWriter::create(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness), overwrite);
+    if (!writer) return tl::unexpected(writer.error());
+    writers.push_back(std::move(*writer));
+  }
+  return std::unique_ptr<Sink>(new ResultTableSink(std::move(writers)));
+}
+
+Result<void> ResultTableSink::consume(const TrackedFrame& tracked) {
+  Result<void> result;
+  for (std::size_t k = 0; k < writers_.size(); ++k)
+    if (auto written = writers_[k].write(*tracked.estimates[k]); !written && result) result = std::move(written);
+  ++frames_;
+  return result;
+}
+
+Result<void> ResultTableSink::finish() {
+  Result<void> result;
+  if (frames_ == 0) return result;
+  for (TableWriter& writer : writers_)
+    if (auto finished = writer.finish(); !finished && result) result = std::move(finished);
+  return result;
+}
+
+Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every) {
+  std::error_code ignored;
+  const bool there = std::filesystem::exists(path, ignored);
+  auto writer = OverlayWriter::open(path, fps / every);
+  if (!writer) return tl::unexpected(writer.error());
+  const bool made = !there && std::filesystem::is_directory(path, ignored);
+  return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every, made ? path : ""));
+}
+
+Result<void> OverlaySink::finish() {
+  auto finished = writer_.finish();
+  std::error_code ignored;
+  if (seen_ == 0 && !made_.empty()) std::filesystem::remove(made_, ignored);  // only where it is empty
+  return finished;
+}
+
+Result<std::unique_ptr<Sink>> SaveHandSink::create(const std::string& path,
+                                                   const std::vector<std::shared_ptr<const HandProfile>>& profiles) {
+  for (std::size_t k = 0; k < profiles.size(); ++k)
+    if (auto possible = check_profile_path(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness)); !possible)
+      return tl::unexpected(possible.error());
+  return std::unique_ptr<Sink>(new SaveHandSink(path));
+}
+
+Result<void> SaveHandSink::consume(const TrackedFrame& tracked) {
+  profiles_.resize(tracked.estimates.size());
+  for (std::size_t k = 0; k < profiles_.size(); ++k)
+    if (tracked.estimates[k]->has_pose()) profiles_[k] = tracked.estimates[k]->profile;
+  return {};
+}
+
+Result<void> SaveHandSink::finish() {
+  Result<void> result = fail("no hand was tracked, nothing to save", path_, "hold the open hand before the sensor");
+  for (std::size_t k = 0; k < profiles_.size(); ++k) {
+    if (!profiles_[k]) continue;
+    result = save_profile(*profiles_[k], path_of_hand(path_, static_cast<int>(k), profiles_[k]->handedness));
+    if (!result) return result;
+  }
+  return result;
+}
+
+}  // namespace barehand

@@ -1,0 +1,55 @@
+#include "pipeline/sinks/publish_sink.h"
+
+#include "stages/publish/health_message.h"
+
+namespace barehand {
+
+Result<void> StatePublisher::send(const HandEstimates& estimates) {
+  if (const auto params = news_ ? news_->take() : std::nullopt) {
+    params_ = *params;
+    makers_.clear();
+  }
+  while (makers_.size() < estimates.size()) makers_.emplace_back(params_);
+  Result<void> result;
+  for (std::size_t k = 0; k < estimates.size(); ++k)
+    if (auto sent = publisher_.send(makers_[k].process(*estimates[k])); !sent && result) result = std::move(sent);
+  return result;
+}
+
+BusSink::BusSink(StatePublisher states, Health health, const Clock& clock)
+    : states_(std::move(states)),
+      health_(std::move(health)),
+      clock_(clock),
+      next_health_us_(clock.steady_us() + health_.period_us) {}
+
+Result<std::unique_ptr<Sink>> BusSink::create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                              Health health, const Clock& clock, Slot<PublishParams>* news) {
+  auto publisher = Publisher::create(prefix, {&bus});
+  if (!publisher) return tl::unexpected(publisher.error());
+  return std::unique_ptr<Sink>(
+      new BusSink(StatePublisher(params, std::move(*publisher), news), std::move(health), clock));
+}
+
+Result<void> BusSink::consume(const TrackedFrame& tracked) {
+  auto sent = states_.send(tracked.estimates);
+  if (!sent) return sent;
+  return send_health_when_due();
+}
+
+Result<void> BusSink::send_health_when_due() {
+  if (clock_.steady_us() < next_health_us_) return {};
+  next_health_us_ = clock_.steady_us() + health_.period_us;
+  return states_.send(health_message(health_.take(), clock_.utime(), health_.source));
+}
+
+Result<std::unique_ptr<Sink>> StatesLogSink::create(const PublishParams& params, const std::string& prefix,
+                                                    const std::string& path, bool overwrite,
+                                                    Slot<PublishParams>* news) {
+  auto log = LcmLogWriter::create(path, overwrite);
+  if (!log) return tl::unexpected(log.error());
+  auto publisher = Publisher::create(prefix, {log->get()});
+  if (!publisher) return tl::unexpected(publisher.error());
+  return std::unique_ptr<Sink>(new StatesLogSink(std::move(*log), StatePublisher(params, std::move(*publisher), news)));
+}
+
+}  // namespace barehand

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/slot.h"
+#include "core/statistics.h"
+#include "io/lcm/lcm_bus.h"
+#include "io/lcm/lcm_log_writer.h"
+#include "pipeline/sink.h"
+#include "stages/publish/publisher.h"
+
+namespace barehand {
+
+/// Sends the states of every hand, one after the other on the same channels: their ids tell them apart.
+class StatePublisher {
+ public:
+  /// `news` (may be null; looked at before every frame) outlives it.
+  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* news)
+      : params_(params), publisher_(std::move(publisher)), news_(news) {}
+  Result<void> send(const HandEstimates& estimates);
+  Result<void> send(const health_t& health) { return publisher_.send(health); }
+
+ private:
+  PublishParams params_;
+  std::vector<HandMessageMaker> makers_;  // one a hand
+  Publisher publisher_;
+  Slot<PublishParams>* news_;
+};
+
+/// Sends the states of every frame, and the health now and then, to the bus.
+class BusSink : public Sink {
+ public:
+  struct Health {
+    std::function<PipelineHealth()> take;  ///< since the last call
+    std::int64_t period_us = 1'000'000;
+    std::string source;
+  };
+  /// `bus`, `clock` and `news` (may be null; looked at before every frame) outlive the sink. Errors: a channel prefix
+  /// that is too long.
+  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                              Health health, const Clock& clock, Slot<PublishParams>* news = nullptr);
+  std::string name() const override { return "publish"; }
+  Result<void> consume(const TrackedFrame& tracked) override;
+  /// The health goes on without frames: silence means that the program is gone.
+  Result<void> idle() override { return send_health_when_due(); }
+
+ private:
+  BusSink(StatePublisher states, Health health, const Clock& clock);
+  Result<void> send_health_when_due();
+
+  StatePublisher states_;
+  Health health_;
+  const Clock& clock_;
+  std::int64_t next_health_us_;
+};
+
+/// --states-log: the states alone, so that equal runs write equal bytes.
+class StatesLogSink : public Sink {
+ public:
+  /// `news` as above.
+  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
+                                              const std::string& path, bool overwrite,
+                                              Slot<PublishParams>* news = nullptr);
+  std::string name() const override { return "states log"; }
+  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
+  /// Without a state there is no log.
+  Result<void> finish() override { return log_->events() > 0 ? log_->finish() : Result<void>(); }
+
+ private:
+  StatesLogSink(std::unique_ptr<LcmLogWriter> log, StatePublisher states)
+      : log_(std::move(log)), states_(std::move(states)) {}
+
+  std::unique_ptr<LcmLogWriter> log_;
+  StatePublisher states_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,40 @@
+#include "pipeline/track_stages.h"
+
+#include "io/data_files.h"
+#include "stages/detection/detection_stage.h"
+#include "stages/preprocess/preprocess.h"
+
+namespace barehand {
+namespace {
+
+/// A bare name is one of the shipped folders.
+std::string networks_folder(const std::string& name) {
+  if (name.find('/') != std::string::npos) return name;
+  return find_data_file("configs/" + name).value_or(name);
+}
+
+}  // namespace
+
+TrackStages make_track_stages(const Config& config, const HandsTracker::Profiles& profiles,
+                              const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
+                              RepeatLog& log, NewParams* news) {
+  const int hands = static_cast<int>(profiles.size());
+  auto preprocessor =
+      std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
+  auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
+                                                    config.preprocess.use_colour, log.shared_logger());
+  auto tracker = std::make_shared<CommandedTracker>(
+      config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers, std::move(inbox), log);
+  if (initial) tracker->start_at(*initial);
+  return {[preprocessor, detection, hands, news](const FramePtr& frame, const HandEstimates& hints) {
+            if (const auto params = news ? news->preprocess.take() : std::nullopt)
+              *preprocessor = std::make_unique<Preprocessor>(*params, hands);
+            return (*preprocessor)->process(frame, hints, detection->process(*frame, hints));
+          },
+          [tracker, news](const HandObservations& observations) -> Result<HandEstimates> {
+            if (const auto params = news ? news->tracker.take() : std::nullopt) tracker->change(*params);
+            return tracker->process(observations);
+          }};
+}
+
+}  // namespace barehand

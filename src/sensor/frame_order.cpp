@@ -1,0 +1,137 @@
+#include "sensor/frame_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/format.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kRestart = 1'000'000;  // us; a step back by less is a repetition or a frame that was overtaken
+constexpr std::size_t kSteps = 15;            // frames whose distances tell the unit
+constexpr std::size_t kFewestSteps = 2;
+constexpr std::int64_t kMany = 10;                              // one frame of so many
+constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // of a frame; more is damage
+
+/// A time between two frames of a camera [us]: 0.5 to 2000 frames a second.
+constexpr double kShortest = 500, kLongest = 2'000'000;
+
+double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
+
+std::string in_unit(StampUnit unit) {
+  return unit == StampUnit::seconds ? "stamps are in seconds" : "utime is in microseconds";
+}
+
+/// A counter of 32 bits that overflowed between two frames, or "".
+std::string overflow(double step_back) {
+  constexpr double kRange = 4294967296.0, kSlack = 10;  // s
+  for (const auto& [unit, per_second] : {std::pair("microseconds", 1e6), std::pair("milliseconds", 1e3)})
+    if (std::abs(step_back - kRange / per_second) < kSlack)
+      return std::string(", as a counter of ") + unit + " with 32 bits does when it overflows";
+  return "";
+}
+
+}  // namespace
+
+std::string too_late(double stamp, StampUnit unit) {
+  constexpr double kNow = 1.7e9, kFactor = 20;  // s; from 1972 to about the year 3000
+  struct Guess {
+    const char* name;
+    double per_second;
+  };
+  const double unit_per_second = unit == StampUnit::seconds ? 1 : 1e6;
+  for (const Guess& guess : {Guess{"milliseconds", 1e3}, Guess{"microseconds", 1e6}, Guess{"nanoseconds", 1e9}}) {
+    const double since_epoch = std::abs(stamp) / guess.per_second;
+    if (guess.per_second > unit_per_second && since_epoch > kNow / kFactor && since_epoch < kNow * kFactor)
+      return std::string("this looks like ") + guess.name + " since the epoch, but " + in_unit(unit) +
+             formatted(": divide it by %.0f", guess.per_second / unit_per_second);
+  }
+  return in_unit(unit) + ", and no recording is from that time";
+}
+
+Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number) {
+  ++frames_;
+  if (utime > kLatestUtime || utime < -kLatestUtime) {
+    const auto stamp = static_cast<double>(utime);
+    return fail(formatted("its time is %.6g", unit_ == StampUnit::seconds ? 1e-6 * stamp : stamp), "",
+                too_late(unit_ == StampUnit::seconds ? 1e-6 * stamp : stamp, unit_));
+  }
+  if (begun_ && utime <= last_utime_) {
+    if (last_utime_ - utime < kRestart) {
+      ++unused_;
+      return fail("its time is not later than that of the frame before");
+    }
+    look_at_restart(utime, number);
+  } else if (begun_ && !judged_steps_) {
+    steps_.push_back(utime - last_utime_);
+    if (steps_.size() >= kSteps) look_at_steps();
+  }
+  number = going_on(number);
+  begun_ = true;
+  last_utime_ = utime;
+  last_number_ = number;
+  return number;
+}
+
+std::int64_t FrameOrder::going_on(std::int64_t number) {
+  // Numbers from a message may be anything: what cannot be added up stays as it is.
+  if (number > kLargestNumber || number < -kLargestNumber) return number;
+  if (begun_ && number + number_shift_ <= last_number_ && last_number_ <= kLargestNumber)
+    number_shift_ = last_number_ + 1 - number;
+  return number + number_shift_;
+}
+
+void FrameOrder::look_at_restart(std::int64_t utime, std::int64_t number) {
+  if (said_restart_) return;
+  said_restart_ = true;
+  const double back = seconds(last_utime_) - seconds(utime);
+  doubts_.push_back(formatted("at frame %lld the time goes back by %.3f s%s: it is taken as a new start",
+                              static_cast<long long>(number), back, overflow(back).c_str()));
+}
+
+void FrameOrder::look_at_steps() {
+  if (judged_steps_ || steps_.size() < kFewestSteps) return;
+  judged_steps_ = true;
+
+  // The typical time between two frames, which a few gaps do not change.
+  const auto [least, most] = std::ranges::minmax(steps_);
+  std::vector<std::int64_t> sorted = std::move(steps_);
+  steps_.clear();
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const auto typical = static_cast<double>(sorted[sorted.size() / 2]);
+  const double one = unit_ == StampUnit::seconds ? 1e6 : 1;
+
+  std::string like;
+  if (least == most && typical == one) {
+    like = "frame numbers: divide them by the frame rate";
+  } else if (typical > kLongest) {
+    const int thousands = typical < 1e3 * kLongest ? 1 : typical < 1e6 * kLongest ? 2 : 3;
+    constexpr std::array<const char*, 5> kUnits = {"", "milliseconds", "microseconds", "nanoseconds", ""};
+    const int index = (unit_ == StampUnit::seconds ? 0 : 2) + thousands;
+    if (index < 4)
+      like = std::string(kUnits[static_cast<std::size_t>(index)]) + formatted(": divide them by 1e%d", 3 * thousands);
+  } else if (typical < kShortest) {
+    like = unit_ == StampUnit::microseconds && typical > kShortest / 1e3 ? "milliseconds: multiply them by 1000"
+                                                                         : "another unit";
+  }
+  if (like.empty()) return;
+  doubts_.push_back(
+      formatted("%s, and the frames are %.6g s apart: these look like ", in_unit(unit_).c_str(), 1e-6 * typical) +
+      like + ". They are used as they stand, so that motion and time limits are wrong");
+}
+
+std::vector<std::string> FrameOrder::take_doubts() { return std::exchange(doubts_, {}); }
+
+std::vector<std::string> FrameOrder::take_last_doubts() {
+  look_at_steps();
+  if (unused_ * kMany > frames_)
+    doubts_.push_back(
+        formatted("%lld of %lld frames are not later than the frame before them and are not used: are "
+                  "they in order of time?",
+                  static_cast<long long>(unused_), static_cast<long long>(frames_)));
+  return take_doubts();
+}
+
+}  // namespace barehand

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+#include "sensor/camera_limits.h"
+
+namespace barehand {
+
+/// What a user states of a depth camera that does not tell it, or tells it wrong [pixels]. All 0: nothing.
+struct GivenIntrinsics {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+
+  bool any() const { return fx != 0 || fy != 0 || cx != 0 || cy != 0; }
+  Intrinsics of_size(int width, int height) const { return {width, height, fx, fy, cx, cy}; }
+};
+
+template <class V>
+void visit(V& v, GivenIntrinsics& p) {
+  v.user("fx", p.fx, 0.0, kLargestFocal, "px, focal length of the depth camera; all four are given, or all 0 = none");
+  v.user("fy", p.fy, 0.0, kLargestFocal, "px, vertical focal length");
+  v.user("cx", p.cx, -kLargestFocal, kLargestFocal, "px, principal point");
+  v.user("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");
+}
+
+/// Error, which names `where`: one of the four is given without the others, or such as no camera has.
+inline Result<void> check(const GivenIntrinsics& given, const std::string& where = "fx, fy, cx, cy") {
+  const bool whole = given.fx != 0 && given.fy != 0 && given.cx != 0 && given.cy != 0;
+  if (!given.any() || (whole && plausible(given.of_size(1, 1)))) return {};
+  return fail("no camera has these intrinsics", where, "give all four, focal lengths from 1 to 1e5 px");
+}
+
+}  // namespace barehand

@@ -1,0 +1,207 @@
+#include "tracking/hands_tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tracking/clearly_better.h"
+
+namespace barehand {
+namespace {
+
+// A search takes longer than tracking. Beside a tracked hand, the other one is therefore searched only in every n-th
+// frame.
+constexpr int kSearchEvery = 3;
+
+// A hand that was lost a moment ago is most likely the one that returns. Half a hand also fits the other side, so the
+// other side needs a larger advantage then.
+constexpr double kOverReturning = 0.3;
+
+/// Distance of the palm from the middle of the observed hand [m].
+double distance(const HandPose& pose, const HandObservation& observation) {
+  constexpr double kNowhere = 10;
+  if (!observation.hand_present || observation.cloud.empty()) return kNowhere;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& p : observation.cloud) sum += p;
+  return (sum.cast<double>() / static_cast<double>(observation.cloud.size()) - pose[kPalm].t).norm();
+}
+
+}  // namespace
+
+HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
+                           std::shared_ptr<spdlog::logger> log)
+    : params_(params), seed_(seed), workers_(workers), log_(std::move(log)), hands_(profiles.size()) {
+  for (int k = 0; k < count(); ++k) use(k, profiles[k]);
+}
+
+void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
+  const HandIds ids = hands_[k] ? hands_[k]->further_ids() : HandIds{k + 1, count()};
+  hands_[k] = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, ids);
+  check_anew();
+}
+
+void HandsTracker::change(const TrackerParams& params) {
+  for (const auto& hand : hands_) hand->change(params);
+  params_ = params;
+  check_anew();
+}
+
+void HandsTracker::check_anew() {
+  checks_.clear();
+  for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
+    if (hand)
+      checks_.push_back(std::make_unique<ProfileCheck>(params_, hand->profile(), seed_, workers_,
+                                                       count() == 1 ? log_ : make_silent_logger()));
+}
+
+HandEstimates HandsTracker::process(const HandObservations& in_order) {
+  // With one hand there is nothing to distribute.
+  if (count() == 1) return {process_only(*in_order[0])};
+  ++frame_;
+  const HandObservations observations = by_hand(in_order);
+  HandEstimates out(hands_.size());
+
+  // Track the hands that are being tracked, in parallel.
+  FrameVector<int> tracked;
+  for (int k = 0; k < count(); ++k)
+    if (!searched(k, *observations[k])) tracked.push_back(k);
+  workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
+    const int k = tracked[i];
+    out[k] = track(k, *observations[k]);
+  });
+
+  // Search the others.
+  for (const int k : tracked) judge_trial(k, *out[k]);
+  if (tracked.empty())
+    search_both(observations, out);
+  else
+    for (int k = 0; k < count(); ++k)
+      if (!out[k]) search_one(k, observations, out);
+  return out;
+}
+
+/// Tracks the k-th hand and, during a trial, the mirrored one beside it.
+HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
+  if (!checks_[k]->on_trial()) return hands_[k]->process(observation);
+  HandEstimatePtr estimate;
+  workers_.for_each_index(2, [&](int i) {
+    if (i == 0) estimate = hands_[k]->process(observation);
+    if (i == 1) checks_[k]->track_mirrored(observation);
+  });
+  return estimate;
+}
+
+/// A hand that was tracked alone may turn out to be of the other side. If the other side is tracked, too, it takes
+/// over from there.
+void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
+  HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
+  ProfileCheck& check = *checks_[k];
+  if (other && other->status() == TrackStatus::tracking) check.end_trial();
+  if (!check.on_trial() || !check.turns_out_other_side(estimate)) return;
+  hands_[k]->reset();
+  if (other) other->start_at(check.mirrored_pose());
+}
+
+HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
+  HandTracker& hand = *hands_[0];
+  ProfileCheck& check = *checks_[0];
+
+  // A track goes on; its trial may end it.
+  if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
+    HandEstimatePtr estimate = track(0, observation);
+    judge_trial(0, *estimate);
+    return estimate;
+  }
+
+  // Otherwise the hand is searched.
+  const Effort effort = hand.effort();
+  const int attempts = hand.attempts(effort);
+  std::optional<Fit> found = hand.look(observation, effort, attempts);
+
+  // Report a wrong size, or refuse a hand of the other side.
+  const double score = found ? found->refined.score : INFINITY;
+  if (score > params_.loss.lost_score)
+    check.nothing_found(observation, score);
+  else if (check.is_other_side(observation, effort, attempts, score))
+    found.reset();
+  return hand.process(observation, std::move(found));
+}
+
+/// Without hints, preprocessing returns the regions in no particular order, so the assignment with the smaller total
+/// distance is taken.
+HandObservations HandsTracker::by_hand(const HandObservations& observations) const {
+  if (observations[0]->followed || observations[1]->followed) return observations;
+  const auto apart = [&](int k, int j) {
+    const HandPose* pose = hands_[k]->whereabouts();
+    return pose ? distance(*pose, *observations[j]) : 0;
+  };
+  if (apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1)) return {observations[1], observations[0]};
+  return observations;
+}
+
+/// Whether the observation may belong to any hand, so that the k-th one is searched in it.
+bool HandsTracker::searched(int k, const HandObservation& observation) const {
+  const HandTracker& hand = *hands_[k];
+  return !observation.followed && !hand.start_is_given() && !hand.unconfirmed() &&
+         hand.status() != TrackStatus::tracking;
+}
+
+void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
+  std::optional<Fit> found;
+  const Effort effort = hands_[k]->effort();
+  if (observations[k]->detected || frame_ % kSearchEvery == 0)
+    found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
+  out[k] = hands_[k]->process(*observations[k], std::move(found));
+}
+
+void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
+  std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
+
+  // If one side finds no hand at all, that must not count more than a bad explanation.
+  const double none = params_.loss.lost_score;
+  const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->refined.score, none) : none; };
+
+  // Whether some side already explains the observation well enough.
+  const auto convincing = [&](int j) {
+    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;
+  };
+
+  // Both sides search with the same effort, which gives them equal chances.
+  const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
+  const Effort effort = full ? Effort::full : Effort::quick;
+  const int most = std::max(hands_[0]->attempts(effort), hands_[1]->attempts(effort));
+
+  // One attempt each, and more of them only where neither side is convincing.
+  const auto look = [&](int j, int attempts) {
+    for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
+  };
+  for (int j = 0; j < 2; ++j) {
+    look(j, 1);
+    if (most > 1 && !convincing(j)) look(j, most);
+  }
+
+  // Each side owns the observation that it explains clearly better. Two observations are assigned together.
+  std::array<int, 2> owned = {-1, -1};  // observation of each hand; -1: none
+  if (observations[0]->hand_present && observations[1]->hand_present) {
+    const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);
+    if (clearly_better(straight, crossed)) owned = {0, 1};
+    if (clearly_better(crossed, straight)) owned = {1, 0};
+  } else {
+    const int j = observations[0]->hand_present ? 0 : 1;
+    for (int k = 0; k < 2; ++k) {
+      const bool other_returns =
+          hands_[1 - k]->status() == TrackStatus::lost && hands_[k]->status() != TrackStatus::lost;
+      if (clearly_better(score(k, j), score(1 - k, j), other_returns ? kOverReturning : kHandAdvantage)) owned[k] = j;
+    }
+  }
+
+  // Start the tracks. A single start is on trial against the other side.
+  for (int k = 0; k < 2; ++k) {
+    const int j = owned[k];
+    if (j >= 0 && owned[1 - k] < 0) checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
+    out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
+                   : hands_[k]->process(*observations[j], std::move(found[k][j]));
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tracking/profile_check.h"
+
+namespace barehand {
+
+/// Tracks one hand, or the left and the right hand of a person, each with its own HandTracker.
+/// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no hint
+/// yet, because the hands were found only a moment ago, each region is assigned to the nearer hand.
+/// (2) If both hands are searched, both sides look at every region, and the side that explains it clearly better owns
+/// it; otherwise it stays unassigned.
+/// (3) If only one hand is tracked, no track is started on a hand of the other side, and a track whose first frames
+/// show the other side is given up; both are reported in the log.
+/// The results are as deterministic as those of HandTracker.
+class HandsTracker {
+ public:
+  using Profiles = std::vector<std::shared_ptr<const HandProfile>>;
+
+  /// One hand for each of the one or two profiles; for the other parameters see HandTracker.
+  HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
+               std::shared_ptr<spdlog::logger> log = make_silent_logger());
+
+  /// Processes one frame: one observation per hand in, one estimate per hand out, in the order of the profiles.
+  HandEstimates process(const HandObservations& in_order);
+  int count() const { return static_cast<int>(hands_.size()); }
+  /// The tracker of the k-th hand.
+  HandTracker& hand(int k) { return *hands_[k]; }
+  /// Tracks another person's hand as the k-th one from the next frame on.
+  void use(int k, std::shared_ptr<const HandProfile> profile);
+  /// Continues with other parameters; see HandTracker::change().
+  void change(const TrackerParams& params);
+
+ private:
+  using Fit = HandTracker::Fit;
+  // Creates the profile checks anew, which belong to the present profiles and parameters.
+  void check_anew();
+  HandEstimatePtr track(int k, const HandObservation& observation);
+  // Gives up a hand that its trial shows to be of the other side.
+  void judge_trial(int k, const HandEstimate& estimate);
+  // Processes a whole frame if there is only one hand.
+  HandEstimatePtr process_only(const HandObservation& observation);
+  // The observations in the order of the hands.
+  HandObservations by_hand(const HandObservations& observations) const;
+  // Whether the k-th hand is searched in this observation instead of being tracked.
+  bool searched(int k, const HandObservation& observation) const;
+  void search_one(int k, const HandObservations& observations, HandEstimates& out);
+  void search_both(const HandObservations& observations, HandEstimates& out);
+
+  TrackerParams params_;
+  std::uint64_t seed_;
+  Workers& workers_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::vector<std::unique_ptr<HandTracker>> hands_;
+  std::vector<std::unique_ptr<ProfileCheck>> checks_;  // one per hand
+  std::int64_t frame_ = 0;                             // number of frames so far
+};
+
+}  // namespace barehand

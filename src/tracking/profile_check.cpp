@@ -1,0 +1,125 @@
+#include "tracking/profile_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tracking/clearly_better.h"
+#include "tracking/size_check.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};  // a search compensates a tenth by itself
+// Failed searches between two tries of another size. What stays in view without being found is most likely no hand, so
+// tries become rare.
+constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
+
+// Attempts for the mirrored profile if the profile's own score is not convincing. A hand of the other side is found by
+// the first or second attempt in most cases; a hand of the own side must not be taken for one of the other by the luck
+// of many attempts.
+constexpr int kMirroredAttempts = 2;
+
+// A trial ends when one side has the advantage kTrialAdvantage over at least kFewestFrames frames in which both are
+// tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is searched in every
+// kSearchAgain-th frame.
+constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
+constexpr double kTrialAdvantage = 0.2;
+constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
+
+}  // namespace
+
+ProfileCheck::ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
+                           Workers& workers, std::shared_ptr<spdlog::logger> log)
+    : params_(params), profile_(profile), seed_(seed), workers_(workers), log_(std::move(log)) {
+  // Of what is only tried: neither a skin nor a GPU is worth its start.
+  params_.shape_fit.scans = 0;
+  params_.segment_tracker.observer = "cpu";
+}
+
+HandTracker ProfileCheck::tracker_of(const HandProfile& profile) const {
+  return HandTracker(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
+}
+
+void ProfileCheck::say_side() {
+  if (said_side_) return;
+  said_side_ = true;
+  const auto seen = to_string(mirrored_->profile().handedness);
+  log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
+             seen, to_string(profile_.handedness), seen);
+}
+
+HandTracker& ProfileCheck::other_side() {
+  if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
+  return *mirrored_;
+}
+
+void ProfileCheck::begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found) {
+  other_side().reset();
+  other_side().process(observation, std::move(found));
+  trial_.emplace();
+}
+
+bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
+  // Search with the mirrored profile in the same observation.
+  trial_.reset();
+  const bool convincing = score < params_.search_convincing;
+  auto other = other_side().look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
+  const double other_score = other ? other->refined.score : INFINITY;
+
+  // Once the other side was seen, the own side must win several searches in a row.
+  const bool worse = clearly_better(other_score, score);
+  if (worse) say_side();
+  if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
+  if (worse || suspected_ > 0) return true;
+
+  // An unconvincing start is put on trial.
+  if (!convincing) begin_trial(observation, std::move(other));
+  return false;
+}
+
+void ProfileCheck::track_mirrored(const HandObservation& observation) {
+  Trial& trial = *trial_;
+  const bool followed = mirrored_->status() == TrackStatus::tracking;
+  if (!followed && trial.frames % kSearchAgain != 0) return;
+  trial.mirrored = followed ? mirrored_->process(observation)
+                            : mirrored_->process(observation, mirrored_->look(observation, Effort::quick, 1));
+}
+
+bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
+  // Add up the scores of frames in which both sides are tracked.
+  Trial& trial = *trial_;
+  const bool lost = !own.has_pose();  // the hand will be searched again
+  if (own.status == TrackStatus::tracking && mirrored_->status() == TrackStatus::tracking) {
+    ++trial.compared;
+    trial.own_sum += own.score;
+    trial.mirrored_sum += trial.mirrored->score;
+  }
+
+  // One side must be clearly better over enough frames.
+  const bool enough = trial.compared >= kFewestFrames;
+  const bool other = enough && clearly_better(trial.mirrored_sum, trial.own_sum, kTrialAdvantage);
+  const bool same = enough && clearly_better(trial.own_sum, trial.mirrored_sum, kTrialAdvantage);
+
+  if (++trial.frames == kMostFrames || lost || other || same) trial_.reset();
+  if (!other) return false;
+  suspected_ = kSuspected;
+  say_side();
+  return true;
+}
+
+void ProfileCheck::nothing_found(const HandObservation& observation, double score) {
+  // A try costs a search, so it is made only now and then.
+  if (said_size_ || !observation.hand_present) return;
+  ++failures_;
+  if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
+
+  // Search with a smaller or a larger copy.
+  const double size = kSizes[tries_++ % kSizes.size()];
+  const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick, 1);
+  if (!other || other->refined.score > params_.loss.lost_score || !clearly_better(other->refined.score, score)) return;
+  log_->warn("{}", other_size(size, profile_));
+  said_size_ = true;
+}
+
+}  // namespace barehand

@@ -1,0 +1,31 @@
+#include "tracking/relaxed_pose.h"
+
+#include <algorithm>
+
+#include "stages/pose_prior/hidden_fingers.h"
+
+namespace barehand {
+
+RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
+                         const Refinement& refinement, const TrackerParams& params) {
+  constexpr double kHeld = 0.5;        // visible fraction of an observed segment; a sliver fits nearly any angle
+  constexpr double kIndistinct = 0.1;  // of the sensor's noise; smaller differences of the score mean nothing
+  constexpr int kPasses = 2;           // a joint may change once hidden ones that followed it no longer hold it
+
+  // Joints count as observed if enough of their segment is visible.
+  std::array<bool, kSegmentCount> seen;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHeld;
+
+  // Set the others to neutral angles and refine.
+  RefinedPose relaxed = found;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const HandPose pose = with_hidden_at_ease(profile, relaxed.pose, seen);
+    relaxed = refinement.refine(observation, pose, pose, params.search_iterations);
+  }
+
+  // Keep the neutral pose unless it explains the data clearly worse.
+  const double worse = std::max(params.search_advantage * found.score, kIndistinct * observation.noise);
+  return relaxed.score < found.score + worse ? relaxed : found;
+}
+
+}  // namespace barehand

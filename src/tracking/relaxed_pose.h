@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tracking/tracker_params.h"
+
+namespace barehand {
+
+/// Improves a pose that a search found: a search leaves joints without data at random angles. Unobserved joints are
+/// set to a neutral pose (with_hidden_at_ease) and the pose is refined again. The pose is returned unchanged if its
+/// score is lower by more than `search_advantage` and by more than a fraction of the noise.
+RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
+                         const Refinement& refinement, const TrackerParams& params);
+
+}  // namespace barehand

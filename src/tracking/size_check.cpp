@@ -1,0 +1,75 @@
+#include "tracking/size_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/format.h"
+#include "tracking/clearly_better.h"
+
+namespace barehand {
+namespace {
+
+// Those of other people, then those of a depth unit that is wrong.
+constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
+constexpr double kFarBetter = 0.3;
+constexpr double kNobody = 1.4;  // and its inverse: sizes that two grown-ups do not differ by
+
+/// Scales a pose about the middle of the palm, whose position the data determines best.
+HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
+  const Eigen::Vector3d centre = pose[kPalm] * (0.5 * hand.segments[kPalm].distal);
+  for (SE3& T : pose) T.t = centre + size * (T.t - centre);
+  return pose;
+}
+
+}  // namespace
+
+void SizeCheck::make_candidates() {
+  for (const double size : kSizes)
+    candidates_.push_back(
+        {size, std::make_unique<Refinement>(params_, std::make_shared<const HandProfile>(scaled(*profile_, size)),
+                                            std::make_shared<const Skin>(scaled(*skin_, size)))});
+}
+
+std::string other_size(double size, const HandProfile& profile) {
+  if (size > kNobody || size < 1 / kNobody)
+    return formatted(
+        "the hand in the data is about %.1f times the profile's size: is depth_units_per_metre (depth_unit of a "
+        "message) "
+        "right, or the profile another person's?",
+        size);
+  return formatted(
+      "the hand in view looks about %.0f %% %s than the profile's: give the profile of this hand, or --hand %s for the "
+      "mean hand, which is fitted while tracking; if the profile is right, depth_units_per_metre is not",
+      100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
+}
+
+std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
+  // One copy per frame, in turn, since more would delay the frame.
+  if (looks_ >= kLooks) return std::nullopt;
+  if (candidates_.empty()) make_candidates();
+  const std::size_t turn = frames_++ % kEvery;
+  if (turn >= candidates_.size()) return std::nullopt;
+  Candidate& candidate = candidates_[turn];  // one a frame, or this frame would come late
+  const HandPose start = scaled(*profile_, pose, candidate.size);
+  const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
+
+  candidate.better += clearly_better(other, score);
+  candidate.much_better += clearly_better(other, score, kFarBetter);
+  candidate.sum += other;
+  if (turn + 1 < candidates_.size()) return std::nullopt;
+  ++looks_;
+  return conclude();
+}
+
+std::optional<double> SizeCheck::conclude() {
+  const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
+  const bool at_once = looks_ == kFew && best->much_better == kFew;
+  if (looks_ < kLooks && !at_once) return std::nullopt;
+  const std::optional<double> size = at_once || best->better >= kMost ? std::optional(best->size) : std::nullopt;
+  looks_ = kLooks;
+  candidates_.clear();
+  return size;
+}
+
+}  // namespace barehand

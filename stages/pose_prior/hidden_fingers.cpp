@@ -1,0 +1,82 @@
+#include "stages/pose_prior/hidden_fingers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace barehand {
+namespace {
+
+using Seen = std::array<bool, kSegmentCount>;
+
+/// Mean of `value(s)` over the segments of the rank of `segment` in the nearest fingers in which that one is seen; none
+/// for the thumb, which moves on its own.
+template <class Value>
+std::optional<double> of_nearest_seen(int segment, const Seen& seen, const Value& value) {
+  const int finger = finger_of(segment), k = segment - segment_of(finger, 0);
+  if (finger == 0) return std::nullopt;
+  for (int away = 1; away < kFingerCount; ++away) {
+    double sum = 0;
+    int count = 0;
+    for (const int other : {finger - away, finger + away}) {
+      if (other < 1 || other >= kFingerCount || !seen[segment_of(other, k)]) continue;
+      sum += value(segment_of(other, k));
+      ++count;
+    }
+    if (count > 0) return sum / count;
+  }
+  return std::nullopt;
+}
+
+bool hidden_to_its_tip(int segment, const Seen& seen) {
+  for (int s = segment;; ++s) {
+    if (seen[s]) return false;
+    if (is_tip(s)) return true;
+  }
+}
+
+}  // namespace
+
+HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, const Seen& seen) {
+  constexpr double kDistalShare = 2.0 / 3;
+  HandPose result = pose;
+  const auto flexion_of = [&](int s) { return std::max(0.0, joint_angles(profile, pose, s).flexion); };
+  for (int s = 1; s < kSegmentCount; ++s) {
+    if (seen[s]) continue;
+    const int parent = parent_of(s);
+    const double flexion = parent == kPalm ? of_nearest_seen(s, seen, flexion_of).value_or(0.0)
+                                           : std::max(0.0, joint_angles(profile, result, parent).flexion);
+    result[s] = result[parent] * profile.rest_relative(s);
+    result[s].R *= joint_rotation({is_tip(s) ? kDistalShare * flexion : flexion, 0, 0});
+  }
+  return result;
+}
+
+HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
+                               const Seen& seen, const std::array<double, kSegmentCount>& shown, double widening) {
+  constexpr double kMemory = 1.5;      // s, in which the difference from the neighbours falls to a third
+  constexpr double kSliver = 0.3;      // of a finger's segment: so little of it does not tell how a grasp closes
+  constexpr double kThumbShare = 0.5;  // of what its two joints bend
+  const double forgotten = 1 - std::exp(-dt / kMemory);
+  const auto limits = widened_limits(profile, widening);
+  const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
+  const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
+  const int thumb_middle = segment_of(0, 1), thumb_tip = segment_of(0, 2);
+  const bool only_thumb =
+      seen[thumb_middle] && seen[thumb_tip] &&
+      std::all_of(shown.begin() + segment_of(1, 0), shown.end(), [](double x) { return x < kSliver; });
+  const double with_thumb = only_thumb ? kThumbShare * (bent(thumb_middle) + bent(thumb_tip)) : 0;
+  HandPose result = now;
+  for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
+    if (!hidden_to_its_tip(s, seen)) continue;
+    const int parent = parent_of(s);
+    result[s] = result[parent] * (now[parent].inverse() * now[s]);
+    const double flexion = flexion_of(s);
+    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
+    aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
+    result[s].R *= joint_rotation({std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi) - flexion, 0, 0});
+  }
+  return result;
+}
+
+}  // namespace barehand

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/parallel/parallel.h"
+#include "observe/registration/rigid_icp.h"
+#include "stages/search/pose_search.h"
+
+namespace barehand {
+
+/// How much is searched: templates are scored on a coarse grid, the best are improved in two rounds.
+struct SearchEffort {
+  int in_plane = 16;             ///< in-plane rotations of every template
+  int rolls = 8;                 ///< rotations about the finger axis, among them palm and back to the camera
+  int pitches = 3;               ///< leanings of the fingers towards the camera and away
+  int shapes = 6;                ///< number of shape templates, from open to fist
+  int first_survivors = 72;      ///< templates improved on the coarse grid
+  int first_evaluations = 120;   ///< trials for each
+  int second_survivors = 24;     ///< of these, improved by ICP and on the fine grid
+  int second_evaluations = 400;  ///< trials for each
+  double elsewhere = 0.34;       ///< part of what is kept each time that lies elsewhere than the rest
+  bool operator==(const SearchEffort&) const = default;
+};
+
+template <class V>
+void visit(V& v, SearchEffort& p) {
+  v("in_plane", p.in_plane, 1, 360, "in-plane rotations of every template");
+  v("rolls", p.rolls, 1, 360, "rotations about the finger axis, among them palm and back to the camera");
+  v("pitches", p.pitches, 1, 90, "leanings of the fingers towards the camera and away");
+  v("shapes", p.shapes, 1, 6, "number of shape templates, from open to fist");
+  v("first_survivors", p.first_survivors, 1, 10000, "templates improved on the coarse grid");
+  v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of them");
+  v("second_survivors", p.second_survivors, 1, 10000, "of these, improved by ICP and on the fine grid");
+  v("second_evaluations", p.second_evaluations, 0, 100000, "trials for each of them");
+  v("elsewhere", p.elsewhere, 0.0, 1.0, "part of what is kept each time that lies elsewhere than the rest, by `apart`");
+}
+
+struct InitialiserParams {
+  double coarse_cell = 0.008;  ///< [m] cells while templates are scored
+  double fine_cell = 0.005;    ///< [m] cells of the second round
+  double widening = 0.17;      ///< [rad] added to the profile's joint limits
+  int min_hand_pixels = 200;   ///< fewer: no start is proposed
+  int results = 12;            ///< start poses returned at most
+  double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
+  double apart = 0.06;         ///< [m] what lies elsewhere differs from the rest by more than this
+  int near_survivors = 2;      ///< near a followed pose: templates improved on the fine grid
+  int near_evaluations = 60;   ///< trials for each
+  SearchEffort full;
+  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200, 0};  ///< for every frame while the hand is lost
+  CoarseScoreParams score;
+  PoseSearchParams search;
+  RegistrationParams icp;
+  bool operator==(const InitialiserParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, InitialiserParams& p) {
+  v("coarse_cell", p.coarse_cell, 1e-3, 0.1, "m, cells while templates are scored");
+  v("fine_cell", p.fine_cell, 1e-3, 0.1, "m, cells of the second round");
+  v("widening", p.widening, 0.0, 1.0, "rad, added to the profile's joint limits");
+  v.retired("min_hand_pixels", "tracker.loss.min_hand_pixels");
+  v("results", p.results, 1, 1000, "start poses returned at most");
+  v("distinct", p.distinct, 0.0, 1.0, "m, results differ by more than this (mean over the segment ends)");
+  v("apart", p.apart, 0.0, 1.0, "m, what lies elsewhere differs from the rest by more than this");
+  v("near_survivors", p.near_survivors, 1, 10000, "near a followed pose: changed fingers improved on the fine grid");
+  v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of them");
+  v("full", p.full, "effort of a full search");
+  v("quick", p.quick, "effort of the search made in every frame while the hand is lost");
+  v("score", p.score, "quick score of a whole pose");
+  v("search", p.search, "local search");
+  v("icp", p.icp, "rigid alignment of the survivors");
+}
+
+/// A proposed start, joints closed.
+struct StartCandidate {
+  std::string name;  ///< template it grew from, for example "open" or "last"
+  HandPose pose;
+  double cost = 0;  ///< coarse score with shape prior; comparable within one observation
+};
+
+enum class Effort { quick, full };
+
+/// What a finger behind an object costs: a little, which is right when most of the hand is seen, or nothing.
+enum class Hiding { costs, free };
+
+/// Start poses from one observation alone (not in the paper, whose start is manual; Sec. 5.2). Hand shape templates
+/// at many orientations are laid over the hand's pixels, scored by silhouette and depth, and the best are improved.
+/// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result, not the workers.
+class Initialiser {
+ public:
+  Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params);
+
+  /// Ranked, best first; empty when the observation shows too little of a hand. `last_good`: pose before a loss, tried
+  /// where it was and at the hand's centroid in several in-plane rotations. The quick search turns its template
+  /// orientations from frame to frame, so that successive lost frames cover what one leaves out.
+  /// `hiding`: free where the hand is seen so little that the smallest hidden shape would win.
+  std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
+                                      Workers& workers, Hiding hiding = Hiding::costs,
+                                      const HandPose* last_good = nullptr) const;
+
+  /// Ranked start poses near `followed`, whose palm is about right: it and what single fingers of the templates make of
+  /// it, the best improved on the fine grid.
+  std::vector<StartCandidate> propose_near(const HandObservation& observation, const HandPose& followed,
+                                           std::uint64_t seed, Workers& workers) const;
+
+ private:
+  struct Trial;
+  using Trials = std::vector<Trial>;
+  template <class Visit>
+  static void for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers, const Visit& visit);
+  Trials template_shapes(const SearchEffort& effort, double turn) const;
+  Trials changed_fingers(const HandPose& pose) const;
+  std::vector<StartCandidate> ranked(Trials trials, double distinct, double elsewhere) const;
+  Trials last_good_shapes(const HandPose& last_good) const;
+  void place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const;
+  Trials most_promising(Trials trials, int count, double distinct, double elsewhere) const;
+  void align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud, PoseCost& cost) const;
+
+  std::shared_ptr<const HandProfile> profile_;
+  HandSurface surface_;
+  InitialiserParams params_;
+  std::array<JointLimits, kSegmentCount> limits_;
+  std::vector<ShapeTemplate> shapes_;
+  CoarseSkin coarse_skin_, fine_skin_;
+};
+
+/// Mean distance of the 16 distal ends of two poses [m].
+double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b);
+
+}  // namespace barehand

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "math/random.h"
+#include "stages/search/coarse_score.h"
+#include "stages/search/start_templates.h"
+
+namespace barehand {
+
+/// Random local search over palm pose and joint angles with shrinking steps: improves a template until its
+/// silhouette and depth fit. Only better poses are kept.
+struct PoseSearchParams {
+  double translation = 0.012;  ///< [m] standard deviation of a step at the start
+  double rotation = 0.2;       ///< [rad]
+  double flexion = 0.45;       ///< [rad]
+  double abduction = 0.12;     ///< [rad]
+  double final_step = 0.2;     ///< the last steps are this fraction of the first
+  double shape_prior = 0.02;   ///< cost of neighbouring fingers that differ by a radian in flexion (mean square)
+  bool operator==(const PoseSearchParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, PoseSearchParams& p) {
+  v("translation", p.translation, 1e-4, 0.5, "m, standard deviation of a step at the start");
+  v("rotation", p.rotation, 1e-3, 3.0, "rad, standard deviation of a step at the start");
+  v("flexion", p.flexion, 1e-3, 3.0, "rad, standard deviation of a step at the start");
+  v("abduction", p.abduction, 1e-3, 3.0, "rad, standard deviation of a step at the start");
+  v("final_step", p.final_step, 1e-3, 1.0, "the last steps are this fraction of the first");
+  v("shape_prior", p.shape_prior, 0.0, 10.0, "cost of neighbouring fingers that differ by a radian in flexion");
+}
+
+struct ScoredPose {
+  ArticulatedPose articulated;
+  double cost = 0;  ///< coarse score plus shape prior; lower is better
+};
+
+/// Cost of a pose in the search: coarse score plus the prior on hidden fingers.
+class PoseCost {
+ public:
+  PoseCost(const HandProfile& profile, const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& score,
+           double shape_prior)
+      : profile_(profile), scorer_(grid, skin, score), shape_prior_(shape_prior) {}
+  double operator()(const ArticulatedPose& pose);
+
+ private:
+  const HandProfile& profile_;
+  CoarseScorer scorer_;
+  double shape_prior_;
+};
+
+/// `evaluations` trials from `start`, whose cost is known. `random` decides the trials alone.
+ScoredPose search_pose(ScoredPose start, PoseCost& cost, const std::array<JointLimits, kSegmentCount>& limits,
+                       int evaluations, KeyedRandom random, const PoseSearchParams& params);
+
+}  // namespace barehand

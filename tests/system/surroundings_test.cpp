@@ -1,0 +1,138 @@
+// What a program is started with and what happens around it: closed descriptors, pipes that nobody reads, terminals
+// that go away, limits.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "io/hand/result_table.h"
+#include "io/lcm/lcm_log_reader.h"
+#include "support/barehand_program.h"
+#include "support/quick_config.h"
+#include "support/temp_folder.h"
+
+namespace barehand {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+namespace fs = std::filesystem;
+
+constexpr const char* kHand = "sim:fist,width=160,height=120";
+
+class Surroundings : public ::testing::Test {
+ protected:
+  /// Runs a script of bash that knows $B, the program, and $D, a folder of its own.
+  Outcome script(const std::string& text) const {
+    ChildProcess child({"bash", "-c", "B=" BAREHAND_PROGRAM " D=" + folder_.path() + "; " + text});
+    const int exit_code = child.finish();
+    return {exit_code, child.output()};
+  }
+  /// A recording of six frames, one of which cannot be read: there is something to say.
+  std::string recording() const {
+    EXPECT_EQ(barehand({"sim", "fist,width=160,height=120,frames=6", "--out", folder_ / "take"}).exit_code, 0);
+    fs::remove(folder_ / "take/depth/000003.png");
+    test::write_text(folder_ / "quick.yaml", test::quick_config());
+    return folder_ / "take";
+  }
+  static std::size_t events(const std::string& log) {
+    const auto reader = LcmLogReader::open(log);
+    if (!reader || reader->damaged_bytes() != 0) return 0;
+    return reader->entries().size();
+  }
+  const test::TempFolder folder_;
+};
+
+TEST_F(Surroundings, MessagesNeverLandInDataWhicheverDescriptorsAreClosed) {
+  recording();
+  const std::string track =
+      "$B track --source folder:$D/take --no-publish --config $D/quick.yaml --result $D/r.csv --states-log "
+      "$D/s.lcmlog; "
+      "rc=$?; cat $D/r.csv $D/s.lcmlog | md5sum > $D/$N; rm $D/r.csv $D/s.lcmlog; exit $rc";
+  EXPECT_EQ(script("N=open; " + track).exit_code, 0);
+  for (const std::string closed : {"0<&-", "1>&-", "2>&-", "0<&- 1>&-", "1>&- 2>&-", "0<&- 2>&-", "0<&- 1>&- 2>&-"}) {
+    EXPECT_EQ(script("N=closed; exec " + closed + "; " + track).exit_code, 0) << closed;
+    EXPECT_EQ(test::read_text(folder_ / "closed"), test::read_text(folder_ / "open")) << closed;
+  }
+}
+
+/// Descriptor 3 is a pipe that nobody reads.
+const std::string kBrokenPipe = "exec 3> >(true); wait $!; ";
+
+TEST_F(Surroundings, ARunGoesOnWhenNobodyReadsWhatItSays) {
+  recording();
+  const Outcome track = script(
+      kBrokenPipe +
+      "$B track --source folder:$D/take --no-publish --config $D/quick.yaml --result $D/r.csv --health >&3 2>&3");
+  EXPECT_EQ(track.exit_code, 0);
+  const auto table = read_table(folder_ / "r.csv");
+  ASSERT_TRUE(table) << table.error().message();
+  EXPECT_FALSE(table->truncated);
+
+  EXPECT_EQ(script(kBrokenPipe + "$B convert $D/take $D/take.lcmlog >&3 2>&3").exit_code, 0);
+  EXPECT_EQ(events(folder_ / "take.lcmlog"), 5u);
+  EXPECT_EQ(script(kBrokenPipe + "$B sim fist,width=160,height=120,frames=3 --out $D/again >&3 2>&3").exit_code, 0);
+}
+
+TEST_F(Surroundings, ACommandThatOnlyPrintsEndsWhenNobodyReads) {
+  for (const char* command :
+       {"track --print-config", "--help", "track --help", "sim --list", "listen --lcm-url memq://"}) {
+    const Outcome outcome = script(kBrokenPipe + "$B " + command + " >&3");
+    EXPECT_EQ(outcome.exit_code, 141) << command;
+    EXPECT_THAT(outcome.output, AnyOf(IsEmpty(), StartsWith("listening on "))) << command;
+  }
+}
+
+TEST_F(Surroundings, ACommandThatOnlyPrintsSaysThatItCannot) {
+  const Outcome outcome = script("$B track --print-config >/dev/full");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("is the disk full?"));
+}
+
+TEST_F(Surroundings, ALimitOnTheSizeOfFilesIsAFullDisk) {
+  const Outcome outcome = script("ulimit -f 40; $B record --source " + std::string(kHand) + " --out $D/a.lcmlog");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("File too large"));
+  EXPECT_GT(events(folder_ / "a.lcmlog"), 0u);
+}
+
+TEST_F(Surroundings, HangupEndsARecordingInOrder) {
+  ChildProcess child({BAREHAND_PROGRAM, "record", "--source", kHand + std::string(",live=true,loop=true"), "--out",
+                      folder_ / "a.lcmlog"});
+  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
+    sched_yield();
+  child.signal(SIGHUP);
+  child.signal(SIGHUP);  // a terminal that goes away sends it twice
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("stopped"));
+  EXPECT_GT(events(folder_ / "a.lcmlog"), 0u);
+}
+
+TEST_F(Surroundings, HangupEndsATrackedRecordingInOrder) {
+  recording();
+  test::write_text(folder_ / "quick.yaml", test::quick_config());
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", kHand + std::string(",loop=true"), "--no-publish",
+                      "--config", folder_ / "quick.yaml", "--states-log", folder_ / "s.lcmlog"});
+  while (!fs::exists(folder_ / "s.lcmlog.unfinished") || fs::file_size(folder_ / "s.lcmlog.unfinished") == 0)
+    sched_yield();
+  child.signal(SIGHUP);
+  EXPECT_EQ(child.finish(), 130) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("stopped by SIGHUP"));
+  EXPECT_GT(events(folder_ / "s.lcmlog"), 0u);
+}
+
+TEST_F(Surroundings, AProgramUnderNohupOutlivesItsTerminal) {
+  ChildProcess child({"sh", "-c",
+                      "trap '' HUP; exec " BAREHAND_PROGRAM " record --source " + std::string(kHand) +
+                          ",live=true,loop=true --frames 20 --out " + (folder_ / "a.lcmlog")});
+  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
+    sched_yield();
+  child.signal(SIGHUP);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_EQ(events(folder_ / "a.lcmlog"), 20u);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,178 @@
+#include "tracking/hand_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "hand/skin.h"
+#include "math/angles.h"
+#include "support/painted_hand.h"
+#include "tracking/quick_tracker.h"
+
+namespace barehand {
+namespace {
+
+/// Never lost and never convinced, with quick searches that look for an upright palm only.
+TrackerParams stubborn_tracker() {
+  TrackerParams params = test::quick_tracker();
+  params.loss.lost_score = 0.1;
+  params.search_convincing = 0;
+  SearchEffort& quick = params.initialiser.quick;
+  quick.in_plane = quick.rolls = quick.pitches = quick.shapes = 1;
+  return params;
+}
+
+/// A hand that hangs down, tracked from an upright start.
+class UpsideDown : public testing::Test {
+ protected:
+  double error_of_next() {
+    const HandEstimatePtr estimate = tracker_.process(*test::stamped(*hand_, utime_ += 33'000));
+    const SE3& palm = estimate->segments[kPalm].T_camera_segment;
+    return estimate->status == TrackStatus::tracking ? (palm.t - pose_[kPalm].t).norm() : 1;
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose upright_ = test::facing_pose(*profile_, 0.5);
+  const HandPose pose_ = test::turned(upright_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  Workers workers_{1};
+  const TrackerParams params_ = stubborn_tracker();
+  HandTracker tracker_{params_, profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
+  for (int start = 0; start < 3; ++start) {  // a count of all doubts would make the third one's search a quick one
+    tracker_.reset();
+    tracker_.start_at(upright_);
+    for (int i = 1; i < (params_.doubt_every + 1) / 2; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
+    EXPECT_LT(error_of_next(), 0.005) << start;
+  }
+}
+
+TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
+  TrackerParams params = test::quick_tracker();
+  params.skin_cell = 0.006;  // m: few unknowns, yet finer than what the scan corrects
+  params.shape_fit.scan_after = 32;
+  auto profile = std::make_shared<HandProfile>(*test::adult_hand());
+  profile->origin = ProfileOrigin::measured;
+  const Skin skin = make_blended_skin(scaled(*profile, 1.02), 0.004);
+  Workers workers(2);
+  HandTracker tracker(params, profile, 1, workers);
+  std::int64_t utime = 1'000'000;
+  tracker.start_at(test::facing_pose(*profile, 0.5));
+  const auto given_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);  // it is scanned beside the frames
+  for (int i = 0; !tracker.profile().scanned_skin; ++i) {
+    ASSERT_LT(std::chrono::steady_clock::now(), given_up);
+    const HandPose pose = test::facing_pose(*profile, 0.5, 0.02 * std::min(i, params.shape_fit.scan_after));
+    tracker.process(*test::stamped(*test::observe_skin(skin, pose), utime += 33'000));
+    ASSERT_EQ(tracker.status(), TrackStatus::tracking);
+  }
+  tracker.reset();
+  EXPECT_FALSE(tracker.profile().scanned_skin);
+}
+
+/// A pose is given from outside.
+class GivenStart : public testing::Test {
+ protected:
+  HandEstimatePtr next(const HandObservation& observation) {
+    return tracker_.process(*test::stamped(observation, utime_ += 33'000));
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5);
+  const HandObservationPtr hand_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
+  Workers workers_{1};
+  HandTracker tracker_{test::quick_tracker(), profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(GivenStart, IsNoPoseWhereNoHandIsSeen) {
+  tracker_.start_at(pose_);
+  EXPECT_EQ(next(HandObservation{})->status, TrackStatus::searching);
+}
+
+TEST_F(GivenStart, ElsewhereIsNoMotion) {
+  tracker_.start_at(pose_);
+  for (int i = 0; i < 3; ++i) next(*hand_);
+  const Eigen::Vector3d by(0.05, 0, 0);
+  HandPose moved = pose_;
+  for (SE3& T : moved) T.t += by;
+  tracker_.start_at(moved);
+  const HandEstimatePtr estimate = next(*test::observe_skin(make_blended_skin(*profile_, 0.004), moved));
+  ASSERT_EQ(estimate->status, TrackStatus::tracking);
+  EXPECT_TRUE(estimate->segments[kPalm].velocity.array().isNaN().all()) << "a pose that was given is no motion";
+}
+
+TEST_F(GivenStart, VelocitiesAreKnownWithinATrackOnly) {
+  const auto known = [&](const HandObservation& observation) {
+    const HandEstimatePtr estimate = next(observation);
+    int finite = 0;
+    for (const SegmentState& segment : estimate->segments) finite += segment.velocity.array().isFinite().all();
+    EXPECT_TRUE(finite == 0 || finite == kSegmentCount) << finite;
+    return finite > 0;
+  };
+  tracker_.start_at(pose_);
+  EXPECT_FALSE(known(*hand_)) << "the first frame";
+  EXPECT_TRUE(known(*hand_));
+  utime_ += 500'000;
+  EXPECT_FALSE(known(*hand_)) << "after a gap";
+  EXPECT_TRUE(known(*hand_));
+  EXPECT_FALSE(known(HandObservation{})) << "held";
+}
+
+/// A hand that is tracked, goes away and comes back, or a larger one in its place.
+class Return : public testing::Test {
+ protected:
+  static TrackerParams params() {
+    TrackerParams params = test::quick_tracker();
+    params.loss.hold_time = 0.1;
+    params.loss.forget_time = 1;
+    params.search_convincing = 0.001;
+    return params;
+  }
+  void SetUp() override {
+    tracker_.start_at(pose_);
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(status_at(*hand_), TrackStatus::tracking);
+    const HandObservationPtr nothing = std::make_shared<HandObservation>(HandObservation{.frame = hand_->frame});
+    while (status_at(*nothing) != TrackStatus::lost) ASSERT_LT(utime_, 2'000'000);
+  }
+  TrackStatus status_at(const HandObservation& observation) {
+    return tracker_.process(*test::stamped(observation, utime_ += 33'000))->status;
+  }
+  /// `turn`: in the image plane [rad].
+  HandObservationPtr larger(double size, double turn = 0) const {
+    const HandProfile profile = scaled(*profile_, size);
+    const HandPose pose = test::turned(test::facing_pose(profile, 0.5), {0, 0, turn}, {0, 0, 0.5});
+    return test::observe_skin(make_blended_skin(profile, 0.004), pose);
+  }
+
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5);
+  const HandObservationPtr hand_ = larger(1.01);  // no skin is quite the hand's
+  Workers workers_{1};
+  HandTracker tracker_{params(), profile_, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(Return, IsTrackedAtOnce) { EXPECT_EQ(status_at(*hand_), TrackStatus::tracking); }
+
+TEST_F(Return, OfAHandExplainedSomewhatWorseIsTrackedIfTheNextFrameConfirmsIt) {
+  EXPECT_EQ(status_at(*larger(1.03)), TrackStatus::lost);
+  EXPECT_EQ(status_at(*larger(1.03)), TrackStatus::tracking);
+}
+
+TEST_F(Return, OfAHandExplainedSomewhatWorseIsNotBelievedWhileNoFrameConfirmsIt) {
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(status_at(*larger(1.03, (i % 2 ? 90 : -90) * kDegree)), TrackStatus::lost) << i;
+}
+
+TEST_F(Return, OfSomethingLessLikeTheHandIsNotBelievedUntilItIsForgotten) {
+  const HandObservationPtr other = larger(1.1);
+  int frames = 0;
+  while (status_at(*other) != TrackStatus::tracking) ASSERT_LT(++frames, 60);
+  EXPECT_GT(frames, 20);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,219 @@
+#include "tracking/hands_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "hand/skin.h"
+#include "support/painted_hand.h"
+#include "support/text_logger.h"
+#include "tracking/quick_tracker.h"
+
+namespace barehand {
+namespace {
+
+/// A right and a left hand, and what a camera sees of each of them.
+class HandsTrackerTest : public ::testing::Test {
+ protected:
+  enum Side { kRight, kLeft };
+  static constexpr double kRightX = 0.1, kLeftX = -0.1;
+
+  /// The observation of a hand with its wrist at x.
+  static HandObservationPtr seen(const HandProfile& profile, double flexion, double x) {
+    HandPose pose = test::facing_pose(profile, 0.5, flexion);
+    for (SE3& T : pose) T.t.x() += x;
+    return test::observe_skin(make_blended_skin(profile, 0.004), pose);
+  }
+  static HandObservationPtr nothing() { return std::make_shared<HandObservation>(); }
+  static HandObservationPtr at(std::int64_t utime, const HandObservation& observation, bool followed) {
+    const auto copy = test::stamped(observation, utime);
+    copy->followed = followed;
+    return copy;
+  }
+  /// Processes the next frame; `followed`: preprocessing found the k-th hand where its hint said.
+  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& first, const HandObservationPtr& second,
+                     std::array<bool, 2> followed) {
+    utime_ += 33'000;
+    HandObservations observations;
+    for (const HandObservationPtr& o : {first, second})
+      observations.push_back(at(utime_, *o, followed[observations.size()]));
+    return tracker.process(observations);
+  }
+  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& only) {
+    return tracker.process({at(utime_ += 33'000, *only, false)});
+  }
+  HandEstimates next_times(int frames, HandsTracker& tracker, const HandObservationPtr& first,
+                           const HandObservationPtr& second, std::array<bool, 2> followed = {}) {
+    HandEstimates last;
+    for (int i = 0; i < frames; ++i) last = next(tracker, first, second, followed);
+    return last;
+  }
+
+  const std::shared_ptr<const HandProfile> right_ = test::adult_hand();
+  const std::shared_ptr<const HandProfile> left_ = test::adult_hand(Handedness::left);
+  const HandObservationPtr right_hand_ = seen(*right_, 0.2, kRightX), left_hand_ = seen(*left_, 0.5, kLeftX);
+  Workers workers_{1};
+  HandsTracker tracker_{test::quick_tracker(), {right_, left_}, 1, workers_};
+  std::int64_t utime_ = 1'000'000;
+};
+
+TEST_F(HandsTrackerTest, EveryHandFindsItsSideWhateverTheOrder) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
+    found = next_times(1, tracker_, left_hand_, right_hand_);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+  EXPECT_EQ(found[kLeft]->handedness, Handedness::left);
+  EXPECT_NEAR(found[kRight]->segments[kPalm].T_camera_segment.t.x(), kRightX, 0.04);
+  EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
+  EXPECT_NE(found[kRight]->hand_id, found[kLeft]->hand_id);
+}
+
+TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i) {
+    found = next_times(1, tracker_, left_hand_, nothing());
+    EXPECT_EQ(found[kRight]->status, TrackStatus::searching);
+  }
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i)
+    found = next(tracker_, left_hand_, nothing(), {});
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking) << i;
+    EXPECT_EQ(found[kRight]->status, TrackStatus::searching) << i;
+    found = next(tracker_, left_hand_, nothing(), {});
+  }
+  // Now the right hand is nearer, so preprocessing lists it first.
+  found = next(tracker_, right_hand_, left_hand_, {});
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
+  EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
+}
+
+TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
+  HandsTracker only_left(test::quick_tracker(), {left_}, 1, workers_),
+      only_right(test::quick_tracker(), {right_}, 1, workers_);
+  HandEstimates refused, taken;
+  for (int i = 0; i < 4; ++i) {
+    refused = next(only_left, right_hand_);
+    taken = next(only_right, right_hand_);
+  }
+  EXPECT_EQ(refused[0]->status, TrackStatus::searching);
+  EXPECT_EQ(taken[0]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
+  // Track a right hand with its profile.
+  TrackerParams params = test::quick_tracker();
+  params.search_convincing = 0;  // every start is put on trial
+  std::ostringstream said;
+  HandsTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
+  HandEstimates last;
+  for (int i = 0; i < 4; ++i) last = next(only_right, right_hand_);
+  ASSERT_EQ(last[0]->status, TrackStatus::tracking);
+
+  // A left hand takes its place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
+  // a while.
+  const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
+  int frames = 0;
+  while (++frames < 60 && last[0]->status == TrackStatus::tracking) last = next(only_right, left_hand);
+
+  // In the end the other side is recognised.
+  EXPECT_NE(last[0]->status, TrackStatus::tracking);
+  EXPECT_NE(said.str().find("looks like a left hand"), std::string::npos) << said.str() << frames;
+  EXPECT_GT(frames, 10);
+}
+
+TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater) {
+  HandEstimates last;
+  for (int i = 0; i < 6 && (i == 0 || last[kRight]->status != TrackStatus::tracking); ++i)
+    last = next(tracker_, right_hand_, nothing(), {});
+  ASSERT_EQ(last[kRight]->status, TrackStatus::tracking);
+  // A left hand takes the place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
+  // a while.
+  const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
+  int frames = 0;
+  while (++frames < 60 && last[kLeft]->status != TrackStatus::tracking) last = next(tracker_, left_hand, nothing(), {});
+  EXPECT_EQ(last[kLeft]->status, TrackStatus::tracking);
+  EXPECT_NE(last[kRight]->status, TrackStatus::tracking);
+  EXPECT_GT(frames, 10);
+}
+
+TEST_F(HandsTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
+  auto patch = std::make_shared<HandObservation>(*left_hand_);
+  patch->hand_pixels.resize(50);  // fewer than any search uses
+  HandEstimates found;
+  for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
+    found = next(tracker_, right_hand_, patch, {});
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, AnotherPersonsHandGetsAnIdOfItsOwn) {
+  const HandEstimates before = next_times(4, tracker_, right_hand_, left_hand_);
+  tracker_.use(kRight, right_);
+  const HandEstimates after = next_times(4, tracker_, right_hand_, left_hand_);
+  ASSERT_EQ(before[kRight]->status, TrackStatus::tracking);
+  ASSERT_EQ(after[kRight]->status, TrackStatus::tracking);
+  EXPECT_NE(after[kRight]->hand_id, before[kRight]->hand_id);
+  EXPECT_NE(after[kRight]->hand_id, after[kLeft]->hand_id);
+}
+
+TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
+  next_times(4, tracker_, right_hand_, nothing());
+  const HandEstimates alone = next_times(2, tracker_, right_hand_, nothing(), {true, false});
+  EXPECT_EQ(alone[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(alone[kLeft]->status, TrackStatus::searching);
+  const HandEstimates both = next_times(9, tracker_, right_hand_, left_hand_, {true, false});
+  EXPECT_EQ(both[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(both[kRight]->hand_id, alone[kRight]->hand_id);
+  EXPECT_EQ(both[kLeft]->status, TrackStatus::tracking);
+}
+
+TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
+  Workers two(2);
+  HandsTracker other(test::quick_tracker(), {right_, left_}, 1, two);
+  const HandEstimates one = next_times(4, tracker_, right_hand_, left_hand_);
+  utime_ = 1'000'000;
+  const HandEstimates same = next_times(4, other, right_hand_, left_hand_);
+  for (int k = 0; k < 2; ++k)
+    for (int s = 0; s < kSegmentCount; ++s)
+      EXPECT_EQ(one[k]->segments[s].T_camera_segment.t, same[k]->segments[s].T_camera_segment.t);
+}
+
+class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithParamInterface<double> {
+ protected:
+  /// What the log says while the right hand is tracked with a measured profile scaled by `size`.
+  std::string said(double size) {
+    auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
+    profile->origin = ProfileOrigin::measured;
+    std::ostringstream out;
+    HandsTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
+    HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
+    for (SE3& T : pose) T.t.x() += kRightX;
+    tracker.hand(0).start_at(pose);
+    for (int i = 0; i < 71; ++i) {
+      const HandEstimates estimates = next(tracker, right_hand_);
+      EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);
+      confidence_ = estimates[0]->segments[kPalm].confidence;
+    }
+    return out.str();
+  }
+  double confidence_ = 0;  ///< that is stated of the palm after that
+};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ProfileOfAnotherSize, ::testing::Values(0.88, 1.0, 1.14));
+
+TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
+  const double size = GetParam();
+  const std::string text = said(size);
+  EXPECT_EQ(text.find("% larger") != std::string::npos, size < 1) << text;
+  EXPECT_EQ(text.find("% smaller") != std::string::npos, size > 1) << text;
+  EXPECT_EQ(confidence_ < 0.3, size != 1) << confidence_ << ": the scale may be wrong instead";
+}
+
+}  // namespace
+}  // namespace barehand
