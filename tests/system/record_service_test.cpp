@@ -27,6 +27,11 @@ class Record : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
+  static Outcome run(const std::vector<std::string>& command) {
+    ChildProcess child(command);
+    const int exit_code = child.finish();
+    return {exit_code, child.output()};
+  }
   static std::vector<fs::path> logs(const fs::path& folder) {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
@@ -111,14 +116,13 @@ TEST_F(Record, TellsSystemdHowItGoes) {
 TEST_F(Record, ASecondRecorderOfTheSameSetIsRefused) {
   const std::vector<std::string> of_a_set = {"--max-size", "60kB", "--quota", "200kB"};
   ChildProcess first(command(folder_ / "set/take.lcmlog", of_a_set));
-  while (!fs::exists(folder_ / "set") || logs(folder_ / "set").size() < 2) sched_yield();  // its lock and a log
-  const Outcome second = barehand(command(folder_ / "set/take.lcmlog", of_a_set));
+  while (replay(folder_ / "set").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const Outcome second = run(command(folder_ / "set/take.lcmlog", of_a_set));
   EXPECT_EQ(second.exit_code, 1) << "systemd starts it again";
   EXPECT_THAT(second.output, HasSubstr("is held by process " + std::to_string(first.pid()) + " on "));
-  EXPECT_FALSE(replay(folder_ / "set").empty()) << "readers need no lock";
   std::vector<std::string> other = of_a_set;
   other.insert(other.end(), {"--frames", "2"});
-  EXPECT_EQ(barehand(command(folder_ / "set/other.lcmlog", other)).exit_code, 0) << "another set in the same folder";
+  EXPECT_EQ(run(command(folder_ / "set/other.lcmlog", other)).exit_code, 0) << "another set in the same folder";
   first.signal(SIGTERM);
   EXPECT_EQ(first.finish(), 0) << first.output();
   EXPECT_FALSE(fs::exists(folder_ / "set/.take.lcmlog.lock"));
@@ -134,9 +138,14 @@ TEST_F(Record, ARestartedRecorderWaitsForTheOneBeforeIt) {
 }
 
 TEST_F(Record, RefusesASetThatCannotBe) {
-  EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"})).exit_code, 2);
-  EXPECT_EQ(barehand(command(folder_ / "folder", {"--max-age", "1h"})).exit_code, 2);
-  EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-age", "1 fortnight"})).exit_code, 2);
+  const auto expect_refusal = [&](const std::string& out, const std::vector<std::string>& more, const char* why) {
+    const Outcome outcome = run(command(folder_ / out, more));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr(why));
+  };
+  expect_refusal("a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"}, "does not hold two files");
+  expect_refusal("folder", {"--max-age", "1h"}, "only a log goes on in new files");
+  expect_refusal("a.lcmlog", {"--max-age", "1 fortnight"}, "fortnight");
 }
 
 /// Records to a small disk.

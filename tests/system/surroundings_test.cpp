@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "io/hand/result_table.h"
 #include "io/lcm/lcm_log_reader.h"
@@ -36,6 +37,17 @@ class Surroundings : public ::testing::Test {
     fs::remove(folder_ / "take/depth/000003.png");
     test::write_text(folder_ / "quick.yaml", test::quick_config());
     return folder_ / "take";
+  }
+  /// Until the file of this name, or the draft of it that a program writes first, has some.
+  void wait_for_bytes(const std::string& name) const {
+    const auto written = [&] {
+      for (const auto& entry : fs::directory_iterator(folder_.path())) {
+        std::error_code gone;
+        if (entry.path().filename().string().starts_with(name) && entry.file_size(gone) > 0 && !gone) return true;
+      }
+      return false;
+    };
+    while (!written()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   static std::size_t events(const std::string& log) {
     const auto reader = LcmLogReader::open(log);
@@ -101,8 +113,7 @@ TEST_F(Surroundings, ALimitOnTheSizeOfFilesIsAFullDisk) {
 TEST_F(Surroundings, HangupEndsARecordingInOrder) {
   ChildProcess child({BAREHAND_PROGRAM, "record", "--source", kHand + std::string(",live=true,loop=true"), "--out",
                       folder_ / "a.lcmlog"});
-  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
-    sched_yield();
+  wait_for_bytes("a.lcmlog");
   child.signal(SIGHUP);
   child.signal(SIGHUP);  // a terminal that goes away sends it twice
   EXPECT_EQ(child.finish(), 0) << child.output();
@@ -115,8 +126,7 @@ TEST_F(Surroundings, HangupEndsATrackedRecordingInOrder) {
   test::write_text(folder_ / "quick.yaml", test::quick_config());
   ChildProcess child({BAREHAND_PROGRAM, "track", "--source", kHand + std::string(",loop=true"), "--no-publish",
                       "--config", folder_ / "quick.yaml", "--states-log", folder_ / "s.lcmlog"});
-  while (!fs::exists(folder_ / "s.lcmlog.unfinished") || fs::file_size(folder_ / "s.lcmlog.unfinished") == 0)
-    sched_yield();
+  wait_for_bytes("s.lcmlog");
   child.signal(SIGHUP);
   EXPECT_EQ(child.finish(), 130) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("stopped by SIGHUP"));
@@ -127,8 +137,7 @@ TEST_F(Surroundings, AProgramUnderNohupOutlivesItsTerminal) {
   ChildProcess child({"sh", "-c",
                       "trap '' HUP; exec " BAREHAND_PROGRAM " record --source " + std::string(kHand) +
                           ",live=true,loop=true --frames 20 --out " + (folder_ / "a.lcmlog")});
-  while (!fs::exists(folder_ / "a.lcmlog.unfinished") || fs::file_size(folder_ / "a.lcmlog.unfinished") == 0)
-    sched_yield();
+  wait_for_bytes("a.lcmlog");
   child.signal(SIGHUP);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_EQ(events(folder_ / "a.lcmlog"), 20u);

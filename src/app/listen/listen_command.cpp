@@ -77,7 +77,9 @@ int listen(const ListenOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (listener.broken()) std::cerr << "barehand listen: the LCM connection broke\n";
-  return printed(listener.broken() ? kExitFailure : interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk);
+  if (nobody_reads()) return kExitBrokenPipe;
+  if (listener.broken()) return kExitFailure;
+  return printed(interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk);
 }
 
 }  // namespace
