@@ -7,6 +7,7 @@
 
 #include "hand/skin.h"
 #include "small_hand.h"
+#include "support/resource_limit.h"
 #include "support/temp_folder.h"
 
 namespace barehand {
@@ -196,12 +197,14 @@ TEST_F(HandJson, FullDiskIsReported) {
 }
 
 TEST_F(HandJson, ADiskThatFillsUpKeepsTheProfileBefore) {
-  std::filesystem::create_symlink("/dev/full", path_ + ".new");
-  EXPECT_FALSE(save_profile(scaled(small_hand(), 1.1), path_));
+  {
+    const test::FileSizeLimit full(100);
+    EXPECT_FALSE(save_profile(scaled(small_hand(), 1.1), path_));
+  }
   const auto kept = load_profile(path_);
   ASSERT_TRUE(kept) << kept.error().message();
   EXPECT_NEAR(kept->hand_length(), small_hand().hand_length(), 1e-6);
-  EXPECT_FALSE(std::filesystem::exists(path_ + ".new"));
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".unfinished"));
 }
 
 /// A triangle across the index finger's knuckle.
