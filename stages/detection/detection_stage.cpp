@@ -19,7 +19,10 @@ HandDetector::Expected expected(const HandEstimate& hint, const RgbdFrame& frame
   const SegmentState& palm = hint.segments[kPalm];
   const Eigen::Vector3d bone = hint.profile ? hint.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
   const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - hint.utime)) * 1e-6);
-  return {palm.T_camera_segment * (0.5 * bone) + age * palm.velocity.head<3>(), hint.handedness};
+  // A velocity that is not known (NaN) moves nothing.
+  const Eigen::Vector3d velocity =
+      palm.velocity.allFinite() ? Eigen::Vector3d(palm.velocity.head<3>()) : Eigen::Vector3d::Zero();
+  return {palm.T_camera_segment * (0.5 * bone) + age * velocity, hint.handedness};
 }
 
 }  // namespace

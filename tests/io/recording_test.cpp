@@ -265,8 +265,8 @@ TEST_F(RecordingFolder, StampsInOtherUnitsAreNamedAndThoseThatCannotBeTimesStopT
   EXPECT_THAT(open_error(), AllOf(HasSubstr("line 1"), HasSubstr("milliseconds since the epoch")));
   list("1700000000000000000", "1700000000033000000", "1700000000067000000");
   EXPECT_THAT(open_error(), AllOf(HasSubstr("line 1"), HasSubstr("nanoseconds since the epoch")));
-  list("inf", "1", "2");
-  EXPECT_THAT(open_error(), HasSubstr("line 1 is \"inf"));
+  list("1", "inf", "2");
+  EXPECT_THAT(open_error(), HasSubstr("line 2 is \"inf"));
 }
 
 TEST_F(RecordingFolder, SenselessLineIsNamed) {
