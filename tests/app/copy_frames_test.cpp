@@ -195,13 +195,7 @@ TEST_F(CopyFrames, OniFilesAndExistingLogsAreRefused) {
   const auto oni = open_frame_writer(folder_ / "a.oni", {});
   ASSERT_FALSE(oni);
   EXPECT_NE(oni.error().message().find(".oni"), std::string::npos);
-<<<<<<< HEAD
-  std::ofstream(folder_ / "a.lcmlog") << "precious";
-||||||| c7ef376
-  writer("a.lcmlog");
-=======
   test::write_text(folder_ / "a.lcmlog", "somebody's");
->>>>>>> outputs
   EXPECT_FALSE(open_frame_writer(folder_ / "a.lcmlog", {}));
   EXPECT_TRUE(open_frame_writer(folder_ / "a.lcmlog", {.overwrite = true}));
 }

@@ -27,20 +27,11 @@ class Record : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-<<<<<<< HEAD:tests/system/record_service_test.cpp
   static Outcome run(const std::vector<std::string>& command) {
     ChildProcess child(command);
     const int exit_code = child.finish();
     return {exit_code, child.output()};
   }
-||||||| c7ef376:tests/app/record_service_test.cpp
-=======
-  /// Runs it to its end.
-  static Outcome run(std::vector<std::string> command) {
-    command.erase(command.begin());
-    return barehand(std::move(command));
-  }
->>>>>>> outputs:tests/app/record_service_test.cpp
   static std::vector<fs::path> logs(const fs::path& folder) {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
@@ -147,7 +138,6 @@ TEST_F(Record, ARestartedRecorderWaitsForTheOneBeforeIt) {
 }
 
 TEST_F(Record, RefusesASetThatCannotBe) {
-<<<<<<< HEAD:tests/system/record_service_test.cpp
   const auto expect_refusal = [&](const std::string& out, const std::vector<std::string>& more, const char* why) {
     const Outcome outcome = run(command(folder_ / out, more));
     EXPECT_EQ(outcome.exit_code, 2);
@@ -156,15 +146,6 @@ TEST_F(Record, RefusesASetThatCannotBe) {
   expect_refusal("a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"}, "does not hold two files");
   expect_refusal("folder", {"--max-age", "1h"}, "only a log goes on in new files");
   expect_refusal("a.lcmlog", {"--max-age", "1 fortnight"}, "fortnight");
-||||||| c7ef376:tests/app/record_service_test.cpp
-  EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"})).exit_code, 2);
-  EXPECT_EQ(barehand(command(folder_ / "folder", {"--max-age", "1h"})).exit_code, 2);
-  EXPECT_EQ(barehand(command(folder_ / "a.lcmlog", {"--max-age", "1 fortnight"})).exit_code, 2);
-=======
-  EXPECT_EQ(run(command(folder_ / "a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"})).exit_code, 2);
-  EXPECT_EQ(run(command(folder_ / "folder", {"--max-age", "1h"})).exit_code, 2);
-  EXPECT_EQ(run(command(folder_ / "a.lcmlog", {"--max-age", "1 fortnight"})).exit_code, 2);
->>>>>>> outputs:tests/app/record_service_test.cpp
 }
 
 /// Records to a small disk.
