@@ -11,6 +11,8 @@ inline constexpr int kSampleChunk = 16;
 
 /// Largest distance of one pixel [m] (Eq. 1); infinity: uncapped.
 float distance_cap(const SegmentTrackerParams& params);
+/// The first segment that is compared with the data.
+inline int first_compared(const SegmentTrackerParams& params) { return params.observe_palm ? kPalm : kPalm + 1; }
 
 /// Compares on the cores of `workers`, which outlive it; results do not depend on their number.
 class CpuObserver final : public Observer {

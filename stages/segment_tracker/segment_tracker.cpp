@@ -54,15 +54,14 @@ const PreparedObservation& SegmentTracker::prepare(const HandObservation& observ
 }
 
 const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
-                                             const SampleKey& key) {
-  const int count = params_.samples, chunks = (count + kSampleChunk - 1) / kSampleChunk;
+                                             const SampleKey& key, int count) {
+  const int chunks = (count + kSampleChunk - 1) / kSampleChunk;
   for (auto& poses : samples_.poses) poses.resize(count);
   workers_.for_each_index(kSegmentCount * chunks, [&](int task) {
     const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
     for (int i = begin; i < end; ++i) samples_.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
-  observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1},
-                     distances_);
+  observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, first_compared(params_)}, distances_);
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);
   samples_.unoccluded = prepared.unoccluded;
   for (int s = 0; s < kSegmentCount; ++s)

@@ -34,9 +34,14 @@ class SegmentTracker {
   /// Once per frame.
   const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted);
 
-  /// Once per level: S samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment without
-  /// observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
-  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key);
+  /// Once per level: `count` samples per segment from its kernels (at least one each) with log L of Eq. 3. A segment
+  /// without observation (the palm if so configured; hidden ones, as alpha is 0) has a flat likelihood.
+  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key,
+                               int count);
+  /// S of them.
+  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) {
+    return sample(prepared, proposals, key, params_.samples);
+  }
 
   /// One pose of one segment against the data.
   PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;
