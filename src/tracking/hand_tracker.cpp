@@ -33,6 +33,7 @@ HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const Hand
       log_(std::move(log)),
       given_(std::move(profile)),
       observer_(make_observer(params_.segment_tracker, workers_, log_)),
+      budget_(params_.segment_tracker),
       model_(std::make_unique<HandModel>(params_, given_, workers_, observer_)),
       motion_(params_.prediction, params_.icp),
       loss_(params_.loss),
@@ -63,6 +64,7 @@ void HandTracker::change(const TrackerParams& params) {
   auto model = std::make_unique<HandModel>(params, model_->profile, workers_, observer);  // until here it may throw
   params_ = params;
   observer_ = std::move(observer);
+  budget_ = SampleBudget(params_.segment_tracker);
   model_ = std::move(model);
   if (person_) person_->expect_new_skin();
   if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
@@ -294,16 +296,30 @@ double HandTracker::interval_factor(double dt) const { return std::clamp(dt * pa
 
 FusedPose HandTracker::sample(const HandObservation& observation, const Prediction& prediction) {
   const PreparedObservation& prepared = model_->segment_tracker.prepare(observation, prediction.primary());
+  if (budget_.to_be_measured(observer_->on_device())) measure_budget(prepared, prediction.primary());
   const double factor = interval_factor(prediction.dt);
   const Proposals* proposals = &model_->fusion.first_proposals(prediction.primary(), factor);
   const int levels = params_.fusion.levels;
   for (int level = 0;; ++level) {
+    const int count = budget_.samples(observer_->on_device());
     const SegmentSamples& samples =
-        model_->segment_tracker.sample(prepared, *proposals, {seed_, frame_, level, levels});
+        model_->segment_tracker.sample(prepared, *proposals, {seed_, frame_, level, levels}, count);
     const HandBelief& belief = model_->fusion.fuse(samples, level);
     if (level + 1 == levels) return model_->fusion.read_out(samples, belief, factor);
     proposals = &model_->fusion.next_proposals(samples, belief, level, factor);
   }
+}
+
+/// By the first level of a frame, whose results are not used.
+void HandTracker::measure_budget(const PreparedObservation& prepared, const HandPose& predicted) {
+  budget_.measure([&](int count) {
+    const Proposals& proposals = model_->fusion.first_proposals(predicted);
+    const SampleKey key{seed_, frame_, 0, params_.fusion.levels};
+    const SegmentSamples& samples = model_->segment_tracker.sample(prepared, proposals, key, count);
+    const HandBelief& belief = model_->fusion.fuse(samples, 0);
+    model_->fusion.next_proposals(samples, belief, 0);
+  });
+  log_->info("{}", budget_.to_text());
 }
 
 RefinedPose HandTracker::refine_best_start(const HandObservation& observation, const Prediction& prediction) {

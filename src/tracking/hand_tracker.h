@@ -10,6 +10,7 @@
 #include "person/person_scan.h"
 #include "stages/refinement/pose_uncertainty.h"
 #include "tracking/hand_model.h"
+#include "tracking/sample_budget.h"
 #include "tracking/size_check.h"
 #include "tracking/usual_score.h"
 
@@ -94,6 +95,7 @@ class HandTracker {
   HandEstimatePtr judge(const HandObservation& observation, const std::optional<Fit>& fit, TrackEvidence evidence);
   void greet_new_hand();
   FusedPose sample(const HandObservation& observation, const Prediction& prediction);
+  void measure_budget(const PreparedObservation& prepared, const HandPose& predicted);
   RefinedPose refine_best_start(const HandObservation& observation, const Prediction& prediction);
   void remember(const HandObservation& observation, const Fit& fit);
   void check_size(const HandObservation& observation, const RefinedPose& refined);
@@ -114,6 +116,7 @@ class HandTracker {
   std::shared_ptr<spdlog::logger> log_;
   std::shared_ptr<const HandProfile> given_;  // before anything is learnt of the person
   std::shared_ptr<Observer> observer_;        // lasts while models change: it may be a GPU
+  SampleBudget budget_;
   std::unique_ptr<HandModel> model_;
   std::optional<PersonFit> person_;      // if the given hand is a mean hand
   std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before

@@ -59,9 +59,9 @@ const PreparedObservation& SegmentTracker::prepare(const HandObservation& observ
 }
 
 const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared, const Proposals& proposals,
-                                             const SampleKey& key) {
+                                             const SampleKey& key, int count) {
   // Draw the samples.
-  const int count = params_.samples, chunks = (count + kSampleChunk - 1) / kSampleChunk;
+  const int chunks = (count + kSampleChunk - 1) / kSampleChunk;
   for (auto& poses : samples_.poses) poses.resize(count);
   workers_.for_each_index(kSegmentCount * chunks, [&](int task) {
     const int s = task / chunks, begin = task % chunks * kSampleChunk, end = std::min(begin + kSampleChunk, count);
@@ -69,8 +69,7 @@ const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared
   });
 
   // Compare them with the data; an unobserved palm is left out.
-  observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, params_.observe_palm ? kPalm : kPalm + 1},
-                     distances_);
+  observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, first_compared(params_)}, distances_);
 
   // Compute the likelihoods; sigma shrinks from level to level.
   const double sigma_obs = geometric(params_.sigma_obs_start, params_.sigma_obs_end, key.level, key.levels);

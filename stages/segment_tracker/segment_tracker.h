@@ -34,10 +34,15 @@ class SegmentTracker {
   /// Prepares a frame; call once per frame.
   const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted);
 
-  /// Draws S samples per segment from its kernels (at least one each) and computes log L of Eq. 3; call once per
+  /// Draws `count` samples per segment from its kernels (at least one each) and computes log L of Eq. 3; call once per
   /// level. A segment without observation has a flat likelihood: the palm, if so configured, and hidden segments, for
   /// which alpha is 0.
-  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key);
+  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key,
+                               int count);
+  /// S of them.
+  const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) {
+    return sample(prepared, proposals, key, params_.samples);
+  }
 
   /// Compares one pose of one segment with the data.
   PatchDistance compare(const PreparedObservation& prepared, int segment, const SE3& T_camera_segment) const;

@@ -7,6 +7,8 @@ namespace barehand {
 /// Local trackers: how many samples, how they are compared with the data, what counts as hidden (paper Sec. 4.1, 4.2).
 struct SegmentTrackerParams {
   int samples = 40;
+  int samples_on_device = 0;
+  double level_budget_ms = 0.5;
   double sigma_obs_start = 0.004;
   double sigma_obs_end = 0.001;
   double pixel_distance_cap = 0.008;
@@ -23,6 +25,10 @@ struct SegmentTrackerParams {
 template <class V>
 void visit(V& v, SegmentTrackerParams& p) {
   v.user("samples", p.samples, 1, 10000, "S: samples per segment and level (Sec. 4)");
+  v("samples_on_device", p.samples_on_device, 0, 10000,
+    "S at most where a GPU compares the samples, as far as level_budget_ms allows; never less than samples");
+  v("level_budget_ms", p.level_budget_ms, 0.0, 1000.0,
+    "ms, a level with more samples than on the CPU may take so long: drawing, comparing and fusing them");
   v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, accuracy of the depth at the first level (Eq. 2)");
   v("sigma_obs_end", p.sigma_obs_end, 1e-5, 0.1,
     "m, the same at the last level, geometric in between; paper: constant");
@@ -39,10 +45,10 @@ void visit(V& v, SegmentTrackerParams& p) {
   v("min_counted", p.min_counted, 0.0, 1.0,
     "a sample with a smaller visible part than this has no evidence: it gets its siblings' mean distance");
   v("observe_palm", p.observe_palm, "compare the palm with the data, too; the paper does not (Sec. 4.1)");
-  v.user(
-      "observer", p.observer, {"auto", "cpu", "egl"},
-      "what compares samples with the data: a GPU if there is one (auto), the CPU (cpu), or whatever runs OpenGL ES, "
-      "software included (egl)");
+  v.user("observer", p.observer, {"auto", "cpu", "egl"},
+         "what compares samples with the data: the CPU or a GPU, whichever is measured to be faster (auto), the CPU "
+         "(cpu), "
+         "or whatever runs OpenGL ES, software included (egl)");
 }
 
 }  // namespace barehand

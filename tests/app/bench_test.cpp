@@ -108,6 +108,7 @@ BenchReport small_report() {
     row.result.health.latency = {100, 0.012, 0.011, 0.013, 0.014, 0.015};
     report.rows.push_back(row);
   }
+  report.observers.push_back({"default.yaml", 2, {"Card 9", "OpenGL ES 3.2", false}, {640, {0.3e-3, 0.1e-3}}});
   return report;
 }
 
@@ -118,10 +119,22 @@ TEST(BenchReport, WritesFiguresInMillisecondsAndDrawsThem) {
   ASSERT_TRUE(json.has_value()) << json.error().message();
   EXPECT_EQ(json->at("cases")[0].at("stages_ms").at("track").at("p99"), 10);
   EXPECT_EQ(json->at("cases")[1].at("cpu_ms_per_frame"), 11);
+  EXPECT_EQ(json->at("observers")[0].at("samples"), 640);
+  EXPECT_EQ(json->at("observers")[0].at("cpu_ms"), 0.3);
+  EXPECT_EQ(json->at("observers")[0].at("device_ms"), 0.1);
   const auto drawn = draw_bench(folder / "bench.json", folder / "plots");
   ASSERT_TRUE(drawn.has_value()) << drawn.error().message();
   for (const char* name : {"stages.png", "memory.png", "samples.png"})
     EXPECT_TRUE(std::filesystem::exists(folder / "plots/" + name)) << name;
+}
+
+TEST(BenchReport, SaysWhichObserverIsFaster) {
+  ObserverRow row = small_report().observers[0];
+  EXPECT_EQ(bench_text(row),
+            "default.yaml, 640 samples compared, 2 threads, Card 9: a call takes 0.30 ms on the CPU and 0.10 ms on the "
+            "device, which is 3.0 times as fast\n");
+  row.device.software = true;
+  EXPECT_THAT(bench_text(row), HasSubstr("Card 9 (software, which observer: auto never takes): "));
 }
 
 TEST(BenchReport, WillNotDrawSomethingElse) {

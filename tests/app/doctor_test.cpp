@@ -55,6 +55,8 @@ TEST_F(DoctorChecks, GraphicsSaysWhatIsThereAndWhetherItIsUsed) {
   const Finding found = check_graphics();
   EXPECT_THAT(found.text, ::testing::HasSubstr("OpenGL ES 3"));
   EXPECT_THAT(found.text, ::testing::HasSubstr("observer: auto"));
+  EXPECT_THAT(found.text, ::testing::ContainsRegex("640 samples: a call takes [0-9.]+ ms on the CPU and [0-9.]+ ms on "
+                                                   "the device, which is [0-9.]+ times as"));
   const Finding absent = check_graphics("libnone.so.1");
   EXPECT_EQ(absent.level, Level::note);
   EXPECT_THAT(absent.text, ::testing::HasSubstr("libnone.so.1"));

@@ -21,7 +21,7 @@ void sampling(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(&level.draw());
   state.SetItemsProcessed(Level::drawn(state));
 }
-BENCHMARK(sampling)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sampling)->Arg(20)->Arg(60)->Arg(180)->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 void distance_of_a_patch(benchmark::State& state) {
   const Level level(state);
@@ -57,14 +57,14 @@ void fusing(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(&level.fusion.fuse(level.samples, 0));
   state.SetItemsProcessed(state.iterations() * pairs(level) * (kSegmentCount - 1));
 }
-BENCHMARK(fusing)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
+BENCHMARK(fusing)->Arg(20)->Arg(60)->Arg(180)->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 void next_proposals(benchmark::State& state) {
   Level level(state);
   const HandBelief belief = level.fusion.fuse(level.samples, 0);
   for (auto _ : state) benchmark::DoNotOptimize(&level.fusion.next_proposals(level.samples, belief, 0));
 }
-BENCHMARK(next_proposals)->Arg(60)->Unit(benchmark::kMicrosecond);
+BENCHMARK(next_proposals)->Arg(60)->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace barehand::bench

@@ -119,7 +119,6 @@ TEST_F(LostDriver, FenceThatHangs) {
 TEST_F(LostDriver, CallThatDoesNotReturnIsAbandonedAndItsThreadEndsLater) {
   DeviceLimits limits;
   limits.call = std::chrono::milliseconds(1000);
-  limits.close = std::chrono::milliseconds(1);
   driver_.dispatch_blocks = true;
   auto device = EglObserver::open(kCap, DeviceChoice::any, FaultyDriver::load, limits);
   ASSERT_TRUE(device) << device.error().message();

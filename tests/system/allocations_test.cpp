@@ -96,6 +96,12 @@ TEST(Allocations, AreNoneWithoutSampling) {
   expect_none(allocations_per_frame(params));
 }
 
+TEST(Allocations, AreNoneWhereSamplesAreComparedThroughEgl) {
+  TrackerParams params;
+  params.segment_tracker.observer = "egl";
+  expect_none(allocations_per_frame(params));
+}
+
 TEST(Allocations, AreNoneWhileASecondHandIsAway) { expect_none(allocations_per_frame({}, 2)); }
 
 }  // namespace

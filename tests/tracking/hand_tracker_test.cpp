@@ -1,17 +1,22 @@
 #include "tracking/hand_tracker.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "support/painted_hand.h"
+#include "support/text_logger.h"
 #include "tracking/quick_tracker.h"
 
 namespace barehand {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Never lost and never convinced, with quick searches that look for an upright palm only.
 TrackerParams stubborn_tracker() {
@@ -71,6 +76,47 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   }
   tracker.reset();
   EXPECT_FALSE(tracker.profile().scanned_skin);
+}
+
+/// Three frames of a hand that is followed from where it is; what the log says meanwhile.
+struct Followed {
+  explicit Followed(const SegmentTrackerParams& samples) {
+    TrackerParams params = test::quick_tracker();
+    params.segment_tracker = samples;
+    const std::shared_ptr<const HandProfile> profile = test::adult_hand();
+    const HandObservationPtr hand =
+        test::observe_skin(make_blended_skin(*profile, 0.004), test::facing_pose(*profile, 0.5));
+    std::ostringstream text;
+    Workers workers(1);
+    HandTracker tracker(params, profile, 1, workers, test::text_logger(text));
+    tracker.start_at(test::facing_pose(*profile, 0.5, 0.02));
+    for (int i = 1; i <= 3; ++i) last = tracker.process(*test::stamped(*hand, i * 33'000));
+    log = text.str();
+  }
+  bool same_as(const Followed& other) const {
+    for (int s = 0; s < kSegmentCount; ++s)
+      if (last->segments[s].T_camera_segment.t != other.last->segments[s].T_camera_segment.t) return false;
+    return true;
+  }
+  HandEstimatePtr last;
+  std::string log;
+};
+
+TEST(HandTracker, DrawsMoreSamplesOnlyWhereADeviceComparesThem) {
+  SegmentTrackerParams params;
+  params.samples = 20;
+  params.level_budget_ms = 1000;  // a level in software stays below it on any machine
+  const auto with = [&](const char* observer, int samples_on_device) {
+    params.observer = observer;
+    params.samples_on_device = samples_on_device;
+    return Followed(params);
+  };
+  EXPECT_THAT(with("egl", 26).log,
+              HasSubstr("26 samples per segment and level where the GPU compares them, 20 on the"));
+  EXPECT_THAT(with("egl", 0).log, Not(HasSubstr("samples per segment")));
+  const Followed cpu = with("cpu", 26);
+  EXPECT_THAT(cpu.log, Not(HasSubstr("samples per segment")));
+  EXPECT_TRUE(cpu.same_as(with("cpu", 0)));
 }
 
 /// A pose is given from outside.

@@ -45,6 +45,16 @@ Json to_json(const BenchRow& row) {
   return json;
 }
 
+Json to_json(const ObserverRow& row) {
+  return {{"config", row.config},
+          {"threads", row.threads},
+          {"samples", row.trial.samples},
+          {"cpu_ms", rounded(1e3 * row.trial.times.cpu)},
+          {"device_ms", rounded(1e3 * row.trial.times.device)},
+          {"device", row.device.renderer},
+          {"software", row.device.software}};
+}
+
 }  // namespace
 
 Result<void> write_bench_json(const BenchReport& report, const std::string& path) {
@@ -57,8 +67,10 @@ Result<void> write_bench_json(const BenchReport& report, const std::string& path
                {"warm_up", c.warm_up},
                {"rate", c.rate ? Json(*c.rate) : Json(nullptr)},
                {"inline", c.inline_stages},
-               {"cases", Json::array()}};
+               {"cases", Json::array()},
+               {"observers", Json::array()}};
   for (const BenchRow& row : report.rows) json["cases"].push_back(to_json(row));
+  for (const ObserverRow& row : report.observers) json["observers"].push_back(to_json(row));
   return json_fields::write_json(path, json);
 }
 

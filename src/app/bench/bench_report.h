@@ -5,6 +5,8 @@
 
 #include "app/bench/bench_case.h"
 #include "core/error.h"
+#include "observe/egl/graphics_device.h"
+#include "pipeline/trial_level.h"
 
 namespace barehand {
 
@@ -18,6 +20,14 @@ struct BenchRow {
   BenchResult result;
 };
 
+/// What one call that compares samples costs on the CPU and on a device.
+struct ObserverRow {
+  std::string config;
+  int threads = 1;  ///< of the CPU
+  GraphicsDevice device;
+  TrialTimes trial;
+};
+
 /// A whole run of `barehand bench`.
 struct BenchReport {
   std::string source, processor;
@@ -25,10 +35,13 @@ struct BenchReport {
   int hands = 0;  ///< looked for at once
   BenchConditions conditions;
   std::vector<BenchRow> rows;
+  std::vector<ObserverRow> observers;
 };
 
 /// One case as text for people, several lines.
 std::string bench_text(const BenchRow& row);
+/// The same in a line.
+std::string bench_text(const ObserverRow& row);
 
 /// Durations in ms, memory in MB.
 Result<void> write_bench_json(const BenchReport& report, const std::string& path);

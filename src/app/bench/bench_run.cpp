@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/bench/bench_observers.h"
 #include "app/bench/bench_report.h"
 #include "app/bench/bench_sweep.h"
 #include "app/shared/exit_code.h"
@@ -118,6 +119,22 @@ Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input
   return {};
 }
 
+/// After all frames, as what is loaded for a device would count as theirs. Without one there is nothing to compare.
+void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report) {
+  for (const NamedCase& named : cases) {
+    if (!named.bench.sweep.empty()) continue;
+    auto rows = compare_observers(named.config, named.bench.config, named.bench.threads);
+    if (!rows) {
+      std::cout << "samples are compared by the CPU alone: " << rows.error().message() << "\n";
+      return;
+    }
+    for (ObserverRow& row : *rows) {
+      std::cout << bench_text(row) << std::flush;
+      report.observers.push_back(std::move(row));
+    }
+  }
+}
+
 int tell(const Error& error, int exit_code) {
   std::cerr << "barehand bench: " << error.message() << std::endl;
   return exit_code;
@@ -146,6 +163,7 @@ int run_bench(const BenchOptions& options) {
   report.hands = static_cast<int>(input->hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
   auto done = measure_all(*cases, *input, options, report);
+  if (done) measure_observers(*cases, report);
   if (done && !options.json.empty()) done = write_bench_json(report, options.json);
   if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);
   if (!done) return tell(done.error(), kExitFailure);

@@ -32,4 +32,11 @@ std::string bench_text(const BenchRow& row) {
   return text + time_row("capture to publish", r.health.latency) + time_row("capture to reception", r.received);
 }
 
+std::string bench_text(const ObserverRow& row) {
+  return formatted("%s, %d samples compared, %d threads, %s%s: %s\n", row.config.c_str(), row.trial.samples,
+                   row.threads, row.device.renderer.c_str(),
+                   row.device.software ? " (software, which observer: auto never takes)" : "",
+                   to_text(row.trial.times).c_str());
+}
+
 }  // namespace barehand

@@ -131,14 +131,27 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
 
 Finding check_graphics(const std::string& egl_library) {
   const std::string subject = "graphics";
-  const auto observer = EglObserver::open(distance_cap({}), DeviceChoice::any, egl_library);
+  const Config config;
+  const SegmentTrackerParams& params = config.tracker.segment_tracker;
+  const auto observer = EglObserver::open(distance_cap(params), DeviceChoice::any, egl_library);
   if (!observer)
     return {Level::note, subject, observer.error().message() + "; the CPU compares samples",
             "only with a GPU: install its driver and libegl1"};
+
+  // What observer: auto would find out with its first batch.
   const GraphicsDevice& device = (*observer)->device();
   const std::string name = device.renderer + ", " + device.version;
-  if (device.software) return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU", ""};
-  return {Level::ok, subject, name + ": a GPU, which observer: auto takes", ""};
+  Workers workers(available_cores());
+  const auto trial = time_trial_level(config, params.samples, **observer, workers);
+  if (!trial)
+    return {Level::warning, subject, name + ": " + trial.error().message() + "; the CPU compares samples",
+            trial.error().remedy};
+  const std::string times = "; " + std::to_string(trial->samples) + " samples: " + to_text(trial->times);
+  if (device.software)
+    return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU" + times, ""};
+  if (!trial->times.device_is_faster())
+    return {Level::note, subject, name + ": a GPU, but observer: auto takes the CPU, as it measures" + times, ""};
+  return {Level::ok, subject, name + ": a GPU, which observer: auto takes, as it measures" + times, ""};
 }
 
 std::vector<Finding> check_openni() {

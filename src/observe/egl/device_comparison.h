@@ -4,7 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <utility>
 
 #include "hand/segments.h"
 #include "observe/egl/headless_context.h"

@@ -22,7 +22,7 @@ class DeviceThread {
  public:
   using Work = Result<void> (*)(State&);
 
-  /// `close_limit`: how long the destructor waits for the state's destruction on the thread.
+  /// `close_limit`: how long the destructor waits for the state's destruction on the thread, unless it was abandoned.
   DeviceThread(std::unique_ptr<State> state, std::chrono::milliseconds close_limit)
       : shared_(std::make_shared<Shared>(std::move(state))),
         close_limit_(close_limit),
@@ -87,10 +87,10 @@ class DeviceThread {
       changed_.notify_all();
     }
 
-    /// Whether the thread has come to its end within the limit.
+    /// Whether the thread has come to its end within the limit. One that was abandoned is not waited for again.
     bool finish(std::chrono::milliseconds limit) {
       std::unique_lock lock(mutex_);
-      leaving_ = true;
+      if (std::exchange(leaving_, true)) return ended_;
       changed_.notify_all();
       return changed_.wait_for(lock, limit, [&] { return ended_; });
     }

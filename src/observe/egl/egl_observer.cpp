@@ -1,7 +1,9 @@
 #include "observe/egl/egl_observer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <system_error>
 
 #include "observe/egl/device_comparison.h"
 #include "observe/egl/device_thread.h"
@@ -70,7 +72,12 @@ Result<std::unique_ptr<EglObserver>> EglObserver::open(float cap, DeviceChoice c
                                                        std::function<Result<Egl>()> load_functions,
                                                        const DeviceLimits& limits) {
   auto comparison = std::make_unique<DeviceComparison>(cap, choice, std::move(load_functions), limits.fence);
-  auto thread = std::make_unique<Thread>(std::move(comparison), limits.close);
+  std::unique_ptr<Thread> thread;
+  try {
+    thread = std::make_unique<Thread>(std::move(comparison), limits.close);
+  } catch (const std::system_error& e) {  // too many threads
+    return fail(std::string("no thread for the driver: ") + e.what(), "EGL");
+  }
   const auto opened = thread->run([](DeviceComparison& device) { return device.open(); }, limits.open);
   if (!opened) return tl::unexpected(opened.error());
   std::unique_ptr<EglObserver> observer(new EglObserver(std::move(thread), limits));

@@ -44,7 +44,7 @@ class EglObserver final : public DeviceObserver {
 
  private:
   struct Thread;
-  explicit EglObserver(std::unique_ptr<Thread> thread, const DeviceLimits& limits);
+  EglObserver(std::unique_ptr<Thread> thread, const DeviceLimits& limits);
   Result<void> compare_on_device(const SampleBatch& batch, PatchDistances& distances);
 
   std::unique_ptr<Thread> thread_;
