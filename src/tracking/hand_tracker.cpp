@@ -392,7 +392,9 @@ std::optional<HandTracker::Fit> HandTracker::propose_detected(const HandObservat
   if (!observation.detected) return std::nullopt;
   const auto detected = fit_to_joints(*model_->profile, observation.detected->joints);
   if (!detected) return std::nullopt;
-  return best_of(observation, {{"detected", detected->pose}}, params_.search_iterations);
+  auto fit = best_of(observation, {{"detected", detected->pose}}, params_.search_iterations);
+  fit->refined = relaxed_pose(observation, fit->refined, *model_->profile, model_->refinement, params_);
+  return fit;
 }
 
 std::optional<HandTracker::Fit> HandTracker::search_once(const HandObservation& observation, Effort effort,

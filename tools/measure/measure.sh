@@ -53,6 +53,11 @@ for recording in fist_twice occlusion_0 occlusion_3 occlusion_6 grasp_ball; do
   judge "with the skin scanned from fist_twice" $recording $recording.scanned
 done
 
+row kinect2_person kinect2_person default --hand "$adult"
+echo "== kinect2_person"
+"$barehand" eval --fingertips "$data/kinect2_person/fingertips_2d.csv" --recording "$data/kinect2_person" \
+  --hand "$adult" --result "$out/kinect2_person.csv"
+
 row uvr_forwards uvr_sphere default --hand "$adult" --start 326 --step 1
 row uvr_backwards uvr_sphere default --hand "$adult" --start 326 --step -1
 row uvr_all uvr_sphere default --hand "$adult"
