@@ -17,7 +17,7 @@ void ConfigWriter::entry(const std::string& key, const std::string& value, const
   for (std::size_t depth = 0; depth < groups_.size(); ++depth) {
     Group& group = groups_[depth];
     if (group.written) continue;
-    if (!text_.empty() && !text_.ends_with(":\n")) text_ += "\n";
+    if (depth == 0 && !text_.empty()) text_ += "\n";
     line(depth, "# " + group.doc);
     line(depth, group.key + ":");
     group.written = true;
