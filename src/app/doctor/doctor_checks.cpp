@@ -13,6 +13,7 @@
 #include "io/lcm/lcm_bus.h"
 #include "observe/egl/egl_observer.h"
 #include "pipeline/config.h"
+#include "pipeline/trial_level.h"
 #include "stages/segment_tracker/cpu_observer.h"
 
 namespace barehand {
