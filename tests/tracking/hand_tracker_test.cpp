@@ -82,6 +82,7 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
 struct Followed {
   explicit Followed(const SegmentTrackerParams& samples) {
     TrackerParams params = test::quick_tracker();
+    params.sampling = true;
     params.segment_tracker = samples;
     const std::shared_ptr<const HandProfile> profile = test::adult_hand();
     const HandObservationPtr hand =
