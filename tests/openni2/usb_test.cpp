@@ -62,7 +62,7 @@ class OpenNiOnUsb : public ::testing::Test {
 
   const SystemClock clock_;
   VirtualSensor sensor_;
-  OpenNiParams params_{.width = 160, .height = 120};
+  OpenNiParams params_{.width = 160, .height = 120, .camera = {}};
   Bus bus_;
   std::unique_ptr<OpenNiLiveSource> source_;
   std::unique_ptr<SourceReader> reader_;

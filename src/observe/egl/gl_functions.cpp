@@ -24,12 +24,13 @@ Result<Gl> load_gl(const Egl& egl) {
   return gl;
 }
 
-Result<void> check_gl(const Gl& gl, const std::string& doing) {
+Result<void> check_gl(const Gl& gl, const char* doing) {
   const GLenum error = gl.GetError();
   const GLenum reset = gl.GetGraphicsResetStatus ? gl.GetGraphicsResetStatus() : GLenum{GL_NO_ERROR};
   if (error == GL_NO_ERROR && reset == GL_NO_ERROR) return {};
-  if (error == GL_CONTEXT_LOST || reset != GL_NO_ERROR) return fail("the context was lost while " + doing, "OpenGL ES");
-  return fail(formatted("error 0x%04x while %s", error, doing.c_str()), "OpenGL ES");
+  if (error == GL_CONTEXT_LOST || reset != GL_NO_ERROR)
+    return fail(std::string("the context was lost while ") + doing, "OpenGL ES");
+  return fail(formatted("error 0x%04x while %s", error, doing), "OpenGL ES");
 }
 
 }  // namespace barehand

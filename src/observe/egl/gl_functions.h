@@ -60,6 +60,6 @@ struct Gl {
 Result<Gl> load_gl(const Egl& egl);
 
 /// What went wrong since the last call, the loss of the context included. `doing`: "reading distances".
-Result<void> check_gl(const Gl& gl, const std::string& doing);
+Result<void> check_gl(const Gl& gl, const char* doing);
 
 }  // namespace barehand
