@@ -3,14 +3,37 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
 
+#include "observe/egl/egl_functions.h"
+#include "observe/egl/egl_observer.h"
 #include "stages/segment_tracker/cpu_observer.h"
 #include "tests/egl/random_batch.h"
 
 namespace barehand {
 
 inline constexpr float kCap = 0.008f;  // m
+
+/// Times that a driver which works does not take on the busiest machine.
+inline DeviceLimits patient_limits() {
+  constexpr std::chrono::minutes kLong(5);
+  return {kLong, kLong, kLong, kLong};
+}
+
+/// What runs OpenGL ES here. `load`: where EGL's functions come from.
+inline std::unique_ptr<EglObserver> open_observer(float cap, std::function<Result<Egl>()> load,
+                                                  const DeviceLimits& limits = patient_limits()) {
+  auto observer = EglObserver::open(cap, DeviceChoice::any, std::move(load), limits);
+  if (!observer) throw std::runtime_error(observer.error().message());
+  return std::move(*observer);
+}
+inline std::unique_ptr<EglObserver> open_observer(float cap = kCap) {
+  return open_observer(cap, [] { return load_egl(kEglLibrary); });
+}
 
 inline PatchDistances by_egl(DeviceObserver& observer, const SampleBatch& batch) {
   PatchDistances distances;

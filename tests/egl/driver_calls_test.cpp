@@ -13,11 +13,7 @@ namespace {
 
 class DriverCalls : public ::testing::Test {
  protected:
-  std::unique_ptr<EglObserver> open() {
-    auto observer = EglObserver::open(kCap, DeviceChoice::any, FaultyDriver::load, {});
-    if (!observer) throw std::runtime_error(observer.error().message());
-    return std::move(*observer);
-  }
+  std::unique_ptr<EglObserver> open() { return open_observer(kCap, FaultyDriver::load); }
   FaultyDriver driver_;
 };
 
