@@ -21,17 +21,21 @@ tl::unexpected<Error> refuse(const Output& output, const std::string& what, cons
 
 bool is_folder(Output::Kind kind) { return kind == Output::Kind::pictures || kind == Output::Kind::recording; }
 
-/// Asks the disk about as few of the files as possible: there may be a hundred thousand images.
+bool is_called(const std::string& path, const std::string& name) {
+  return path.ends_with(name) && (path.size() == name.size() || path[path.size() - name.size() - 1] == '/');
+}
+
+/// What is there is told by its inode alone: links to it may have any name. Else only files of its name matter.
 const std::string* same_file(const std::vector<std::string>& files, const std::string& path, const Place& place) {
   struct stat wanted {};
   const bool exists = stat(path.c_str(), &wanted) == 0;
-  const fs::path name = fs::path(path).filename();
-  for (const std::string& file : files) {
+  const auto has_its_inode = [&](const std::string& file) {
     struct stat status {};
-    if (exists && stat(file.c_str(), &status) == 0 && status.st_dev == wanted.st_dev && status.st_ino == wanted.st_ino)
-      return &file;
-    if (!exists && fs::path(file).filename() == name && Place(file) == place) return &file;
-  }
+    return stat(file.c_str(), &status) == 0 && status.st_dev == wanted.st_dev && status.st_ino == wanted.st_ino;
+  };
+  const std::string name = fs::path(target_of(path).path).filename().string();
+  for (const std::string& file : files)
+    if (exists ? has_its_inode(file) : is_called(file, name) && Place(file) == place) return &file;
   return nullptr;
 }
 

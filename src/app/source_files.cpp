@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/place.h"
 #include "io/stamped_list.h"
 
 namespace barehand {
@@ -28,10 +29,13 @@ void add_recording(const std::string& directory, SourceFiles& files) {
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     const auto list = read_stamped_list(directory + "/" + name);
     if (!list) continue;
+    std::string last;
     for (const StampedFile& image : *list) {
-      files.files.push_back(image.file);
-      const std::string folder = fs::path(image.file).parent_path().string();
-      if (folder != directory && folder != files.image_folders.back()) files.image_folders.push_back(folder);
+      if (image.file != files.files.back()) files.files.push_back(image.file);
+      const std::string folder = image.file.substr(0, image.file.rfind('/'));
+      if (folder == last) continue;
+      last = folder;
+      if (!(Place(folder) == Place(directory))) files.image_folders.push_back(folder);
     }
   }
   std::sort(files.image_folders.begin(), files.image_folders.end());

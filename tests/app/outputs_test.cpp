@@ -53,6 +53,28 @@ TEST_F(Outputs, WhatARecordingConsistsOfIsRefused) {
   EXPECT_NE(complaint(recording, folder_ / "rec", Kind::recording), "");
 }
 
+TEST_F(Outputs, AHardLinkToAnImageIsRefused) {
+  fs::create_hard_link(folder_ / "rec/rgb/0.jpg", folder_ / "harmless.csv");
+  EXPECT_THAT(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "harmless.csv"),
+              HasSubstr("rgb/0.jpg of the source"));
+}
+
+TEST_F(Outputs, WhereASourceIsALinkItsTargetIsRefused) {
+  fs::create_symlink("set/notes.csv", folder_ / "link.lcmlog");
+  EXPECT_NE(complaint(files_of_source("log:" + (folder_ / "link.lcmlog")), folder_ / "set/notes.csv"), "");
+  fs::create_symlink("../../set/notes.csv", folder_ / "rec/rgb/1.jpg");
+  test::write_text(folder_ / "rec/rgb.txt", "1.0 rgb/1.jpg\n");
+  EXPECT_NE(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "set/notes.csv"), "");
+}
+
+TEST_F(Outputs, ImagesBesideTheListsDoNotCloseTheFolder) {
+  test::write_text(folder_ / "rec/flat.png", "x");
+  test::write_text(folder_ / "rec/depth.txt", "1.0 flat.png\n");
+  const SourceFiles recording = files_of_source("folder:" + (folder_ / "rec"));
+  EXPECT_NE(complaint(recording, folder_ / "rec/flat.png"), "");
+  EXPECT_EQ(complaint(recording, folder_ / "rec/out.csv"), "");
+}
+
 TEST_F(Outputs, AHandMayBeAddedToARecordingWithoutOne) {
   fs::remove(folder_ / "rec/hand.json");
   EXPECT_EQ(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "rec/hand.json"), "");
