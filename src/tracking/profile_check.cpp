@@ -117,7 +117,8 @@ void ProfileCheck::nothing_found(const HandObservation& observation, double scor
   // Search with a smaller or a larger copy.
   const double size = kSizes[tries_++ % kSizes.size()];
   const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick, 1);
-  if (!other || other->refined.score > params_.loss.lost_score || !clearly_better(other->refined.score, score)) return;
+  const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // a larger hand misses by more
+  if (!other || other->refined.score > lost_score || !clearly_better(other->refined.score, score)) return;
   log_->warn("{}", other_size(size, profile_));
   said_size_ = true;
 }
