@@ -9,8 +9,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kRestart = 1'000'000;  // us; a step back by less is a repetition or a frame that was overtaken
-constexpr std::size_t kSteps = 15;            // frames whose distances tell the unit
+constexpr std::size_t kSteps = 15;  // frames whose distances tell the unit
 constexpr std::size_t kFewestSteps = 2;
 constexpr std::int64_t kMany = 10;                              // one frame of so many
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // of a frame; more is damage

@@ -12,6 +12,9 @@ namespace barehand {
 /// table could not hold them with its precision.
 inline constexpr std::int64_t kLatestUtime = 100'000'000'000'000'000;
 
+/// A stamp that is earlier by this [us] is a new start; by less, a repetition or a frame that was overtaken.
+inline constexpr std::int64_t kRestart = 1'000'000;
+
 /// The unit that a source's stamps are stated in, for messages.
 enum class StampUnit { seconds, microseconds };
 

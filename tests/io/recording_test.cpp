@@ -135,13 +135,32 @@ TEST_F(RecordingFolder, CameraMayNotChange) {
   EXPECT_THAT(writer->write(other).error().message(), HasSubstr("camera changed at frame 1"));
 }
 
-TEST_F(RecordingFolder, TimeMayNotGoBack) {
+TEST_F(RecordingFolder, ARecorderThatWasStartedAgainIsWrittenAndReadWithItsOwnColour) {
   auto writer = RecordingWriter::create(path_);
-  ASSERT_TRUE(writer->write(frame_at(2'000'000, 1)));
-  EXPECT_THAT(writer->write(frame_at(1'000'000, 1)).error().message(), HasSubstr("time goes back at frame 1"));
-  ASSERT_TRUE(writer->write(frame_at(3'000'000, 1)));
+  for (int part = 0; part < 2; ++part) {
+    for (int i = 0; i < 3; ++i) {
+      RgbdFrame frame = frame_at(1'000'000 * i - 500'000, 1);  // both from before 0 on
+      frame.colour.at(0, 0) = {static_cast<std::uint8_t>(part), static_cast<std::uint8_t>(i), 0};
+      ASSERT_TRUE(writer->write(frame));
+    }
+  }
   ASSERT_TRUE(writer->finish());
-  EXPECT_EQ(open_recording(path_)->entries.size(), 2u);
+  const auto recording = open_recording(path_);
+  ASSERT_TRUE(recording) << recording.error().message();
+  ASSERT_EQ(recording->entries.size(), 6u);
+  for (int n = 0; n < 6; ++n) {
+    EXPECT_EQ(recording->entries[n].utime, 1'000'000 * (n % 3) - 500'000);
+    EXPECT_EQ((*read_frame(*recording, n))->colour.at(0, 0),
+              (Rgb{static_cast<std::uint8_t>(n / 3), static_cast<std::uint8_t>(n % 3), 0}));
+  }
+}
+
+TEST_F(RecordingFolder, ColourOfOnePartIsNotUsedForAnother) {
+  auto writer = RecordingWriter::create(path_);
+  for (int n = 0; n < 6; ++n) ASSERT_TRUE(writer->write(frame_at(1'000'000 * (n % 3), 1, n < 3)));
+  ASSERT_TRUE(writer->finish());
+  const auto recording = open_recording(path_);
+  for (int n = 0; n < 6; ++n) EXPECT_EQ(recording->entries[n].colour_file.empty(), n >= 3) << n;
 }
 
 TEST_F(RecordingFolder, FullDiskIsReported) {

@@ -1,11 +1,11 @@
 #include "io/recording/recording.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/format.h"
 #include "io/file_bytes.h"
 #include "io/recording/camera_json.h"
+#include "io/recording/colour_pairs.h"
 #include "io/recording/image_file.h"
 #include "io/recording/stamped_list.h"
 #include "sensor/frame_order.h"
@@ -15,27 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The typical time between two frames [us].
-std::int64_t frame_interval(const std::vector<StampedFile>& depth) {
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = 1; i < depth.size(); ++i) steps.push_back(depth[i].utime - depth[i - 1].utime);
-  if (steps.empty()) return 50'000;
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  return std::max<std::int64_t>(steps[steps.size() / 2], 1);
-}
-
-/// The file nearest in time, or "" if none lies within one frame interval: older colour belongs to another pose.
-std::string nearest_file(const std::vector<StampedFile>& sorted, std::int64_t utime, std::int64_t window) {
-  const auto after = std::lower_bound(sorted.begin(), sorted.end(), utime,
-                                      [](const StampedFile& file, std::int64_t t) { return file.utime < t; });
-  auto best = after;
-  if (after == sorted.end() || (after != sorted.begin() && utime - std::prev(after)->utime <= after->utime - utime))
-    best = after == sorted.begin() ? after : std::prev(after);
-  if (best == sorted.end() || std::abs(best->utime - utime) > window) return {};
-  return best->file;
-}
-
-/// Sorted by time; none where there is no list, or none that makes sense, which is then said.
+/// Empty where there is no list, or none that makes sense, which is then said.
 std::vector<StampedFile> read_colour_list(Recording& recording) {
   const std::string path = recording.directory + "/rgb.txt";
   if (is_missing(path)) return {};
@@ -45,20 +25,20 @@ std::vector<StampedFile> read_colour_list(Recording& recording) {
                                      : files.error().message() + "; depth is used without colour");
     return {};
   }
-  std::stable_sort(files->begin(), files->end(),
-                   [](const StampedFile& a, const StampedFile& b) { return a.utime < b.utime; });
   return *std::move(files);
 }
 
 /// The frames of depth.txt with their colour, and what their stamps say.
 void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
   const std::vector<StampedFile> colour = read_colour_list(recording);
-  const std::int64_t window = frame_interval(depth);
+  ColourPairs pairs = pair_colour(depth, colour);
   FrameOrder order(StampUnit::seconds);
-  for (const StampedFile& file : depth) {
-    RecordingEntry entry{file.utime, file.file, nearest_file(colour, file.utime, window), {}, {}};
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const StampedFile& file = depth[i];
+    RecordingEntry entry{file.utime, file.file, std::move(pairs.files[i]), {}, {}};
     if (entry.colour_file.empty() && !colour.empty())
-      entry.colour_fault = formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(window));
+      entry.colour_fault =
+          formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(pairs.window));
     const auto number = static_cast<std::int64_t>(recording.entries.size());
     if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
     recording.entries.push_back(std::move(entry));

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -21,7 +22,8 @@ std::string image_name(const char* folder, std::int64_t number, const std::strin
 }
 
 std::string stamp_text(std::int64_t utime) {
-  return formatted("%lld.%06lld", static_cast<long long>(utime / 1'000'000), static_cast<long long>(utime % 1'000'000));
+  const auto us = static_cast<unsigned long long>(std::abs(utime));
+  return formatted("%s%llu.%06llu", utime < 0 ? "-" : "", us / 1'000'000, us % 1'000'000);
 }
 
 }  // namespace
@@ -123,9 +125,6 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
     if (const auto started = start(frame); !started) return tl::unexpected(started.error());
   if (!(frame.camera == camera_) || frame.depth_unit != depth_unit_)
     return fail("the camera changed at frame " + std::to_string(count_), directory_, "a recording has one camera");
-  if (frame.utime < last_utime_)
-    return fail("the time goes back at frame " + std::to_string(count_), directory_,
-                "a folder cannot hold that, an LCM log can");
 
   const std::string depth_file = image_name("depth", count_, "png");
   if (const auto written = write_depth_png(directory_ + "/" + depth_file, frame.depth); !written)
@@ -141,7 +140,6 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
   }
   const auto appended = append(depth_list_, "depth.txt", stamp_text(frame.utime) + " " + depth_file + "\n");
   if (!appended) return tl::unexpected(appended.error());
-  last_utime_ = frame.utime;
   return count_++;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -29,8 +28,8 @@ class RecordingWriter {
   ~RecordingWriter();
 
   /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame
-  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error, and so is a time before
-  /// that of the last frame: nobody would read such a folder.
+  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error. Times are written as they
+  /// come; a source's frames are in order (FrameOrder).
   Result<std::int64_t> write(const RgbdFrame& frame);
   /// Makes a recording of what was written: all of it is on the disk when this returns. Without a frame, what was made
   /// is removed. Nothing is written afterwards.
@@ -48,7 +47,6 @@ class RecordingWriter {
   bool made_ = false, finished_ = false;            ///< the folder, which was not there; all of it
   std::optional<WholeFile> depth_list_, rgb_list_;  ///< from the first line on
   std::int64_t count_ = 0;
-  std::int64_t last_utime_ = std::numeric_limits<std::int64_t>::min();
 };
 
 }  // namespace barehand
