@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/log.h"
-#include "observe/fallback_observer.h"
+#include "observe/sampled/fallback_observer.h"
 #include "stages/segment_tracker/segment_tracker.h"
 #include "support/scene.h"
 #include "tests/egl/agreement.h"
