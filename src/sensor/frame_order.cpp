@@ -103,7 +103,8 @@ void FrameOrder::look_at_steps() {
   const double one = unit_ == StampUnit::seconds ? 1e6 : 1;
 
   std::string like;
-  if (least == most && typical == one) {
+  const bool whole = last_utime_ % static_cast<std::int64_t>(one) == 0;
+  if (whole && least == most && typical == one) {
     like = "frame numbers: divide them by the frame rate";
   } else if (typical > kLongest) {
     const int thousands = typical < 1e3 * kLongest ? 1 : typical < 1e6 * kLongest ? 2 : 3;
