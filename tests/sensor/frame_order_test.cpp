@@ -81,6 +81,8 @@ TEST(FrameOrder, RecordingsAtUsualRatesRaiseNoDoubt) {
   EXPECT_THAT(doubts(
                   StampUnit::seconds, [](int) { return kNow; }, 1),
               IsEmpty());
+  EXPECT_THAT(doubts(StampUnit::seconds, [](int i) { return kNow + 500'000 + i * 1'000'000LL; }), IsEmpty())
+      << "one frame a second, at half seconds";
 }
 
 TEST(FrameOrder, OtherUnitsThanSecondsAreNamed) {
