@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/frame_memory.h"
+#include "hand/decision.h"
 #include "hand/profile.h"
 
 namespace barehand {
@@ -57,6 +58,7 @@ struct HandEstimate {
   double score = 0;      ///< global score: mean mismatch of model and data [m], lower is better
   double joint_gap = 0;  ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
   std::shared_ptr<const HandProfile> profile;
+  Decisions decisions;  ///< how the tracker came to this estimate, in order
 
   /// Whether there is a pose that may be displayed and published as tracked.
   bool has_pose() const { return status == TrackStatus::tracking || status == TrackStatus::holding; }

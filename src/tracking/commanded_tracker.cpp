@@ -58,11 +58,11 @@ void CommandedTracker::follow(const Command& command) {
   if (hands.empty()) return;
   if (command.kind == Command::Kind::reset) {
     log_.logger().info("command: forget the hand and search again");
-    for (const int k : hands) tracker_.hand(k).reset();
+    for (const int k : hands) tracker_.hand(k).apply(StartAnew{});
   } else if (command.kind == Command::Kind::initialise) {
     if (hands.size() > 1) return log_.warn("command", "ignored a pose: two hands are tracked, it must say whose it is");
     log_.logger().info("command: track from the given pose");
-    tracker_.hand(hands[0]).start_at(command.pose);
+    tracker_.hand(hands[0]).apply(StartAt{command.pose});
   } else {
     auto profile = parse_profile(command.profile, "command");
     if (!profile) return log_.warn("command", "ignored a hand profile: " + profile.error().message());
@@ -73,7 +73,7 @@ void CommandedTracker::follow(const Command& command) {
 
 void CommandedTracker::use(const std::vector<int>& hands, HandProfile profile) {
   for (const int k : hands) {
-    if (tracker_.count() > 1 && tracker_.hand(k).profile().handedness != profile.handedness) continue;
+    if (tracker_.count() > 1 && tracker_.hand(k).view().profile->handedness != profile.handedness) continue;
     log_.logger().info("command: use the given hand profile");
     return tracker_.use(k, std::make_shared<const HandProfile>(std::move(profile)));
   }

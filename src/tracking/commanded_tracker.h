@@ -27,8 +27,8 @@ class CommandedTracker {
 
   HandEstimates process(const HandObservations& observations);
   /// Of the first hand.
-  void start_at(const HandPose& pose) { tracker_.hand(0).start_at(pose); }
-  /// See HandTracker::change.
+  void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }
+  /// See UseParams.
   void change(const TrackerParams& params) { tracker_.change(params); }
 
  private:

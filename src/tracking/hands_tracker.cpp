@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "tracking/clearly_better.h"
-
 namespace barehand {
 namespace {
 
 // A search takes longer than tracking. Beside a tracked hand, the other one is therefore searched only in every n-th
 // frame.
 constexpr int kSearchEvery = 3;
-
-// A hand that was lost a moment ago is most likely the one that returns. Half a hand also fits the other side, so the
-// other side needs a larger advantage then.
-constexpr double kOverReturning = 0.3;
 
 /// Distance of the palm from the middle of the observed hand [m].
 double distance(const HandPose& pose, const HandObservation& observation) {
@@ -35,13 +29,16 @@ HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles
 }
 
 void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
-  const HandIds ids = hands_[k] ? hands_[k]->further_ids() : HandIds{k + 1, count()};
-  hands_[k] = std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, ids);
+  if (hands_[k])
+    hands_[k]->apply(UseProfile{std::move(profile)});
+  else
+    hands_[k] =
+        std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
   check_anew();
 }
 
 void HandsTracker::change(const TrackerParams& params) {
-  for (const auto& hand : hands_) hand->change(params);
+  for (const auto& hand : hands_) hand->apply(UseParams{params});
   params_ = params;
   check_anew();
 }
@@ -50,7 +47,7 @@ void HandsTracker::check_anew() {
   checks_.clear();
   for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
     if (hand)
-      checks_.push_back(std::make_unique<ProfileCheck>(params_, hand->profile(), seed_, workers_,
+      checks_.push_back(std::make_unique<ProfileCheck>(params_, *hand->view().profile, seed_, workers_,
                                                        count() == 1 ? log_ : make_silent_logger()));
 }
 
@@ -96,10 +93,10 @@ HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
 void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileCheck& check = *checks_[k];
-  if (other && other->status() == TrackStatus::tracking) check.end_trial();
+  if (other && other->view().status == TrackStatus::tracking) check.end_trial();
   if (!check.on_trial() || !check.turns_out_other_side(estimate)) return;
-  hands_[k]->reset();
-  if (other) other->start_at(check.mirrored_pose());
+  hands_[k]->apply(StartAnew{});
+  if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
@@ -107,22 +104,22 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   ProfileCheck& check = *checks_[0];
 
   // A track goes on; its trial may end it.
-  if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
+  const TrackView before = hand.view();
+  if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = track(0, observation);
     judge_trial(0, *estimate);
     return estimate;
   }
 
   // Otherwise the hand is searched.
-  const Effort effort = hand.effort();
-  const int attempts = hand.attempts(effort);
-  std::optional<Fit> found = hand.look(observation, effort, attempts);
+  const int attempts = before.attempts(before.effort);
+  std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
   // Report a wrong size, or refuse a hand of the other side.
-  const double score = found ? found->refined.score : INFINITY;
+  const double score = found ? found->score() : INFINITY;
   if (score > params_.loss.lost_score)
     check.nothing_found(observation, score);
-  else if (check.is_other_side(observation, effort, attempts, score))
+  else if (check.is_other_side(observation, before.effort, attempts, score))
     found.reset();
   return hand.process(observation, std::move(found));
 }
@@ -132,7 +129,7 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
 HandObservations HandsTracker::by_hand(const HandObservations& observations) const {
   if (observations[0]->followed || observations[1]->followed) return observations;
   const auto apart = [&](int k, int j) {
-    const HandPose* pose = hands_[k]->whereabouts();
+    const HandPose* pose = hands_[k]->view().whereabouts;
     return pose ? distance(*pose, *observations[j]) : 0;
   };
   if (apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1)) return {observations[1], observations[0]};
@@ -141,39 +138,39 @@ HandObservations HandsTracker::by_hand(const HandObservations& observations) con
 
 /// Whether the observation may belong to any hand, so that the k-th one is searched in it.
 bool HandsTracker::searched(int k, const HandObservation& observation) const {
-  const HandTracker& hand = *hands_[k];
-  return !observation.followed && !hand.start_is_given() && !hand.unconfirmed() &&
-         hand.status() != TrackStatus::tracking;
+  const TrackView track = hands_[k]->view();
+  return !observation.followed && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
 }
 
 void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
-  std::optional<Fit> found;
-  const Effort effort = hands_[k]->effort();
+  std::optional<Hypothesis> found;
+  const TrackView track = hands_[k]->view();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
-    found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
+    found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
 void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
-  std::array<std::array<std::optional<Fit>, 2>, 2> found;  // [hand][observation]
+  std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
   // If one side finds no hand at all, that must not count more than a bad explanation.
   const double none = params_.loss.lost_score;
-  const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->refined.score, none) : none; };
+  const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->score(), none) : none; };
 
   // Whether some side already explains the observation well enough.
   const auto convincing = [&](int j) {
-    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.search_convincing;
+    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.search_convincing;
   };
 
   // Both sides search with the same effort, which gives them equal chances.
-  const bool full = hands_[0]->effort() == Effort::full || hands_[1]->effort() == Effort::full;
+  const std::array<TrackView, 2> tracks = {hands_[0]->view(), hands_[1]->view()};
+  const bool full = tracks[0].effort == Effort::full || tracks[1].effort == Effort::full;
   const Effort effort = full ? Effort::full : Effort::quick;
-  const int most = std::max(hands_[0]->attempts(effort), hands_[1]->attempts(effort));
+  const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
   // One attempt each, and more of them only where neither side is convincing.
   const auto look = [&](int j, int attempts) {
-    for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->look(*observations[j], effort, attempts);
+    for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
   for (int j = 0; j < 2; ++j) {
     look(j, 1);
@@ -189,9 +186,9 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   } else {
     const int j = observations[0]->hand_present ? 0 : 1;
     for (int k = 0; k < 2; ++k) {
-      const bool other_returns =
-          hands_[1 - k]->status() == TrackStatus::lost && hands_[k]->status() != TrackStatus::lost;
-      if (clearly_better(score(k, j), score(1 - k, j), other_returns ? kOverReturning : kHandAdvantage)) owned[k] = j;
+      const bool other_returns = tracks[1 - k].status == TrackStatus::lost && tracks[k].status != TrackStatus::lost;
+      if (clearly_better(score(k, j), score(1 - k, j), other_returns ? kReturningAdvantage : kHandAdvantage))
+        owned[k] = j;
     }
   }
 

@@ -35,7 +35,6 @@ class HandsTracker {
   void change(const TrackerParams& params);
 
  private:
-  using Fit = HandTracker::Fit;
   // Creates the profile checks anew, which belong to the present profiles and parameters.
   void check_anew();
   HandEstimatePtr track(int k, const HandObservation& observation);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "tracking/clearly_better.h"
 #include "tracking/size_check.h"
 
 namespace barehand {
@@ -24,7 +23,6 @@ constexpr int kMirroredAttempts = 2;
 // tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is searched in every
 // kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
-constexpr double kTrialAdvantage = 0.2;
 constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
 
 }  // namespace
@@ -37,25 +35,25 @@ ProfileCheck::ProfileCheck(const TrackerParams& params, const HandProfile& profi
   params_.segment_tracker.observer = "cpu";
 }
 
-HandTracker ProfileCheck::tracker_of(const HandProfile& profile) const {
-  return HandTracker(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
+std::unique_ptr<HandTracker> ProfileCheck::tracker_of(const HandProfile& profile) const {
+  return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
 void ProfileCheck::say_side() {
   if (said_side_) return;
   said_side_ = true;
-  const auto seen = to_string(mirrored_->profile().handedness);
+  const auto seen = to_string(mirrored_->view().profile->handedness);
   log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
              seen, to_string(profile_.handedness), seen);
 }
 
 HandTracker& ProfileCheck::other_side() {
-  if (!mirrored_) mirrored_ = std::make_unique<HandTracker>(tracker_of(mirrored(profile_)));
+  if (!mirrored_) mirrored_ = tracker_of(mirrored(profile_));
   return *mirrored_;
 }
 
-void ProfileCheck::begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found) {
-  other_side().reset();
+void ProfileCheck::begin_trial(const HandObservation& observation, std::optional<Hypothesis> found) {
+  other_side().apply(StartAnew{});
   other_side().process(observation, std::move(found));
   trial_.emplace();
 }
@@ -63,9 +61,9 @@ void ProfileCheck::begin_trial(const HandObservation& observation, std::optional
 bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   // Search with the mirrored profile in the same observation.
   trial_.reset();
-  const bool convincing = score < params_.search_convincing;
-  auto other = other_side().look(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
-  const double other_score = other ? other->refined.score : INFINITY;
+  const bool convincing = score < params_.choice.search_convincing;
+  auto other = other_side().search(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
+  const double other_score = other ? other->score() : INFINITY;
 
   // Once the other side was seen, the own side must win several searches in a row.
   const bool worse = clearly_better(other_score, score);
@@ -80,17 +78,17 @@ bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effo
 
 void ProfileCheck::track_mirrored(const HandObservation& observation) {
   Trial& trial = *trial_;
-  const bool followed = mirrored_->status() == TrackStatus::tracking;
+  const bool followed = mirrored_->view().status == TrackStatus::tracking;
   if (!followed && trial.frames % kSearchAgain != 0) return;
   trial.mirrored = followed ? mirrored_->process(observation)
-                            : mirrored_->process(observation, mirrored_->look(observation, Effort::quick, 1));
+                            : mirrored_->process(observation, mirrored_->search(observation, Effort::quick, 1));
 }
 
 bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
   // Add up the scores of frames in which both sides are tracked.
   Trial& trial = *trial_;
   const bool lost = !own.has_pose();  // the hand will be searched again
-  if (own.status == TrackStatus::tracking && mirrored_->status() == TrackStatus::tracking) {
+  if (own.status == TrackStatus::tracking && mirrored_->view().status == TrackStatus::tracking) {
     ++trial.compared;
     trial.own_sum += own.score;
     trial.mirrored_sum += trial.mirrored->score;
@@ -116,9 +114,9 @@ void ProfileCheck::nothing_found(const HandObservation& observation, double scor
 
   // Search with a smaller or a larger copy.
   const double size = kSizes[tries_++ % kSizes.size()];
-  const auto other = tracker_of(scaled(profile_, size)).look(observation, Effort::quick, 1);
+  const auto other = tracker_of(scaled(profile_, size))->search(observation, Effort::quick, 1);
   const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // a larger hand misses by more
-  if (!other || other->refined.score > lost_score || !clearly_better(other->refined.score, score)) return;
+  if (!other || other->score() > lost_score || !clearly_better(other->score(), score)) return;
   log_->warn("{}", other_size(size, profile_));
   said_size_ = true;
 }

@@ -25,7 +25,7 @@ class ProfileCheck {
   /// Begins a trial, in which the mirrored profile is tracked, too, during the first frames of a track. `found`: the
   /// best pose that a search found for the mirrored profile. A single frame seldom distinguishes a hand from a
   /// distorted one of the other side; motion does.
-  void begin_trial(const HandObservation& observation, std::optional<HandTracker::Fit> found);
+  void begin_trial(const HandObservation& observation, std::optional<Hypothesis> found);
   void end_trial() { trial_.reset(); }
   bool on_trial() const { return trial_.has_value(); }
   /// Tracks the mirrored profile in one frame of the trial.
@@ -33,14 +33,14 @@ class ProfileCheck {
   /// Call after that and after the profile's own frame. Returns whether the trial ends in favour of the other side.
   bool turns_out_other_side(const HandEstimate& own);
   /// Pose of the hand of the other side when the trial ended (T_camera_segment).
-  const HandPose& mirrored_pose() const { return *mirrored_->whereabouts(); }
+  const HandPose& mirrored_pose() const { return *mirrored_->view().whereabouts; }
 
   /// Call when a search found no hand in a region that looks like one. `score`: that of the best pose; infinite if
   /// there was none. Now and then another size is tried.
   void nothing_found(const HandObservation& observation, double score);
 
  private:
-  HandTracker tracker_of(const HandProfile& profile) const;
+  std::unique_ptr<HandTracker> tracker_of(const HandProfile& profile) const;
   HandTracker& other_side();
   // Reports a hand of the other side, once.
   void say_side();

@@ -24,7 +24,7 @@ RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& 
   }
 
   // Keep the neutral pose unless it explains the data clearly worse.
-  const double worse = std::max(params.search_advantage * found.score, kIndistinct * observation.noise);
+  const double worse = std::max(params.choice.search_advantage * found.score, kIndistinct * observation.noise);
   return relaxed.score < found.score + worse ? relaxed : found;
 }
 

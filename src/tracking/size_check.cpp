@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "core/format.h"
-#include "tracking/clearly_better.h"
+#include "tracking/choice.h"
 
 namespace barehand {
 namespace {
 
 // Those of other people, then those of a depth unit that is wrong.
 constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
-constexpr double kFarBetter = 0.3;
 constexpr double kNobody = 1.4;  // and its inverse: sizes that two grown-ups do not differ by
 
 /// Scales a pose about the middle of the palm, whose position the data determines best.

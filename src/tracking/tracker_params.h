@@ -10,7 +10,8 @@
 #include "stages/refinement/refinement.h"
 #include "stages/search/initialiser.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
-#include "tracking/loss_detector.h"
+#include "tracking/choice.h"
+#include "tracking/track_state.h"
 
 namespace barehand {
 
@@ -20,22 +21,21 @@ struct TrackerParams {
   int skin_points = 100;
   double skin_cell = 0.004;
   bool sampling = true;
-  double sampling_advantage = 0.02;
   double sampling_distinct = 0.005;
-  double search_advantage = 0.1;
   double nominal_rate = 30;
   double seen_fraction = 0.15;
   bool hidden_follow = true;
+  bool relax = true;
+  bool side_check = true;
+  bool size_check = true;
   int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
   int search_attempts = 16;
-  double search_settled = 0.0015;
-  double search_convincing = 0.002;
-  double doubt = 0.15;
   int doubt_every = 12;
   int doubt_near_every = 2;
   int doubt_iterations = 6;
+  ChoiceParams choice;
   SegmentTrackerParams segment_tracker;
   FusionParams fusion;
   RefinementParams refinement;
@@ -55,26 +55,22 @@ void visit(V& v, TrackerParams& p) {
   v("skin_points", p.skin_points, 10, 5000, "skin points per segment for the local trackers");
   v("skin_cell", p.skin_cell, 0.001, 0.02, "m, size of the smooth skin's triangles");
   v("sampling", p.sampling, "draw samples and fuse them by belief propagation (Sec. 4); false: refinement alone");
-  v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
-    "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
   v("sampling_distinct", p.sampling_distinct, 0.0, 1.0,
     "m, a sampled pose is refined if what is seen lies farther than this from the refined prediction");
-  v("search_advantage", p.search_advantage, 0.0, 1.0,
-    "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
   v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
   v("hidden_follow", p.hidden_follow, "fingers that are not seen bend with their neighbours");
+  v("relax", p.relax, "hidden joints of a pose that a search found are set to neutral angles");
+  v("side_check", p.side_check,
+    "compare the hand with one of the other side while it is searched and in its first frames");
+  v("size_check", p.size_check, "compare the hand with smaller and larger ones");
+  visit(v, p.choice);
   v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
   v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
   v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
   v("search_attempts", p.search_attempts, 1, 100,
     "full searches of one frame until one settles it, three agree or, of eight or more, all but one are alike or none "
     "explains it, while no hand was tracked before");
-  v("search_settled", p.search_settled, 0.0, 0.1,
-    "m, a found pose with a lower global score ends the searches of a frame");
-  v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
-  v("doubt", p.doubt, 0.0, 1000.0,
-    "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
   v("doubt_every", p.doubt_every, 1, 100000,
     "of so many doubtful frames the middle one is searched anew, at first thoroughly");
   v("doubt_near_every", p.doubt_near_every, 1, 100000,

@@ -20,7 +20,7 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
   NewParams news;
   Reload reload({}, news);
   Config wanted;
-  wanted.tracker.doubt = 0.5;
+  wanted.tracker.choice.doubt = 0.5;
   wanted.tracker.fusion.levels = 2;
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));

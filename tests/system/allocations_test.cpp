@@ -52,7 +52,7 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
   HandsTracker tracker(params, HandsTracker::Profiles(hands, profile), 1, workers);
   HandMessageMaker maker({});
   HandPose pose = test::facing_pose(*profile, 0.5, 0.4);
-  tracker.hand(0).start_at(pose);
+  tracker.hand(0).apply(StartAt{pose});
   HandEstimates estimates;
   Counts counts;
   for (int k = 0; k < kWarmUp + kCounted; ++k) {

@@ -22,7 +22,7 @@ using ::testing::Not;
 TrackerParams stubborn_tracker() {
   TrackerParams params = test::quick_tracker();
   params.loss.lost_score = 0.1;
-  params.search_convincing = 0;
+  params.choice.search_convincing = 0;
   SearchEffort& quick = params.initialiser.quick;
   quick.in_plane = quick.rolls = quick.pitches = quick.shapes = 1;
   return params;
@@ -49,8 +49,8 @@ class UpsideDown : public testing::Test {
 
 TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
   for (int start = 0; start < 3; ++start) {  // a count of all doubts would make the third one's search a quick one
-    tracker_.reset();
-    tracker_.start_at(upright_);
+    tracker_.apply(StartAnew{});
+    tracker_.apply(StartAt{upright_});
     for (int i = 1; i < (params_.doubt_every + 1) / 2; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
     EXPECT_LT(error_of_next(), 0.005) << start;
   }
@@ -66,16 +66,16 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   Workers workers(2);
   HandTracker tracker(params, profile, 1, workers);
   std::int64_t utime = 1'000'000;
-  tracker.start_at(test::facing_pose(*profile, 0.5));
+  tracker.apply(StartAt{test::facing_pose(*profile, 0.5)});
   const auto given_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);  // it is scanned beside the frames
-  for (int i = 0; !tracker.profile().scanned_skin; ++i) {
+  for (int i = 0; !tracker.view().profile->scanned_skin; ++i) {
     ASSERT_LT(std::chrono::steady_clock::now(), given_up);
     const HandPose pose = test::facing_pose(*profile, 0.5, 0.02 * std::min(i, params.shape_fit.scan_after));
     tracker.process(*test::stamped(*test::observe_skin(skin, pose), utime += 33'000));
-    ASSERT_EQ(tracker.status(), TrackStatus::tracking);
+    ASSERT_EQ(tracker.view().status, TrackStatus::tracking);
   }
-  tracker.reset();
-  EXPECT_FALSE(tracker.profile().scanned_skin);
+  tracker.apply(StartAnew{});
+  EXPECT_FALSE(tracker.view().profile->scanned_skin);
 }
 
 /// Three frames of a hand that is followed from where it is; what the log says meanwhile.
@@ -90,7 +90,7 @@ struct Followed {
     std::ostringstream text;
     Workers workers(1);
     HandTracker tracker(params, profile, 1, workers, test::text_logger(text));
-    tracker.start_at(test::facing_pose(*profile, 0.5, 0.02));
+    tracker.apply(StartAt{test::facing_pose(*profile, 0.5, 0.02)});
     for (int i = 1; i <= 3; ++i) last = tracker.process(*test::stamped(*hand, i * 33'000));
     log = text.str();
   }
@@ -136,17 +136,17 @@ class GivenStart : public testing::Test {
 };
 
 TEST_F(GivenStart, IsNoPoseWhereNoHandIsSeen) {
-  tracker_.start_at(pose_);
+  tracker_.apply(StartAt{pose_});
   EXPECT_EQ(next(HandObservation{})->status, TrackStatus::searching);
 }
 
 TEST_F(GivenStart, ElsewhereIsNoMotion) {
-  tracker_.start_at(pose_);
+  tracker_.apply(StartAt{pose_});
   for (int i = 0; i < 3; ++i) next(*hand_);
   const Eigen::Vector3d by(0.05, 0, 0);
   HandPose moved = pose_;
   for (SE3& T : moved) T.t += by;
-  tracker_.start_at(moved);
+  tracker_.apply(StartAt{moved});
   const HandEstimatePtr estimate = next(*test::observe_skin(make_blended_skin(*profile_, 0.004), moved));
   ASSERT_EQ(estimate->status, TrackStatus::tracking);
   EXPECT_TRUE(estimate->segments[kPalm].velocity.array().isNaN().all()) << "a pose that was given is no motion";
@@ -160,7 +160,7 @@ TEST_F(GivenStart, VelocitiesAreKnownWithinATrackOnly) {
     EXPECT_TRUE(finite == 0 || finite == kSegmentCount) << finite;
     return finite > 0;
   };
-  tracker_.start_at(pose_);
+  tracker_.apply(StartAt{pose_});
   EXPECT_FALSE(known(*hand_)) << "the first frame";
   EXPECT_TRUE(known(*hand_));
   utime_ += 500'000;
@@ -176,11 +176,11 @@ class Return : public testing::Test {
     TrackerParams params = test::quick_tracker();
     params.loss.hold_time = 0.1;
     params.loss.forget_time = 1;
-    params.search_convincing = 0.001;
+    params.choice.search_convincing = 0.001;
     return params;
   }
   void SetUp() override {
-    tracker_.start_at(pose_);
+    tracker_.apply(StartAt{pose_});
     for (int i = 0; i < 5; ++i) ASSERT_EQ(status_at(*hand_), TrackStatus::tracking);
     const HandObservationPtr nothing = std::make_shared<HandObservation>(HandObservation{.frame = hand_->frame});
     while (status_at(*nothing) != TrackStatus::lost) ASSERT_LT(utime_, 2'000'000);

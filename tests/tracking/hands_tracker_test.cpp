@@ -109,7 +109,7 @@ TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
 TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   // Track a right hand with its profile.
   TrackerParams params = test::quick_tracker();
-  params.search_convincing = 0;  // every start is put on trial
+  params.choice.search_convincing = 0;  // every start is put on trial
   std::ostringstream said;
   HandsTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
   HandEstimates last;
@@ -194,7 +194,7 @@ class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithPara
     HandsTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
     HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
     for (SE3& T : pose) T.t.x() += kRightX;
-    tracker.hand(0).start_at(pose);
+    tracker.hand(0).apply(StartAt{pose});
     for (int i = 0; i < 71; ++i) {
       const HandEstimates estimates = next(tracker, right_hand_);
       EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);

@@ -20,7 +20,7 @@ class ProfileOnTrial : public ::testing::Test {
  protected:
   static TrackerParams params() {
     TrackerParams params = test::quick_tracker();
-    params.search_convincing = 0;  // no score is convincing
+    params.choice.search_convincing = 0;  // no score is convincing
     return params;
   }
   HandObservationPtr seen() { return test::stamped(*left_hand_, utime_ += 33'000); }
@@ -101,7 +101,7 @@ TEST_F(ProfileOnTrial, AnotherSizeIsFoundOutHoweverLongNoHandWasThere) {
 
 TEST_F(ProfileOnTrial, NoneIsNeededWhereTheStartConvinces) {
   TrackerParams convinced = params();
-  convinced.search_convincing = 1;
+  convinced.choice.search_convincing = 1;
   ProfileCheck check(convinced, *right_, 1, workers_, test::text_logger(said_));
   EXPECT_FALSE(check.is_other_side(*seen(), Effort::quick, 1, kGood));
   EXPECT_FALSE(check.on_trial());

@@ -68,7 +68,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
   without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
-  without("no_doubt", [](TrackerParams& p) { p.doubt = 1000; });
+  without("no_doubt", [](TrackerParams& p) { p.choice.doubt = 1000; });
 
   // Without one of the additions to the local trackers.
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });

@@ -2,10 +2,10 @@
 
 namespace barehand {
 
-/// How well a tracked hand is usually explained. It falls fast and rises slowly, so that a phase in which fingers are
-/// taken for their neighbours stands out against the better ones before. It starts below the first score, since a hand
-/// may be found in a wrong pose.
-class UsualScore {
+/// How well a track's hand is explained normally: a running value of its scores. It falls fast and rises slowly, so
+/// that a phase in which fingers are taken for their neighbours stands out against the better ones before. It starts
+/// below the first score, since a hand may be found in a wrong pose.
+class BaselineScore {
  public:
   void reset() { level_ = 0; }
   /// One tracked frame's global score [m].

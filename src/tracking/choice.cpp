@@ -1,0 +1,23 @@
+#include "tracking/choice.h"
+
+#include "stages/search/inverse_kinematics.h"
+
+namespace barehand {
+
+double Choice::judged_score(const HandObservation& observation, const HandProfile& profile,
+                            const RefinedPose& refined) const {
+  const bool confirmed =
+      observation.detected && mean_distance(profile, refined.pose, observation.detected->joints) < params_.agreement;
+  return confirmed ? params_.confirmed * refined.score : refined.score;
+}
+
+bool Choice::replaces(std::string_view rule, const Hypothesis& challenger, const Hypothesis& present,
+                      double advantage) {
+  const bool replaced = clearly_better(challenger.score(), present.score(), advantage);
+  const Hypothesis& winner = replaced ? challenger : present;
+  const Hypothesis& loser = replaced ? present : challenger;
+  note({rule, to_string(winner.origin), to_string(loser.origin), winner.score(), loser.score(), advantage});
+  return replaced;
+}
+
+}  // namespace barehand

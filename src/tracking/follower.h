@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "tracking/choice.h"
+#include "tracking/hand_model.h"
+#include "tracking/hypothesis.h"
+#include "tracking/sample_budget.h"
+#include "tracking/tracker_context.h"
+
+namespace barehand {
+
+/// Follows a hand from the last frame into this one, the paper's method: prediction (Sec. 4.4), local trackers and
+/// belief propagation level by level (Sec. 4.1 to 4.3), and beside them the refinement of the predicted poses.
+class Follower {
+ public:
+  explicit Follower(const TrackerContext& context);
+
+  /// The better one of the refined and the sampled pose. Needs motion.has_pose(). `frame` keys the random numbers.
+  Hypothesis follow(const HandObservation& observation, HandModel& hand, MotionModel& motion, std::uint32_t frame,
+                    Choice& choice);
+  /// The context's parameters have changed.
+  void change();
+
+ private:
+  FusedPose sample(const HandObservation& observation, HandModel& hand, const Prediction& prediction,
+                   std::uint32_t frame);
+  void measure_budget(const PreparedObservation& prepared, HandModel& hand, const HandPose& predicted,
+                      std::uint32_t frame);
+  RefinedPose refine_best_start(const HandObservation& observation, const HandModel& hand,
+                                const Prediction& prediction);
+  bool lies_elsewhere(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const;
+  double interval_factor(double dt) const;
+
+  const TrackerContext& context_;
+  SampleBudget budget_;
+  std::vector<HandPose> starts_;  // scratch: where the refinement of a frame may begin
+};
+
+}  // namespace barehand

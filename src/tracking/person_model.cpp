@@ -1,0 +1,104 @@
+#include "tracking/person_model.h"
+
+#include <utility>
+
+namespace barehand {
+
+PersonModel::PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given)
+    : context_(context), given_(std::move(given)), model_(model_of(given_)) {
+  if (context_.params.shape_fit.enabled) start_learning();
+}
+
+std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfile> profile) const {
+  return std::make_unique<HandModel>(context_.params, std::move(profile), context_.workers, context_.observer);
+}
+
+void PersonModel::start_learning() {
+  fit_.reset();
+  size_check_.reset();
+  size_in_view_ = 1;
+  const TrackerParams& params = context_.params;
+  if (!given_->scanned_skin)
+    scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
+                                         given_, context_.workers);
+  if (given_->origin == ProfileOrigin::mean)
+    fit_.emplace(params.shape_fit, given_);
+  else
+    expect_any_size();
+}
+
+void PersonModel::expect_any_size() {
+  if (context_.params.size_check) size_check_.emplace(context_.params.refinement, model_->profile, model_->skin);
+}
+
+void PersonModel::reset() {
+  if (!context_.params.shape_fit.enabled) return;
+  if (model_->profile != given_) model_ = model_of(given_);
+  start_learning();
+}
+
+void PersonModel::use(std::shared_ptr<const HandProfile> given) {
+  given_ = std::move(given);
+  model_ = model_of(given_);
+  scan_.reset();
+  reset();
+}
+
+void PersonModel::change(const TrackerParams& params, std::shared_ptr<Observer> observer) {
+  auto model = std::make_unique<HandModel>(params, model_->profile, context_.workers, std::move(observer));
+  model_ = std::move(model);
+  if (fit_) fit_->expect_new_skin();
+  if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
+}
+
+void PersonModel::start_track() {
+  if (scan_) scan_->restart();
+  const bool doubted = std::exchange(size_in_view_, 1) != 1;
+  if (doubted || (fit_ && model_->profile->scanned_skin)) expect_any_size();
+}
+
+void PersonModel::learn(const HandObservation& observation, const RefinedPose& refined, bool good) {
+  if (size_check_) check_size(observation, refined);
+  if (!good) return;
+  if (scan_) scan_->add(observation, refined.pose);
+  if (fit_ && !model_->profile->scanned_skin) fit_bones(observation, refined.pose);
+}
+
+void PersonModel::check_size(const HandObservation& observation, const RefinedPose& refined) {
+  const auto size = size_check_->look(observation, refined.pose, refined.score);
+  if (!size) return;
+  if (!fit_) {
+    size_in_view_ = *size;
+    return context_.log->warn("{}", other_size(*size, *model_->profile));
+  }
+  context_.log->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
+  reset();
+}
+
+void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {
+  const PersonFit::Change change = fit_->look(observation, pose, model_->refinement, model_->skin);
+  if (change == PersonFit::Change::large) {
+    model_ = model_of(fit_->profile());
+    context_.log->info("hand fitted to the person after {} looks: {:.0f} mm long, the mean hand {:.0f} mm",
+                       fit_->fit().looks(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());
+  } else if (change == PersonFit::Change::small) {
+    model_ = std::make_unique<HandModel>(context_.params, fit_->profile(), fit_->skin(), model_->initialiser,
+                                         context_.workers, context_.observer);
+  }
+}
+
+void PersonModel::adopt_scan() {
+  if (!scan_) return;
+  try {
+    const auto hand = scan_->take();
+    if (!hand) return;
+    model_ = std::make_unique<HandModel>(context_.params, hand, hand->scanned_skin, model_->initialiser,
+                                         context_.workers, context_.observer);
+    context_.log->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
+    if (fit_ && scan_->of_hand_before()) expect_any_size();
+  } catch (const std::exception& e) {  // most likely memory: the hand as it is does, too
+    context_.log->warn("the hand could not be scanned: {}", e.what());
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,122 @@
+#include "tracking/proposers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "stages/pose_prior/crossed_fingers.h"
+#include "stages/search/inverse_kinematics.h"
+#include "tracking/found_poses.h"
+#include "tracking/relaxed_pose.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
+
+}  // namespace
+
+std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation, const HandModel& hand,
+                                              const Track& track, Effort effort, int attempts,
+                                              std::uint32_t frame) const {
+  const TrackerParams& params = context_.params;
+  if (static_cast<int>(observation.hand_pixels.size()) < params.loss.min_hand_pixels) return std::nullopt;
+
+  // A detection that is explained well needs no search.
+  std::optional<Hypothesis> best = detected(observation, hand);
+  if (best && choice_.judged_score(observation, *hand.profile, best->refined) < params.loss.recovered_score)
+    return best;
+
+  // Search until the frame is settled.
+  FoundPoses poses(*hand.profile, params.choice.search_settled, params.loss.recovered_score);
+  for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
+    auto found = searched(observation, hand, track, effort, attempt, frame);
+    if (!found) continue;
+    const bool better = poses.add(found->refined.pose, found->score());
+    if (better && (!best || found->score() < best->score())) best = std::move(found);
+  }
+  return best;
+}
+
+std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, const HandModel& hand, Track& track,
+                                            const Hypothesis& followed, std::uint32_t frame) const {
+  // A tentative pose is searched thoroughly: a quick search may be wrong once more.
+  const TrackerParams& params = context_.params;
+  if (track.tentative()) return searched(observation, hand, track, Effort::full, 0, frame);
+  if (!track.worse_than_usual(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
+
+  // Ambiguous: some fingers may be where their neighbours are.
+  const int frames = ++track.ambiguous_frames;
+  if (observation.detected) return detected(observation, hand);
+
+  // A hand that is taken for something else looks wrong from its start on; later doubts are mostly about fingers.
+  const int first = (params.doubt_every + 1) / 2;
+  if (frames == first) return searched(observation, hand, track, Effort::full, 1, frame);
+  if (frames % params.doubt_every == first % params.doubt_every)
+    return searched(observation, hand, track, Effort::quick, 0, frame);
+  if (frames % params.doubt_near_every == 0) return near(observation, hand, followed.refined.pose, frame);
+  return std::nullopt;
+}
+
+void Proposers::uncross(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
+  const TrackerParams& params = context_.params;
+  if (!params.refinement.enabled || !params.choice.uncross) return;
+  const auto apart = uncrossed(*hand.profile, followed.refined.pose, params.initialiser.widening);
+  if (!apart) return;
+
+  // Fingers side by side may explain a frame a little worse and are still more likely.
+  auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.doubt_iterations);
+  if (choice_.replaces("uncross", *best, followed, -params.choice.uncross_allowance)) followed = std::move(*best);
+}
+
+/// Inverse kinematics of the detected joints, then the ordinary refinement.
+std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
+  if (!observation.detected) return std::nullopt;
+  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
+  if (!fit) return std::nullopt;
+  auto best =
+      best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
+  relax(observation, hand, best);
+  return best;
+}
+
+std::optional<Hypothesis> Proposers::searched(const HandObservation& observation, const HandModel& hand,
+                                              const Track& track, Effort effort, int attempt,
+                                              std::uint32_t frame) const {
+  const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
+  const std::uint64_t seed = context_.seed + frame + attempt * kAttemptSeed;
+  const HandPose* const last_good = track.last_good ? &*track.last_good : nullptr;
+  auto best = best_of(Origin::searched, observation, hand,
+                      hand.initialiser->propose(observation, effort, seed, context_.workers, hiding, last_good),
+                      context_.params.search_iterations);
+  relax(observation, hand, best);
+  return best;
+}
+
+std::optional<Hypothesis> Proposers::near(const HandObservation& observation, const HandModel& hand,
+                                          const HandPose& followed, std::uint32_t frame) const {
+  const auto starts = hand.initialiser->propose_near(observation, followed, context_.seed + frame, context_.workers);
+  return best_of(Origin::near, observation, hand, starts, context_.params.doubt_iterations);
+}
+
+std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservation& observation, const HandModel& hand,
+                                             const std::vector<StartCandidate>& starts, int iterations) const {
+  std::vector<RefinedPose> refined(std::min<std::size_t>(context_.params.search_refined, starts.size()));
+  if (refined.empty()) return std::nullopt;
+  context_.workers.for_each_index(static_cast<int>(refined.size()), [&](int i) {
+    refined[i] = hand.refinement.refine(observation, starts[i].pose, starts[i].pose, iterations);
+  });
+  Hypothesis best;
+  best.origin = origin;
+  best.refined = *std::ranges::min_element(refined, {}, &RefinedPose::score);
+  best.joint_gap = joint_gap(*hand.profile, best.refined.pose);
+  return best;
+}
+
+/// A search leaves joints without data at random angles.
+void Proposers::relax(const HandObservation& observation, const HandModel& hand,
+                      std::optional<Hypothesis>& found) const {
+  if (found && context_.params.relax)
+    found->refined = relaxed_pose(observation, found->refined, *hand.profile, hand.refinement, context_.params);
+}
+
+}  // namespace barehand
