@@ -69,7 +69,7 @@ TEST_F(CommandedTrackerTest, IgnoresWhatItCannotReadAndWhatIsForOthers) {
 }
 
 TEST_F(CommandedTrackerTest, AFloodOfCommandsLeavesTimeToTrack) {
-  tracker_.apply(StartAt{pose_});
+  tracker_.start_at(pose_);
   next();
   std::set<std::int32_t> hands;
   for (int frame = 0; frame < 20; ++frame) {
@@ -88,7 +88,7 @@ TEST_F(CommandedTrackerTest, AFloodOfCommandsLeavesTimeToTrack) {
 }
 
 TEST_F(CommandedTrackerTest, WhatHadToWaitIsFollowedInTheEnd) {
-  tracker_.apply(StartAt{pose_});
+  tracker_.start_at(pose_);
   for (int i = 0; i <= CommandedTracker::kBurst; ++i) {  // one more than is followed at once
     Command start;
     start.kind = Command::Kind::initialise;
@@ -103,7 +103,7 @@ TEST_F(CommandedTrackerTest, WhatHadToWaitIsFollowedInTheEnd) {
 }
 
 TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
-  tracker_.apply(StartAt{pose_});
+  tracker_.start_at(pose_);
   const HandEstimatePtr before = next();
   TrackerParams params = test::quick_tracker();
   params.refinement.iterations += 1;
@@ -116,7 +116,7 @@ TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
 }
 
 TEST_F(CommandedTrackerTest, OtherParametersAreInForceAtOnce) {
-  tracker_.apply(StartAt{pose_});
+  tracker_.start_at(pose_);
   EXPECT_EQ(next()->status, TrackStatus::tracking);
   TrackerParams params = test::quick_tracker();
   params.loss.min_hand_pixels = 1'000'000;
@@ -125,7 +125,7 @@ TEST_F(CommandedTrackerTest, OtherParametersAreInForceAtOnce) {
 }
 
 TEST_F(CommandedTrackerTest, ResetForgetsTheHand) {
-  tracker_.apply(StartAt{pose_});
+  tracker_.start_at(pose_);
   const std::int32_t before = next()->hand_id;
   send(Command{});
   EXPECT_NE(next()->hand_id, before);
