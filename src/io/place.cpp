@@ -3,10 +3,25 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 namespace barehand {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The number of a descriptor of this process; -1: `name` in `folder` is none.
+int own_descriptor(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  const bool own =
+      folder == fs::canonical("/proc/self/fd", error) || folder == fs::canonical("/proc/thread-self/fd", error);
+  int number = -1;
+  const auto [end, bad] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return own && bad == std::errc() && end == name.data() + name.size() ? number : -1;
+}
+
+}  // namespace
 
 Target target_of(const std::string& path) {
   constexpr int kMostLinks = 40;
@@ -15,7 +30,7 @@ Target target_of(const std::string& path) {
   for (int links = 0; links < kMostLinks; ++links) {
     // The links of a process's descriptors lead to files that are open already.
     const fs::path folder = fs::canonical(at.has_parent_path() ? at.parent_path() : fs::path("."), error);
-    if (folder.string().starts_with("/proc/")) return {path, true};
+    if (folder.string().starts_with("/proc/")) return {path, true, own_descriptor(folder, at.filename())};
 
     if (!fs::is_symlink(at, error)) break;
     const fs::path next = fs::read_symlink(at, error);

@@ -11,6 +11,7 @@ namespace barehand {
 struct Target {
   std::string path;     ///< where symbolic links lead
   bool direct = false;  ///< a pipe, a device or a descriptor (/dev/stdout, /dev/fd/3): nothing that could be renamed
+  int descriptor = -1;  ///< of this process, where `path` names one
 };
 Target target_of(const std::string& path);
 

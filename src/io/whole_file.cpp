@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "io/place.h"
@@ -47,6 +46,17 @@ int rename_unless_there(const std::string& from, const std::string& to) {
   return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
+/// 0, or why not.
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
 }  // namespace
 
 Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
@@ -55,8 +65,18 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
   file.path_ = path;
   file.target_ = target.path;
   file.direct_ = target.direct;
+  file.descriptor_ = target.descriptor;
   file.overwrite_ = overwrite;
+
+  // What is written at once must be open for it, or be allowed to be opened.
   if (target.direct) {
+    if (target.descriptor >= 0) {
+      const int mode = fcntl(target.descriptor, F_GETFL);
+      if (mode < 0) return cannot_write(errno, path, "give a descriptor that is open");
+      if ((mode & O_ACCMODE) == O_RDONLY) return fail("is open for reading only", path, "give one to write to");
+    } else if (faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0) {
+      return cannot_write(errno, path, "check its permissions");
+    }
     file.draft_ = path;
     return file;
   }
@@ -73,7 +93,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
   // A draft of its own, next to those that killed programs left.
   for (int n = 1; n <= kMostDrafts; ++n) {
     const std::string draft = target.path + std::string(kUnfinished) + (n > 1 ? "-" + std::to_string(n) : "");
-    file.lock_ = open(draft.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    file.lock_ = ::open(draft.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file.lock_ < 0 && errno == EEXIST) continue;
     if (file.lock_ < 0) return cannot_write(errno, path);
     file.draft_ = draft;
@@ -90,9 +110,15 @@ WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
   target_ = std::move(other.target_);
   draft_ = std::exchange(other.draft_, {});
   direct_ = other.direct_;
+  descriptor_ = other.descriptor_;
   overwrite_ = other.overwrite_;
   lock_ = std::exchange(other.lock_, -1);
   return *this;
+}
+
+int WholeFile::open() const {
+  if (descriptor_ >= 0) return fcntl(descriptor_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  return ::open(draft_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
 }
 
 Result<void> WholeFile::finish() {
@@ -102,7 +128,7 @@ Result<void> WholeFile::finish() {
 
   // Opened anew: the writer may have made another file of this name.
   int reason = 0;
-  const int file = open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = ::open(draft.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) reason = errno;
   struct stat replaced {};
   if (file >= 0 && overwrite_ && stat(target_.c_str(), &replaced) == 0) (void)fchmod(file, replaced.st_mode & 07777);
@@ -132,11 +158,11 @@ void WholeFile::discard() {
 Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
   auto whole = WholeFile::create(path, true);
   if (!whole) return tl::unexpected(whole.error());
-  errno = 0;
-  std::ofstream file(whole->draft(), std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return cannot_write(errno, path);
+
+  const int file = whole->open();
+  if (file < 0) return cannot_write(errno, path);
+  const int reason = write_all(file, bytes);
+  if (close(file) != 0 || reason != 0) return cannot_write(reason != 0 ? reason : errno, path);
   return whole->finish();
 }
 

@@ -21,4 +21,11 @@ inline Outcome barehand(std::vector<std::string> arguments) {
   return {exit_code, child.output()};
 }
 
+/// Runs a script of bash that knows $B, the program, and $D, `folder`.
+inline Outcome script(const std::string& folder, const std::string& text) {
+  ChildProcess child({"bash", "-c", "B=" BAREHAND_PROGRAM " D=" + folder + "; " + text});
+  const int exit_code = child.finish();
+  return {exit_code, child.output()};
+}
+
 }  // namespace barehand

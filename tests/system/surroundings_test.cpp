@@ -25,12 +25,7 @@ constexpr const char* kHand = "sim:fist,width=160,height=120";
 
 class Surroundings : public ::testing::Test {
  protected:
-  /// Runs a script of bash that knows $B, the program, and $D, a folder of its own.
-  Outcome script(const std::string& text) const {
-    ChildProcess child({"bash", "-c", "B=" BAREHAND_PROGRAM " D=" + folder_.path() + "; " + text});
-    const int exit_code = child.finish();
-    return {exit_code, child.output()};
-  }
+  Outcome script(const std::string& text) const { return barehand::script(folder_.path(), text); }
   /// A recording of six frames, one of which cannot be read: there is something to say.
   std::string recording() const {
     EXPECT_EQ(barehand({"sim", "fist,width=160,height=120,frames=6", "--out", folder_ / "take"}).exit_code, 0);

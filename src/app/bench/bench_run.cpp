@@ -107,29 +107,29 @@ Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditio
 
 /// Also ends where what is measured is only printed and nobody reads it.
 Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, const BenchOptions& options,
-                         BenchReport& report) {
+                         BenchReport& report, std::ostream& told) {
   for (int round = 0; round < options.repeat; ++round)  // interleaved: other load on the machine meets all cases alike
     for (const NamedCase& named : cases) {
       if (options.json.empty() && nobody_reads()) return {};
       auto row = measure(named, report.conditions, input);
       if (!row) return tl::unexpected(row.error());
-      std::cout << bench_text(*row) << std::flush;
+      told << bench_text(*row) << std::flush;
       report.rows.push_back(std::move(*row));
     }
   return {};
 }
 
 /// After all frames, as what is loaded for a device would count as theirs. Without one there is nothing to compare.
-void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report) {
+void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report, std::ostream& told) {
   for (const NamedCase& named : cases) {
     if (!named.bench.sweep.empty()) continue;
     auto rows = compare_observers(named.config, named.bench.config, named.bench.threads);
     if (!rows) {
-      std::cout << "samples are compared by the CPU alone: " << rows.error().message() << "\n";
+      told << "samples are compared by the CPU alone: " << rows.error().message() << "\n";
       return;
     }
     for (ObserverRow& row : *rows) {
-      std::cout << bench_text(row) << std::flush;
+      told << bench_text(row) << std::flush;
       report.observers.push_back(std::move(row));
     }
   }
@@ -162,8 +162,9 @@ int run_bench(const BenchOptions& options) {
   report.cores = available_cores();
   report.hands = static_cast<int>(input->hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
-  auto done = measure_all(*cases, *input, options, report);
-  if (done) measure_observers(*cases, report);
+  std::ostream& told = is_standard_output(options.json) ? std::cerr : std::cout;
+  auto done = measure_all(*cases, *input, options, report, told);
+  if (done) measure_observers(*cases, report, told);
   if (done && !options.json.empty()) done = write_bench_json(report, options.json);
   if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);
   if (!done) return tell(done.error(), kExitFailure);

@@ -13,6 +13,7 @@
 #include "app/track/track_run.h"
 #include "core/parallel/parallel.h"
 #include "io/hand/hand_json.h"
+#include "io/place.h"
 #include "math/angles.h"
 #include "person/scan_frames.h"
 
@@ -76,27 +77,27 @@ class ScanSink : public Sink {
 };
 
 /// Prints the fitted bones, and what was seen of each of them.
-void print(const ScanReport& report, const HandProfile& start, const HandProfile& fitted) {
-  std::printf("%-20s %11s %11s %12s %12s %12s\n", "segment", "length [mm]", "before [mm]", "palm side", "back",
-              "bent [deg]");
+void print(std::FILE* out, const ScanReport& report, const HandProfile& start, const HandProfile& fitted) {
+  std::fprintf(out, "%-20s %11s %11s %12s %12s %12s\n", "segment", "length [mm]", "before [mm]", "palm side", "back",
+               "bent [deg]");
   for (int s = 0; s < kSegmentCount; ++s) {
     const ScannedSegment& seen = report.segment(s);
-    std::printf("%-20s %11.1f %11.1f %12d %12d %5.0f to %3.0f\n", std::string(kSegmentNames[s]).c_str(),
-                fitted.segments[s].length * 1e3, start.segments[s].length * 1e3, seen.palm_side, seen.back_side,
-                seen.least_bent / kDegree, seen.most_bent / kDegree);
+    std::fprintf(out, "%-20s %11.1f %11.1f %12d %12d %5.0f to %3.0f\n", std::string(kSegmentNames[s]).c_str(),
+                 fitted.segments[s].length * 1e3, start.segments[s].length * 1e3, seen.palm_side, seen.back_side,
+                 seen.least_bent / kDegree, seen.most_bent / kDegree);
   }
-  std::printf("%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(), fitted.hand_length() * 1e3,
-              start.hand_length() * 1e3);
+  std::fprintf(out, "%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(),
+               fitted.hand_length() * 1e3, start.hand_length() * 1e3);
   for (const std::string& sentence : report.missing())
-    std::printf("not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
+    std::fprintf(out, "not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
 }
 
 /// Scans the skin from the frames that were kept; none if they do not suffice.
-std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int threads) {
+std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads) {
   // Too few frames do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
-    std::puts("too short a scan for a skin of its own");
+    std::fputs("too short a scan for a skin of its own\n", out);
     return std::nullopt;
   }
 
@@ -108,7 +109,7 @@ std::optional<HandProfile> scanned(const ScanSink::Scan& scan, double cell, int 
   });
 
   if (hand)
-    std::printf("skin and joints from %d frames\n", frames);
+    std::fprintf(out, "skin and joints from %d frames\n", frames);
   else
     std::fputs("these frames tell no skin; the hand stays as it was fitted\n", stderr);
   return hand;
@@ -132,6 +133,7 @@ int run(const CalibrateOptions& o) {
   std::vector<std::unique_ptr<Sink>> sinks;
   sinks.push_back(std::make_unique<ScanSink>(scan));
 
+  std::FILE* out = is_standard_output(o.out) || is_standard_output(o.track.overlay) ? stderr : stdout;
   TrackOptions track_options = o.track;
   track_options.hands = {o.hand};
   track_options.saved_later = o.out;
@@ -143,14 +145,17 @@ int run(const CalibrateOptions& o) {
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
 
-  // Save the fitted hand before the scan, which takes a while.
-  if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
+  // Save the fitted hand before the scan, which takes a while. From a pipe it could not be taken back.
+  const bool once = target_of(o.out).direct;
+  if (!once)
+    if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
 
   // Scan the skin.
-  const auto hand = scanned(scan, config->tracker.skin_cell, o.track.threads);
-  if (hand)
-    if (const auto saved = save_profile(*hand, o.out); !saved) return tell(saved.error(), kExitFailure);
-  print(scan.report, *hands->front().profile, hand ? *hand : *scan.profile);
+  const auto hand = scanned(out, scan, config->tracker.skin_cell, o.track.threads);
+  if (hand || once)
+    if (const auto saved = save_profile(hand ? *hand : *scan.profile, o.out); !saved)
+      return tell(saved.error(), kExitFailure);
+  print(out, scan.report, *hands->front().profile, hand ? *hand : *scan.profile);
   return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
 }
 

@@ -1,6 +1,7 @@
 #include "app/shared/outputs.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -66,6 +67,13 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   return {};
 }
 
+/// A device or a socket: what goes in and what comes out are apart.
+bool is_endless(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::is_other(status) && !fs::is_fifo(status);
+}
+
 bool has_pictures(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -85,11 +93,20 @@ bool is_taken(const Output& output) {
   return output.kind == Output::Kind::file && Place(output.path).exists();
 }
 
+bool is_standard_output(const std::string& path) {
+  if (path.empty()) return false;
+  if (target_of(path).descriptor == STDOUT_FILENO) return true;
+  struct stat output {
+  }, there{};
+  if (fstat(STDOUT_FILENO, &output) != 0 || stat(path.c_str(), &there) != 0 || S_ISCHR(output.st_mode)) return false;
+  return output.st_dev == there.st_dev && output.st_ino == there.st_ino;
+}
+
 Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,
                            const std::vector<Output>& outputs, bool overwrite) {
   std::vector<std::pair<const Output*, Place>> before;
   for (const Output& output : outputs) {
-    if (output.path.empty() || target_of(output.path).direct) continue;
+    if (output.path.empty() || is_endless(output.path)) continue;
     const Place place(output.path);
     for (const auto& [other, other_place] : before)
       if (place == other_place)

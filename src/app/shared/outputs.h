@@ -36,12 +36,16 @@ struct Output {
 /// - that is a file of the source, lies in one of its image folders, or as a folder is or contains the source. A new
 ///   file or folder beside the files of a recording is none of these;
 /// - that exists, unless `overwrite`. A folder of pictures exists where there are pictures of frames in it.
-/// Pipes and devices are never refused.
+/// Devices are never refused, and pipes and descriptors only where they are an input or another output.
 Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,
                            const std::vector<Output>& outputs, bool overwrite);
 
 /// Whether check_outputs refuses it because of what is there, and --overwrite would help.
 bool is_taken(const Output& output);
+
+/// Whether it goes where the standard output goes, by whatever name. Then nothing else belongs there: a command tells
+/// people on standard error what it would print.
+bool is_standard_output(const std::string& path);
 
 /// --overwrite, the same for every command.
 void add_overwrite_option(CLI::App& command, bool& overwrite);

@@ -66,12 +66,13 @@ int run(const SimArguments& a) {
   std::int64_t done = 0;
   std::atomic<bool> stop = false;
   const InterruptWatcher interrupt([&stop] { stop = true; });
+  std::FILE* told = is_standard_output(a.out) ? stderr : stdout;
   const auto frames = run_sim({spec_of(a), a.out, a.overwrite}, [&](std::int64_t now, std::int64_t all) {
     done = now;
     return render_progress(now, all) && !stop;
   });
   if (!frames) return fail_with(frames.error(), done > 0 ? kExitFailure : kExitUsage);
-  std::printf("%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
+  std::fprintf(told, "%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
   return stop ? kExitInterrupted : kExitOk;
 }
 

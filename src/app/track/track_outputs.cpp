@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/hand/path_of_hand.h"
+#include "io/place.h"
 #include "io/video/video_file.h"
 
 namespace barehand {
@@ -18,6 +19,13 @@ std::vector<Output> of_hands(const std::string& option, const std::string& path,
   for (std::size_t k = 0; k < hands.size(); ++k)
     outputs.push_back({option, path_of_hand(path, static_cast<int>(k), hands[k]->handedness)});
   return outputs;
+}
+
+/// A pipe or a device takes the table or the profile of one hand.
+Result<void> check_room_for(const HandsTracker::Profiles& hands, const std::string& option, const std::string& path) {
+  if (hands.size() < 2 || path.empty() || !target_of(path).direct) return {};
+  return fail("is one pipe or device, and two hands are tracked", option + " " + path,
+              "give a file, or track one hand");
 }
 
 /// LCM's own logs: file://PATH?mode=w.
@@ -58,6 +66,11 @@ std::string free_name(const std::string& path, const IsTaken& is_taken) {
 
 Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
                                     const HandsTracker::Profiles& hands, bool live) {
+  const auto room = check_room_for(hands, "--result", options.result).and_then([&] {
+    return check_room_for(hands, "--save-hand", options.save_hand);
+  });
+  if (!room) return tl::unexpected(room.error());
+
   // What is read is told by its name as given, before any of the names changes.
   std::vector<InputFile> inputs{{"--config", config_path}};
   for (const std::string& hand : options.hands)
@@ -83,6 +96,12 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
   options.overlay = free_name(options.overlay, overlay_taken);
   options.save_hand = free_name(options.save_hand, table_taken);
   return check_outputs(source, inputs, outputs_of(options, hands), false).map([&] { return options; });
+}
+
+bool writes_to_standard_output(const TrackOptions& o) {
+  for (const std::string& path : {o.result, o.states_log, o.overlay, o.save_hand, of_network(o.lcm_url).path})
+    if (is_standard_output(path)) return true;
+  return false;
 }
 
 }  // namespace barehand

@@ -13,4 +13,7 @@ namespace barehand {
 Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
                                     const HandsTracker::Profiles& hands, bool live);
 
+/// Whether one of the outputs goes to the standard output. To be asked before they are written.
+bool writes_to_standard_output(const TrackOptions& options);
+
 }  // namespace barehand

@@ -371,9 +371,10 @@ int run_track(const TrackOptions& options) {
       return fail("was a pipe, which cannot be read again", options.config, "start with a file to change it later");
     return configuration(options);
   };
+  std::ostream& told = writes_to_standard_output(options) ? std::cerr : std::cout;
   const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
   if (!outcome) return tell(outcome.error());
-  std::cout << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
+  told << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
   return outcome->exit_code;
 }
 

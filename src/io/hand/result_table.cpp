@@ -146,7 +146,7 @@ Result<TableWriter> TableWriter::create(const std::string& path, bool overwrite)
   auto whole = WholeFile::create(path, overwrite);
   if (!whole) return tl::unexpected(whole.error());
   TableWriter writer(path, std::move(*whole));
-  writer.file_.reset(std::fopen(writer.whole_.draft().c_str(), "w"));
+  if (const int file = writer.whole_.open(); file >= 0) writer.file_.reset(fdopen(file, "w"));
   if (writer.file_) std::setvbuf(writer.file_.get(), nullptr, _IONBF, 0);
   if (!writer.file_ || !writer.append(std::string(kHeader) + "\n"))
     return fail(std::string("cannot be written: ") + std::strerror(errno), path,
@@ -183,7 +183,7 @@ Result<void> TableWriter::write(const TableFrame& frame) {
   const int reason = errno;
   std::FILE* file = file_.get();
   std::clearerr(file);
-  torn_ = ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
+  torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
               torn_ ? "the table ends in a torn frame; readers leave it out"
                     : "the frames before this one are kept; make room");

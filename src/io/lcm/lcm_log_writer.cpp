@@ -17,15 +17,28 @@ LcmLogWriter::~LcmLogWriter() {
   if (events_ > 0) (void)finish();
 }
 
+namespace {
+
+/// LCM opens logs by their names alone, so this one becomes the descriptor of `whole`. Null: errno says why not.
+std::unique_ptr<lcm::LogFile> open_log(const WholeFile& whole) {
+  const int file = whole.open();
+  if (file < 0) return nullptr;
+  auto log = std::make_unique<lcm::LogFile>("/dev/null", "w");
+  const bool led = log->good() && dup3(file, fileno(log->getFilePtr()), O_CLOEXEC) >= 0;
+  close(file);
+  return led ? std::move(log) : nullptr;
+}
+
+}  // namespace
+
 Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& path, bool overwrite) {
   auto file = WholeFile::create(path, overwrite);
   if (!file) return tl::unexpected(file.error());
   errno = 0;
-  auto log = std::make_unique<lcm::LogFile>(file->draft(), "w");
-  if (!log->good()) {
+  auto log = open_log(*file);
+  if (!log)
     return fail(std::string("cannot create the log: ") + std::strerror(errno), path,
                 "check the folder and its permissions");
-  }
   return std::unique_ptr<LcmLogWriter>(new LcmLogWriter(path, std::move(*file), std::move(log)));
 }
 
@@ -66,7 +79,7 @@ void LcmLogWriter::start_write_back() {
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
-  const bool cut = ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
+  const bool cut = !file_.direct() && ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
   failed_ = !cut;
   disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);
   return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,

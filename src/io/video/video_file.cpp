@@ -58,9 +58,11 @@ Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
   if (!file) return tl::unexpected(file.error());
   VideoFile video(*module, path, fps, std::move(*file));
 
-  // The size is known with the first picture only; a small video tells now whether there is an encoder.
+  // The size is known with the first picture only; a small video tells now whether there is an encoder. Whoever reads a
+  // pipe must not see it.
+  const std::string trial_path = video.file_.direct() ? "/dev/null" : video.file_.draft();
   VideoModule::Message message{};
-  void* trial = (*module)->open(video.file_.draft().c_str(), video_format(path), 64, 64, fps, message);
+  void* trial = (*module)->open(trial_path.c_str(), video_format(path), 64, 64, fps, message);
   if (trial && (*module)->close(trial, message)) return video;
   return fail(std::string("no video can be written: ") + message.data(), path,
               "check the free space; the other formats are .mp4, .mkv, .webm and .avi, or give a folder for pictures");
@@ -110,7 +112,7 @@ Result<void> VideoFile::finish() {
 }
 
 void VideoFile::defragment() {
-  if (file_.draft() == path_) return;  // a pipe
+  if (file_.direct()) return;
   auto ordinary = WholeFile::create(path_, true);
   VideoModule::Message ignored{};
   if (ordinary && module_->defragment(file_.draft().c_str(), ordinary->draft().c_str(), ignored))
