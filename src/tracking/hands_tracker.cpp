@@ -117,10 +117,11 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
 
   // Report a wrong size, or refuse a hand of the other side.
   const double score = found ? found->score() : INFINITY;
-  if (score > params_.loss.lost_score)
-    check.nothing_found(observation, score);
-  else if (check.is_other_side(observation, before.effort, attempts, score))
+  if (score > params_.loss.lost_score) {
+    if (params_.size_check) check.nothing_found(observation, score);
+  } else if (params_.side_check && check.is_other_side(observation, before.effort, attempts, score)) {
     found.reset();
+  }
   return hand.process(observation, std::move(found));
 }
 
@@ -195,7 +196,8 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   // Start the tracks. A single start is on trial against the other side.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
-    if (j >= 0 && owned[1 - k] < 0) checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
+    if (params_.side_check && j >= 0 && owned[1 - k] < 0)
+      checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
                    : hands_[k]->process(*observations[j], std::move(found[k][j]));
   }

@@ -39,9 +39,9 @@ struct TrackEvidence {
   double dt = 0;                 ///< since the frame before [s]
   int hand_pixels = 0;           ///< that may be this hand; 0 where none are
   std::optional<double> score;   ///< global score of the best pose [m]; none: no pose was found or tried
-  bool to_be_confirmed = false;  ///< the score counts only if the next frame confirms the pose
   double noise = 0;              ///< HandObservation::noise [m]
   double hand_length = 0;        ///< HandProfile::hand_length() [m]
+  bool to_be_confirmed = false;  ///< the score counts only if the next frame confirms the pose
 };
 
 /// Where a track stands: a TrackStatus, or tentative, which is published as lost.

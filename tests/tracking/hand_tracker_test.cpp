@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "hand/skin.h"
 #include "math/angles.h"
@@ -15,6 +17,8 @@
 namespace barehand {
 namespace {
 
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -28,11 +32,19 @@ TrackerParams stubborn_tracker() {
   return params;
 }
 
+/// The rules that decided about an estimate, in order.
+std::vector<std::string_view> rules_of(const HandEstimate& estimate) {
+  std::vector<std::string_view> rules;
+  for (const Decision& decision : estimate.decisions) rules.push_back(decision.rule);
+  return rules;
+}
+
 /// A hand that hangs down, tracked from an upright start.
 class UpsideDown : public testing::Test {
  protected:
   double error_of_next() {
     const HandEstimatePtr estimate = tracker_.process(*test::stamped(*hand_, utime_ += 33'000));
+    last_rules_ = rules_of(*estimate);
     const SE3& palm = estimate->segments[kPalm].T_camera_segment;
     return estimate->status == TrackStatus::tracking ? (palm.t - pose_[kPalm].t).norm() : 1;
   }
@@ -45,6 +57,7 @@ class UpsideDown : public testing::Test {
   const TrackerParams params_ = stubborn_tracker();
   HandTracker tracker_{params_, profile_, 1, workers_};
   std::int64_t utime_ = 1'000'000;
+  std::vector<std::string_view> last_rules_;
 };
 
 TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
@@ -53,6 +66,7 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
     tracker_.apply(StartAt{upright_});
     for (int i = 1; i < (params_.doubt_every + 1) / 2; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
     EXPECT_LT(error_of_next(), 0.005) << start;
+    EXPECT_THAT(last_rules_, Contains("elsewhere")) << start;
   }
 }
 
@@ -138,6 +152,17 @@ class GivenStart : public testing::Test {
 TEST_F(GivenStart, IsNoPoseWhereNoHandIsSeen) {
   tracker_.apply(StartAt{pose_});
   EXPECT_EQ(next(HandObservation{})->status, TrackStatus::searching);
+}
+
+TEST_F(GivenStart, EveryDecisionIsKept) {
+  tracker_.apply(StartAt{pose_});
+  EXPECT_TRUE(next(*hand_)->decisions.empty()) << "nothing stood against the given pose";
+  EXPECT_TRUE(next(*hand_)->decisions.empty());
+  const HandEstimatePtr held = next(HandObservation{});
+  ASSERT_THAT(rules_of(*held), ElementsAre("state"));
+  EXPECT_EQ(held->decisions[0].winner, "holding");
+  EXPECT_EQ(held->decisions[0].loser, "tracking");
+  EXPECT_TRUE(next(HandObservation{})->decisions.empty()) << "decisions of a frame are not said again";
 }
 
 TEST_F(GivenStart, ElsewhereIsNoMotion) {

@@ -99,6 +99,41 @@ TEST(TrackState, MissingAndNanScoresAreBad) {
   EXPECT_EQ(play(state, {unscored, nan, unscored, nan}).back(), S::lost);
 }
 
+TrackEvidence to_be_confirmed() {
+  TrackEvidence evidence = scored(0.002);
+  evidence.to_be_confirmed = true;
+  return evidence;
+}
+
+TEST(TrackState, ALostHandIsTentativeUntilAFrameConfirmsIt) {
+  TrackState state{thresholds()};
+  state.start_tracking();
+  play(state, {scored(0.006), scored(0.006), scored(0.006), scored(0.006)});
+  EXPECT_EQ(play(state, {to_be_confirmed(), to_be_confirmed(), scored(0.006), to_be_confirmed()}),
+            (std::vector{S::tentative, S::tentative, S::lost, S::tentative}));
+  EXPECT_EQ(state.status(), TrackStatus::lost) << "which is what is published of a tentative hand";
+  EXPECT_EQ(state.update(scored(0.002)), S::tracking);
+}
+
+TEST(TrackState, AHandThatIsOnlyTentativeIsForgotten) {
+  LossParams params = thresholds();
+  params.forget_time = 2.5 * kFrame;
+  TrackState state(params);
+  state.start_tracking();
+  play(state, {scored(0.006), scored(0.006), scored(0.006), scored(0.006)});
+  EXPECT_EQ(play(state, {to_be_confirmed(), scored(0.006), to_be_confirmed()}),
+            (std::vector{S::tentative, S::lost, S::searching}));
+}
+
+TEST(TrackState, ConfirmingFramesCountOnWhileTentative) {
+  LossParams params = thresholds();
+  params.good_frames = 2;
+  TrackState state(params);
+  state.start_tracking();
+  play(state, {scored(0.006), scored(0.006), scored(0.006), scored(0.006), to_be_confirmed()});
+  EXPECT_EQ(play(state, {scored(0.002), scored(0.002)}), (std::vector{S::lost, S::tracking}));
+}
+
 TEST(TrackState, ThresholdsGrowWithNoiseAndHand) {
   const TrackState state{thresholds()};
   TrackEvidence noisy = scored(0), large = scored(0);

@@ -31,6 +31,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
+  track->add_option("--log-decisions", o.decisions, "write what the tracker decided in every frame, and by what (CSV)");
   track->add_option("--overlay", o.overlay,
                     "draw the tracked hand over the images: into a folder, or a video (.mp4, .mkv, .webm, .avi)");
   track->add_option("--save-hand", o.save_hand, "write the hand profile as fitted to the person (hand.json)");

@@ -15,7 +15,7 @@ struct TrackOptions {
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
-  std::string result, states_log, overlay, save_hand;  ///< "": not written
+  std::string result, states_log, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
   bool overwrite = false;   ///< outputs replace files that exist
   int overlay_every = 1;    ///< every so many frames are drawn

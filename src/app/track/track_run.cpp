@@ -163,6 +163,7 @@ Step TrackRun::choose_outputs() {
   };
   tell(options_.result, settled->result);
   tell(options_.states_log, settled->states_log);
+  tell(options_.decisions, settled->decisions);
   tell(options_.overlay, settled->overlay);
   tell(options_.save_hand, settled->save_hand);
   options_ = std::move(*settled);
@@ -183,6 +184,7 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.states_log.empty())
     ok =
         add(StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &news_.states_log));
+  if (ok && !options_.decisions.empty()) ok = add(DecisionSink::create(options_.decisions, options_.overwrite));
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(
         options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),

@@ -1,12 +1,8 @@
 #include "io/hand/result_table.h"
 
-#include <unistd.h>
-
 #include <cassert>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -143,50 +139,15 @@ Result<ResultTable> read_table(const std::string& path) {
 }
 
 Result<TableWriter> TableWriter::create(const std::string& path, bool overwrite) {
-  auto whole = WholeFile::create(path, overwrite);
-  if (!whole) return tl::unexpected(whole.error());
-  TableWriter writer(path, std::move(*whole));
-  if (const int file = writer.whole_.open(); file >= 0) writer.file_.reset(fdopen(file, "w"));
-  if (writer.file_) std::setvbuf(writer.file_.get(), nullptr, _IONBF, 0);
-  if (!writer.file_ || !writer.append(std::string(kHeader) + "\n"))
-    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
-                "check the folder, its permissions and the free space");
-  return writer;
-}
-
-TableWriter::~TableWriter() {
-  if (frames_ > 0) (void)finish();
-}
-
-Result<void> TableWriter::finish() {
-  if (!file_) return {};
-  file_.reset();
-  return whole_.finish();
-}
-
-bool TableWriter::append(const std::string& text) {
-  errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) return false;
-  good_ += static_cast<std::int64_t>(text.size());
-  return true;
+  auto rows = RowFile::create(path, kHeader, overwrite);
+  if (!rows) return tl::unexpected(rows.error());
+  return TableWriter(std::move(*rows));
 }
 
 Result<void> TableWriter::write(const TableFrame& frame) {
-  if (!file_) return fail("the table is finished, nothing more is written", path_);
-  if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   std::string text;
   for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
-  if (append(text)) {
-    ++frames_;
-    return {};
-  }
-  const int reason = errno;
-  std::FILE* file = file_.get();
-  std::clearerr(file);
-  torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
-  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
-              torn_ ? "the table ends in a torn frame; readers leave it out"
-                    : "the frames before this one are kept; make room");
+  return rows_.write(text);
 }
 
 Result<void> TableWriter::write(const HandEstimate& estimate) {

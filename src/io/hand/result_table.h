@@ -2,14 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "hand/hand_pose.h"
-#include "io/whole_file.h"
+#include "io/row_file.h"
 
 namespace barehand {
 
@@ -36,37 +34,23 @@ struct ResultTable {
 /// a cut last one, a frame that occurs twice and a number beyond all measure are errors.
 Result<ResultTable> read_table(const std::string& path);
 
-/// Writes such a table, which has its name when it is finished (WholeFile); the destructor finishes one that has frames
-/// and removes one without. Every frame leaves in one piece when it is written, so what is finished survives a crash;
-/// when a write fails (disk full) the file is cut back to the last whole frame, and later frames may succeed.
+/// Writes such a table. Every frame leaves in one piece (RowFile).
 class TableWriter {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
   static Result<TableWriter> create(const std::string& path, bool overwrite = false);
-  TableWriter(TableWriter&&) noexcept = default;
-  TableWriter& operator=(TableWriter&&) = delete;
-  ~TableWriter();
 
   /// A full disk is an error.
   Result<void> write(const TableFrame& frame);
   /// Writes nothing unless the hand is tracked: a pose that is merely held is no measurement.
   Result<void> write(const HandEstimate& estimate);
-  /// Gives the table its name, also one without frames. Nothing is written afterwards.
-  Result<void> finish();
+  /// Gives the table its name, also one without frames. Nothing is written afterwards. Without it, a table that has
+  /// frames is finished by the destructor, and one without is removed.
+  Result<void> finish() { return rows_.finish(); }
 
  private:
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  TableWriter(std::string path, WholeFile whole) : path_(std::move(path)), whole_(std::move(whole)) {}
-  bool append(const std::string& text);
-
-  std::string path_;
-  WholeFile whole_;
-  std::unique_ptr<std::FILE, CloseFile> file_;  ///< null: finished, or moved away
-  std::int64_t frames_ = 0;
-  std::int64_t good_ = 0;  ///< size of the file up to the last whole frame
-  bool torn_ = false;      ///< and could not be cut back
+  explicit TableWriter(RowFile rows) : rows_(std::move(rows)) {}
+  RowFile rows_;
 };
 
 }  // namespace barehand

@@ -35,6 +35,22 @@ Result<void> ResultTableSink::finish() {
   return result;
 }
 
+Result<std::unique_ptr<Sink>> DecisionSink::create(const std::string& path, bool overwrite) {
+  auto table = DecisionTable::create(path, overwrite);
+  if (!table) return tl::unexpected(table.error());
+  return std::unique_ptr<Sink>(new DecisionSink(std::move(*table)));
+}
+
+Result<void> DecisionSink::consume(const TrackedFrame& tracked) {
+  ++frames_;
+  Result<void> result;
+  for (const HandEstimatePtr& estimate : tracked.estimates)
+    if (auto written = table_.write(*estimate); !written && result) result = std::move(written);
+  return result;
+}
+
+Result<void> DecisionSink::finish() { return frames_ > 0 ? table_.finish() : Result<void>(); }
+
 Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every) {
   std::error_code ignored;
   const bool there = std::filesystem::exists(path, ignored);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/hand/decision_table.h"
 #include "io/hand/result_table.h"
 #include "io/overlay/overlay.h"
 #include "pipeline/sink.h"
@@ -25,6 +26,21 @@ class ResultTableSink : public Sink {
  private:
   explicit ResultTableSink(std::vector<TableWriter> writers) : writers_(std::move(writers)) {}
   std::vector<TableWriter> writers_;
+  std::int64_t frames_ = 0;
+};
+
+/// --log-decisions: what the tracker decided in every frame, and by what.
+class DecisionSink : public Sink {
+ public:
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, bool overwrite);
+  std::string name() const override { return "decisions"; }
+  Result<void> consume(const TrackedFrame& tracked) override;
+  /// Without a frame there is no table.
+  Result<void> finish() override;
+
+ private:
+  explicit DecisionSink(DecisionTable table) : table_(std::move(table)) {}
+  DecisionTable table_;
   std::int64_t frames_ = 0;
 };
 

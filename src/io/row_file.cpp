@@ -1,0 +1,58 @@
+#include "io/row_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace barehand {
+
+Result<RowFile> RowFile::create(const std::string& path, std::string_view header, bool overwrite) {
+  auto whole = WholeFile::create(path, overwrite);
+  if (!whole) return tl::unexpected(whole.error());
+  RowFile rows(path, std::move(*whole));
+  if (const int file = rows.whole_.open(); file >= 0) rows.file_.reset(fdopen(file, "w"));
+  if (rows.file_) std::setvbuf(rows.file_.get(), nullptr, _IONBF, 0);
+  if (!rows.file_ || !rows.append(std::string(header) + "\n"))
+    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
+                "check the folder, its permissions and the free space");
+  return rows;
+}
+
+RowFile::~RowFile() {
+  if (has_rows_) (void)finish();
+}
+
+Result<void> RowFile::finish() {
+  if (!file_) return {};
+  file_.reset();
+  return whole_.finish();
+}
+
+bool RowFile::append(std::string_view text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) return false;
+  good_ += static_cast<std::int64_t>(text.size());
+  return true;
+}
+
+Result<void> RowFile::write(std::string_view rows) {
+  if (!file_) return fail("the table is finished, nothing more is written", path_);
+  if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  if (append(rows)) {
+    has_rows_ = true;
+    return {};
+  }
+
+  // Cut the file back to what was whole.
+  const int reason = errno;
+  std::FILE* file = file_.get();
+  std::clearerr(file);
+  torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+              torn_ ? "the table ends in a torn frame; readers leave it out"
+                    : "the frames before this one are kept; make room");
+}
+
+}  // namespace barehand
