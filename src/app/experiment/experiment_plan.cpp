@@ -57,6 +57,10 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
     variants.push_back({label, complete});
     change(variants.back().config.tracker);
   };
+  const auto without_nets = [&](const char* label) {
+    variants.push_back({label, complete});
+    variants.back().config.detection.enabled = false;
+  };
 
   // Without one of the parts that estimate the pose.
   without("no_sampling", [](TrackerParams& p) { p.sampling = false; });
@@ -68,7 +72,17 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
   without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
+
+  // Without one of the rules of starts, choice and return.
+  without_nets("no_detection");
   without("no_doubt", [](TrackerParams& p) { p.choice.doubt = 1000; });
+  without("no_uncross", [](TrackerParams& p) { p.choice.uncross = false; });
+  without("no_neutral_pose", [](TrackerParams& p) { p.relax = false; });
+  without("one_search", [](TrackerParams& p) { p.search_attempts = 1; });
+  without("no_confirmation", [](TrackerParams& p) { p.choice.unsure = 0; });
+  without("any_returning_hand", [](TrackerParams& p) { p.choice.unlike = 0; });
+  without("no_side_check", [](TrackerParams& p) { p.side_check = false; });
+  without("no_size_check", [](TrackerParams& p) { p.size_check = false; });
 
   // Without one of the additions to the local trackers.
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });
