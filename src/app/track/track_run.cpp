@@ -186,7 +186,7 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(
         options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
-        options_.overlay_every));
+        options_.overlay_every, options_.overwrite));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (!ok) return ok;
   if (service_.present())
