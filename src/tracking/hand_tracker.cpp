@@ -60,7 +60,9 @@ void HandTracker::forget_person() {
 }
 
 void HandTracker::change(const TrackerParams& params) {
-  std::shared_ptr<Observer> observer = make_observer(params.segment_tracker, workers_, log_);
+  std::shared_ptr<Observer> observer = observer_;
+  if (!same_observer(params_.segment_tracker, params.segment_tracker))
+    observer = make_observer(params.segment_tracker, workers_, log_);
   auto model = std::make_unique<HandModel>(params, model_->profile, workers_, observer);  // until here it may throw
   params_ = params;
   observer_ = std::move(observer);
