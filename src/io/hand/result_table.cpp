@@ -174,15 +174,20 @@ bool TableWriter::append(const std::string& text) {
 Result<void> TableWriter::write(const TableFrame& frame) {
   if (!file_) return fail("the table is finished, nothing more is written", path_);
   if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
-  std::string text;
+  std::string text = unread_ ? std::string(kHeader) + "\n" : "";
   for (int s = 0; s < kSegmentCount; ++s) text += format_row(frame, s);
   if (append(text)) {
+    unread_ = false;
     ++frames_;
     return {};
   }
   const int reason = errno;
   std::FILE* file = file_.get();
   std::clearerr(file);
+  if (reason == EPIPE) {
+    unread_ = true;
+    return fail("nobody reads this pipe", path_, "the table begins anew when somebody does");
+  }
   torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
               torn_ ? "the table ends in a torn frame; readers leave it out"

@@ -38,7 +38,8 @@ Result<ResultTable> read_table(const std::string& path);
 
 /// Writes such a table, which has its name when it is finished (WholeFile); the destructor finishes one that has frames
 /// and removes one without. Every frame leaves in one piece when it is written, so what is finished survives a crash;
-/// when a write fails (disk full) the file is cut back to the last whole frame, and later frames may succeed.
+/// when a write fails (disk full) the file is cut back to the last whole frame, and later frames may succeed. Where the
+/// reader of a named pipe is gone, frames are lost until another one is there, who gets a table with its header.
 class TableWriter {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
@@ -67,6 +68,7 @@ class TableWriter {
   std::int64_t frames_ = 0;
   std::int64_t good_ = 0;  ///< size of the file up to the last whole frame
   bool torn_ = false;      ///< and could not be cut back
+  bool unread_ = false;    ///< the reader of the pipe was gone at the last frame
 };
 
 }  // namespace barehand
