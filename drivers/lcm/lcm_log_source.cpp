@@ -10,6 +10,7 @@
 #include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_message.h"
 #include "io/lcm/log_names.h"
+#include "io/whole_file.h"
 #include "sensor/frame_order.h"
 
 namespace barehand {
@@ -45,9 +46,10 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
 }
 
 Result<void> LcmLogSource::open_files() {
-  const auto files = find_logs(path_);
-  if (!files) return tl::unexpected(files.error());
-  for (const std::string& file : *files) {
+  auto logs = find_logs(path_);
+  if (!logs) return tl::unexpected(logs.error());
+  left_out_ = std::move(logs->left_out);
+  for (const std::string& file : logs->files) {
     auto reader = LcmLogReader::open(file);
     if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no whole event", file);
     if (!reader) {
@@ -55,6 +57,8 @@ Result<void> LcmLogSource::open_files() {
       continue;
     }
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
+    if (file != path_ && !finished_name(file).empty())
+      doubts_.push_back(file + ": was left by a killed recorder; every whole event is played");
     reader->close();
     files_.push_back(std::move(*reader));
   }

@@ -39,9 +39,9 @@ class LcmLogSource : public FrameSource {
   std::int64_t remaining() const;
   /// Bytes of the files that belong to no whole event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
-  /// What was wrong with each of several logs that cannot be read, or holds nothing.
+  /// What was wrong with each of several logs that cannot be read, holds nothing, or is still being written.
   const std::vector<Error>& left_out() const { return left_out_; }
-  /// What is to be said of the frames' times, in sentences.
+  /// What is to be said of the frames' times, and of drafts among the logs, in sentences.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:

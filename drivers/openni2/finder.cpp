@@ -15,6 +15,7 @@ OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, UsbBu
 
 Result<void> OpenNiFinder::load() {
   library_.reset();
+  told_ = false;
   bus_when_loaded_ = bus_state();
   loaded_us_ = looked_us_;
 
@@ -76,7 +77,8 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
 void OpenNiFinder::distrust() {
   const std::string bus = bus_state();
   const std::int64_t patience = bus.empty() ? kReloadBlindly : kReloadAnyway;
-  if (bus != bus_when_loaded_ || looked_us_ - loaded_us_ > patience) library_.reset();  // find() loads it again
+  if (bus != bus_when_loaded_ || told_ || looked_us_ - loaded_us_ > patience)
+    library_.reset();  // find() loads it again
 }
 
 bool OpenNiFinder::gone(const std::string& uri) const {

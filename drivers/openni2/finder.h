@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,6 +25,8 @@ class OpenNiFinder {
   Result<std::string> find();
   /// Call when the sensor was found but cannot be used, because OpenNI2's view of the bus may be out of date.
   void distrust();
+  /// Any thread, when the bus tells of a change: what was loaded in the middle of it may have seen half of the device.
+  void bus_changed() { told_ = true; }
   /// Unloads OpenNI2.
   void unload() { library_.reset(); }
   /// Whether the sensor at this address was unplugged since the last call of `find`.
@@ -43,6 +46,7 @@ class OpenNiFinder {
   std::vector<std::string> gone_;  // guarded by mutex_
   std::unique_ptr<OpenNiLibrary> library_;
   std::string bus_when_loaded_;
+  std::atomic<bool> told_ = false;  // of a change, since OpenNI2 was loaded
   std::int64_t looked_us_ = 0, loaded_us_ = 0;
 };
 

@@ -22,7 +22,11 @@ LiveReader::LiveReader(const std::string& wanted, const OpenNiParams& params, st
       finder_(
           wanted, [this] { look_again(); }, usb_.get(), clock) {
   if (!usb_) return;
-  if (auto watched = usb_->watch([this] { look_again(); }); !watched)
+  const auto changed = [this] {
+    finder_.bus_changed();
+    look_again();
+  };
+  if (auto watched = usb_->watch(changed); !watched)
     output_.notice("usb", watched.error().what, "a sensor that is plugged in is noticed within 2 s", false);
 }
 

@@ -6,7 +6,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/format.h"
-#include "io/recording/image_file.h"
+#include "io/recording/png_codec.h"
+#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -149,7 +150,9 @@ void ChartCanvas::text_upright(const std::string& text, cv::Point top_centre, do
 Result<void> ChartCanvas::write(const std::string& path) const {
   Image<Rgb> picture(image_.cols, image_.rows);
   cv::cvtColor(image_, cv::Mat(image_.rows, image_.cols, CV_8UC3, picture.data()), cv::COLOR_BGR2RGB);
-  return write_colour(path, picture);
+  const auto png = encode_png(picture);
+  if (!png) return fail(png.error().what, path, png.error().remedy);
+  return write_whole_file(path, {reinterpret_cast<const char*>(png->data()), png->size()});
 }
 
 cv::Scalar ChartCanvas::series_colour(std::size_t index) { return kColours[index % kColours.size()]; }

@@ -11,10 +11,10 @@ namespace barehand {
 Result<RowFile> RowFile::create(const std::string& path, std::string_view header, bool overwrite) {
   auto whole = WholeFile::create(path, overwrite);
   if (!whole) return tl::unexpected(whole.error());
-  RowFile rows(path, std::move(*whole));
+  RowFile rows(path, header, std::move(*whole));
   if (const int file = rows.whole_.open(); file >= 0) rows.file_.reset(fdopen(file, "w"));
   if (rows.file_) std::setvbuf(rows.file_.get(), nullptr, _IONBF, 0);
-  if (!rows.file_ || !rows.append(std::string(header) + "\n"))
+  if (!rows.file_ || !rows.append(rows.header_))
     return fail(std::string("cannot be written: ") + std::strerror(errno), path,
                 "check the folder, its permissions and the free space");
   return rows;
@@ -40,15 +40,21 @@ bool RowFile::append(std::string_view text) {
 Result<void> RowFile::write(std::string_view rows) {
   if (!file_) return fail("the table is finished, nothing more is written", path_);
   if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
-  if (append(rows)) {
+  if (unread_ ? append(header_ + std::string(rows)) : append(rows)) {
+    unread_ = false;
     has_rows_ = true;
     return {};
   }
 
-  // Cut the file back to what was whole.
   const int reason = errno;
   std::FILE* file = file_.get();
   std::clearerr(file);
+  if (reason == EPIPE) {
+    unread_ = true;
+    return fail("nobody reads this pipe", path_, "the table begins anew when somebody does");
+  }
+
+  // Cut the file back to what was whole.
   torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
               torn_ ? "the table ends in a torn frame; readers leave it out"

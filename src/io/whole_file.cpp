@@ -166,6 +166,23 @@ Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
   return whole->finish();
 }
 
+std::string finished_name(const std::string& path) {
+  const auto at = path.rfind(kUnfinished);
+  if (at == std::string::npos || at == 0 || path[at - 1] == '/') return "";
+  const std::string_view number = std::string_view(path).substr(at + kUnfinished.size());
+  const bool drafts = number.empty() || (number.size() > 1 && number[0] == '-' &&
+                                         number.substr(1).find_first_not_of("0123456789") == std::string::npos);
+  return drafts ? path.substr(0, at) : "";
+}
+
+bool is_being_written(const std::string& draft) {
+  const int file = open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(file);
+  return locked;
+}
+
 bool finish_abandoned(const std::string& draft, const std::string& path) {
   const int file = open(draft.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;

@@ -51,6 +51,13 @@ class WholeFile {
 /// Writes all of it, replacing a file that is there. A full disk is an error and leaves that file as it was.
 Result<void> write_whole_file(const std::string& path, std::string_view bytes);
 
+/// The name that a draft is to get: "take.lcmlog" for take.lcmlog.unfinished and take.lcmlog.unfinished-2. "": `path`
+/// is no draft's name.
+std::string finished_name(const std::string& path);
+
+/// Whether a living program writes this draft.
+bool is_being_written(const std::string& draft);
+
 /// Gives a draft that a killed program left its final name. False: somebody is writing it, the name is taken, or it
 /// cannot be done.
 bool finish_abandoned(const std::string& draft, const std::string& path);

@@ -174,7 +174,9 @@ void HandTracker::apply(const TrackRequest& request) {
     start_anew();
     person_.use(other->profile);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
-    std::shared_ptr<Observer> observer = make_observer(changed->params.segment_tracker, context_.workers, context_.log);
+    std::shared_ptr<Observer> observer = context_.observer;
+    if (!same_observer(context_.params.segment_tracker, changed->params.segment_tracker))
+      observer = make_observer(changed->params.segment_tracker, context_.workers, context_.log);
     person_.change(changed->params, observer);  // until here it may throw
     context_.params = changed->params;
     context_.observer = std::move(observer);

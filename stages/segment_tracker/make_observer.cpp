@@ -29,4 +29,8 @@ std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Work
   return std::make_unique<FallbackObserver>(std::move(*device), std::move(cpu), std::move(log));
 }
 
+bool same_observer(const SegmentTrackerParams& a, const SegmentTrackerParams& b) {
+  return a.observer == b.observer && distance_cap(a) == distance_cap(b);
+}
+
 }  // namespace barehand

@@ -17,4 +17,7 @@ std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Work
                                         std::shared_ptr<spdlog::logger> log,
                                         std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>());
 
+/// Whether both ask for the same observer: opening a device takes long, and so does measuring it.
+bool same_observer(const SegmentTrackerParams& a, const SegmentTrackerParams& b);
+
 }  // namespace barehand

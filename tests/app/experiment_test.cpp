@@ -104,10 +104,37 @@ TEST_F(ExperimentRun, WrongOptionsLeaveNothingBehind) {
 
 TEST_F(ExperimentRun, OverwritesNothing) {
   fs::create_directories(options_.out + "/recordings");
+  for (const bool overwrite : {false, true}) {
+    options_.overwrite = overwrite;
+    const auto report = run_experiment(plan_, options_);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().exit_code, kExitUsage);
+    EXPECT_THAT(report.error().error.message(), HasSubstr("is there already")) << "and no experiment made it";
+  }
+}
+
+TEST_F(ExperimentRun, AnExperimentIsReplacedIfAllowedAndOtherFilesStay) {
+  options_.frames = 1;
+  ASSERT_TRUE(run_experiment(plan_, options_));
+  EXPECT_EQ(run_experiment(plan_, options_).error().exit_code, kExitUsage);
+  test::write_text(folder_ / "out/notes.txt", "mine");
+  test::write_text(folder_ / "out/results/fist.paper.csv", "of an earlier experiment");
+
+  // Wrong input leaves what is there.
+  options_.overwrite = true;
+  ExperimentOptions wrong = options_;
+  wrong.keys = {"colour=blue"};
+  EXPECT_EQ(run_experiment(plan_, wrong).error().exit_code, kExitUsage);
+  wrong = options_;
+  wrong.hand = folder_ / "out/recordings/fist/hand.json";
+  EXPECT_THAT(run_experiment(plan_, wrong).error().error.message(), HasSubstr("lies in the folder"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/fist.txt"));
+
   const auto report = run_experiment(plan_, options_);
-  ASSERT_FALSE(report);
-  EXPECT_EQ(report.error().exit_code, kExitUsage);
-  EXPECT_THAT(report.error().error.message(), HasSubstr("is there already"));
+  ASSERT_TRUE(report) << report.error().error.message();
+  EXPECT_TRUE(fs::exists(folder_ / "out/fist.txt"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/results/fist.paper.csv"));
+  EXPECT_EQ(test::read_text(folder_ / "out/notes.txt"), "mine");
 }
 
 }  // namespace

@@ -53,6 +53,14 @@ TEST_F(Outputs, WhatARecordingConsistsOfIsRefused) {
   EXPECT_NE(complaint(recording, folder_ / "rec", Kind::recording), "");
 }
 
+TEST_F(Outputs, PicturesNeverTakeThePlaceOfARecordingsImages) {
+  for (const char* name : {"rec/rgb", "rec/rgb/", "elsewhere/../rec/depth"})
+    EXPECT_THAT(complaint({}, folder_ / name, Kind::pictures), HasSubstr("holds images of the recording")) << name;
+  EXPECT_EQ(complaint({}, folder_ / "rec/overlay", Kind::pictures), "");
+  fs::create_directory_symlink(folder_ / "rec/rgb", folder_ / "link");
+  EXPECT_THAT(complaint({}, folder_ / "link", Kind::pictures), HasSubstr("holds images of the recording"));
+}
+
 TEST_F(Outputs, AHardLinkToAnImageIsRefused) {
   fs::create_hard_link(folder_ / "rec/rgb/0.jpg", folder_ / "harmless.csv");
   EXPECT_THAT(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "harmless.csv"),
@@ -95,6 +103,12 @@ TEST_F(Outputs, ASetThatASingleLogBelongsToIsRefused) {
   EXPECT_NE(complaint(log, folder_ / "set/a.lcmlog", Kind::log_set), "");
   EXPECT_EQ(complaint(log, folder_ / "set/b.lcmlog", Kind::log_set), "");
   EXPECT_EQ(complaint(log, folder_ / "elsewhere/a.lcmlog", Kind::log_set), "");
+}
+
+TEST_F(Outputs, ThePartsThatANameStandsForAreRefused) {
+  test::write_text(folder_ / "set/a-000002-20260921T151320Z.lcmlog.unfinished", "\xED\xA1\xDA\x01 and so on");
+  for (const char* name : {"set/a-000001-20260921T141320Z.lcmlog", "set/a-000002-20260921T151320Z.lcmlog.unfinished"})
+    EXPECT_NE(complaint(files_of_source("log:" + (folder_ / "set/a.lcmlog")), folder_ / name), "") << name;
 }
 
 TEST_F(Outputs, NetworksSensorsAndTheSimulatorHaveNoFiles) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "io/recording/image_file.h"
 #include "support/temp_folder.h"
 
@@ -52,6 +54,16 @@ TEST(Chart, LineIsInterruptedWhereThereIsNoValue) {
   EXPECT_GT(blue_pixels({5, 5, 5, 5}), 2 * blue_pixels({5, 5, NAN, 5}));
   EXPECT_LT(blue_pixels({NAN, 5, NAN, 5}), 60) << "two dots";
   EXPECT_GT(blue_pixels({NAN, 5, NAN, 5}), 0);
+}
+
+TEST(Chart, HasItsNameOnlyWhenItIsWhole) {
+  const test::TempFolder folder;
+  test::write_text(folder / "old.png", "the one before");
+  std::filesystem::create_hard_link(folder / "old.png", folder / "time.png");
+  ASSERT_TRUE(write_chart(LineChart{{"title", "frame", "mm"}, {{"run", {0, 1}, {5, 5}}}}, folder / "time.png"));
+  EXPECT_TRUE(read_colour(folder / "time.png"));
+  EXPECT_EQ(test::read_text(folder / "old.png"), "the one before") << "it was written over instead of replaced";
+  EXPECT_FALSE(std::filesystem::exists(folder / "time.png.unfinished"));
 }
 
 TEST(Chart, FolderThatIsNotThereIsAnError) { EXPECT_FALSE(write_chart(LineChart{}, "/no/such/folder/time.png")); }

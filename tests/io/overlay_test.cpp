@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <set>
+
 #include "hand/joint_angles.h"
 #include "io/overlay/overlay_drawing.h"
 #include "io/recording/image_file.h"
@@ -124,6 +127,34 @@ TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_EQ(picture->width(), 1280);
   EXPECT_TRUE(fs::exists(folder_ / "overlay/000012.jpg"));
+}
+
+TEST_F(OverlayFiles, NewPicturesTakeThePlaceOfThoseOfAnEarlierRunAndOfNothingElse) {
+  fs::create_directories(folder_ / "000003.jpg");
+  test::write_text(folder_ / "000003.jpg/000004.jpg", "x");
+  fs::create_symlink("nowhere", folder_ / "000005.jpg");
+  std::set<std::string> kept = {"000003.jpg", "000005.jpg"};
+  for (const char* name : {"1.jpg", "12345.jpg", "0000012.jpg", "000012.png", "000012.JPG", "000012.jpg.txt",
+                           "a00012.jpg", "00012a.jpg", "000012", "notes.txt"})
+    test::write_text(folder_ / *kept.insert(name).first, "somebody's");
+  for (const char* name : {"000001.jpg", "000012.jpg", "1234567.jpg"}) test::write_text(folder_ / name, "of a run");
+  const auto names = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) names.insert(entry.path().filename());
+    return names;
+  };
+
+  auto writer = OverlayWriter::open(folder_.path(), 30, true).value();
+  EXPECT_EQ(names().size(), kept.size() + 3) << "before there is a new one";
+  for (std::int64_t number : {11, 12}) ASSERT_TRUE(writer.write(grey_frame(320, number), shared(open_hand())));
+  kept.insert({"000011.jpg", "000012.jpg"});
+  EXPECT_EQ(names(), kept);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "000003.jpg"), {}), 1);
+
+  auto without = OverlayWriter::open(folder_.path(), 30).value();
+  ASSERT_TRUE(without.write(grey_frame(320, 13), shared(open_hand())));
+  kept.insert("000013.jpg");
+  EXPECT_EQ(names(), kept);
 }
 
 TEST_F(OverlayFiles, VideosHoldEveryFrame) {

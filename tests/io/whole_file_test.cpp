@@ -142,11 +142,21 @@ TEST_F(WholeFiles, AFullDiskLeavesTheOldFile) {
   EXPECT_THAT(written.error().message(), HasSubstr("No space left"));
 }
 
+TEST_F(WholeFiles, ADraftTellsItsName) {
+  EXPECT_EQ(finished_name("a/take.lcmlog.unfinished"), "a/take.lcmlog");
+  EXPECT_EQ(finished_name("take.lcmlog.unfinished-12"), "take.lcmlog");
+  for (const char* other : {"take.lcmlog", "take.unfinished.lcmlog", "take.unfinished-", "take.unfinished-2a",
+                            ".unfinished", "out/.unfinished", "take.unfinished/a"})
+    EXPECT_EQ(finished_name(other), "") << other;
+}
+
 TEST_F(WholeFiles, OnlyAbandonedDraftsAreFinishedByOthers) {
   auto file = WholeFile::create(path_, false).value();
+  EXPECT_TRUE(is_being_written(file.draft()));
   EXPECT_FALSE(finish_abandoned(file.draft(), path_)) << "it is being written";
   file.discard();
   write_text(path_ + ".unfinished", "of a killed program");
+  EXPECT_FALSE(is_being_written(path_ + ".unfinished"));
   EXPECT_TRUE(finish_abandoned(path_ + ".unfinished", path_));
   EXPECT_THAT(names(), ElementsAre("out.csv"));
   write_text(path_ + ".unfinished", "of the next one");

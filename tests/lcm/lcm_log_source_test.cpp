@@ -269,6 +269,31 @@ TEST_F(LcmLog, AFolderPlaysOnWhereALogHoldsNoWholeEvent) {
   EXPECT_NE(source->left_out().front().message().find("torn.lcmlog: is not an LCM log"), std::string::npos);
 }
 
+TEST_F(LcmLog, AFolderPlaysWhatAKilledRecorderLeft) {
+  for (const std::string name : {"1.lcmlog", "2.lcmlog.unfinished", "3.lcmlog"}) {
+    path_ = folder_ / name;
+    append("RGBD_FRAME", frame_bytes(100 + name.front()));
+    writer_.reset();
+  }
+  path_ = folder_.path();
+  EXPECT_EQ(play(), "149 150 151 end");
+  const auto source = LcmLogSource::open(path_).value();
+  ASSERT_EQ(source->doubts().size(), 1u);
+  EXPECT_NE(source->doubts().front().find("2.lcmlog.unfinished: was left by a killed recorder"), std::string::npos);
+
+  // The recorder is started again and gives it its name.
+  std::filesystem::rename(folder_ / "2.lcmlog.unfinished", folder_ / "2.lcmlog");
+  for (int i = 0; i < 3; ++i)
+    EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(std::chrono::milliseconds(0)))) << i;
+}
+
+TEST_F(LcmLog, WhereOnlyALivingRecorderWritesThatIsSaid) {
+  const auto writer = LcmLogWriter::create(path_, false).value();
+  ASSERT_TRUE(writer->send("RGBD_FRAME", frame_bytes(100), 1));
+  path_ = folder_.path();
+  EXPECT_NE(play().find("test.lcmlog.unfinished: is still being written"), std::string::npos) << play();
+}
+
 TEST_F(LcmLog, AFolderPlaysOnWhereAFileIsNoLog) {
   append_frames(2);
   test::write_text(folder_ / "a.log", "Starting the build\n");

@@ -37,7 +37,8 @@ class FindLogs : public ::testing::Test {
     const auto found = find_logs(path);
     if (!found) return {found.error().message()};
     std::vector<std::string> names;
-    for (const std::string& file : *found) names.push_back(fs::path(file).filename());
+    for (const std::string& file : found->files) names.push_back(fs::path(file).filename());
+    for (const Error& error : found->left_out) names.push_back("not " + fs::path(error.where).filename().string());
     return names;
   }
   const test::TempFolder folder_;
@@ -69,6 +70,40 @@ TEST_F(FindLogs, TheNameOfASetStandsForItsParts) {
   make("take.lcmlog");
   EXPECT_THAT(find(folder_ / "take.lcmlog"), ElementsAre("take.lcmlog")) << "a file is itself";
   EXPECT_THAT(find(folder_ / "none.lcmlog"), ElementsAre("none.lcmlog")) << "opening it says what is wrong";
+}
+
+TEST_F(FindLogs, WhatAKilledRecorderLeftIsInThePlaceOfItsName) {
+  for (const char* name :
+       {"set-000001-20260922T090000Z.lcmlog", "set-000002-20260922T091000Z.lcmlog.unfinished",
+        "set-000003-20260922T092000Z.lcmlog", "take.lcmlog.unfinished", "take.lcmlog.unfinished-2", "zoo.lcmlog"})
+    make(name);
+  EXPECT_THAT(find(folder_.path()),
+              ElementsAre("set-000001-20260922T090000Z.lcmlog", "set-000002-20260922T091000Z.lcmlog.unfinished",
+                          "set-000003-20260922T092000Z.lcmlog", "take.lcmlog.unfinished", "take.lcmlog.unfinished-2",
+                          "zoo.lcmlog"));
+  EXPECT_THAT(find(folder_ / "set.lcmlog"),
+              ElementsAre("set-000001-20260922T090000Z.lcmlog", "set-000002-20260922T091000Z.lcmlog.unfinished",
+                          "set-000003-20260922T092000Z.lcmlog"));
+  EXPECT_THAT(find(folder_ / "take.lcmlog"), ElementsAre("take.lcmlog.unfinished", "take.lcmlog.unfinished-2"));
+  EXPECT_THAT(find(folder_ / "take.lcmlog.unfinished-2"), ElementsAre("take.lcmlog.unfinished-2"));
+}
+
+TEST_F(FindLogs, ADraftWhoseNameIsTakenIsNamed) {
+  for (const char* name : {"take.lcmlog", "take.lcmlog.unfinished"}) make(name);
+  EXPECT_THAT(find(folder_.path()), ElementsAre("take.lcmlog", "not take.lcmlog.unfinished"));
+}
+
+TEST_F(FindLogs, WhatALivingRecorderWritesIsNamed) {
+  auto writer = LcmLogWriter::create(folder_ / "set-000002-20260922T091000Z.lcmlog", false).value();
+  const std::vector<std::uint8_t> message(10);
+  ASSERT_TRUE(writer->send("A", message, 1));
+  EXPECT_THAT(find(folder_.path()), ElementsAre("not set-000002-20260922T091000Z.lcmlog.unfinished"));
+  make("set-000001-20260922T090000Z.lcmlog");
+  EXPECT_THAT(find(folder_ / "set.lcmlog"),
+              ElementsAre("set-000001-20260922T090000Z.lcmlog", "not set-000002-20260922T091000Z.lcmlog.unfinished"));
+  ASSERT_TRUE(writer->finish());
+  EXPECT_THAT(find(folder_.path()),
+              ElementsAre("set-000001-20260922T090000Z.lcmlog", "set-000002-20260922T091000Z.lcmlog"));
 }
 
 TEST_F(FindLogs, WhatIsNoLogInAFolderIsLeftAlone) {

@@ -154,6 +154,15 @@ TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewWhenTheBusChanges) {
   EXPECT_TRUE(loads_after(0));
 }
 
+TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewAfterAChangeThatItMayHaveSeenHalfOf) {
+  bus_.state = "1-2#5 ";  // the device is listed already
+  EXPECT_TRUE(loads());
+  finder_.bus_changed();  // and now it is complete
+  EXPECT_FALSE(loads()) << "it was loaded";
+  EXPECT_TRUE(loads());
+  EXPECT_FALSE(loads_after(0)) << "once is enough";
+}
+
 TEST_F(OpenNiFinderOnUsb, HardlyEverLoadsOpenNi2AnewWhereTheBusTells) {
   EXPECT_TRUE(loads());
   EXPECT_FALSE(loads_after(3600));

@@ -113,6 +113,19 @@ TEST_F(CopyCommands, WhereNothingCouldBeReadNothingIsLeft) {
   }
 }
 
+TEST_F(CopyCommands, FoldersThatWereMadeForNothingGoAgain) {
+  const std::string in = recording();
+  fs::remove_all(in + "/depth");
+  fs::create_directory(folder_ / "mine");
+  for (const std::string out : {"new/deeper/take.lcmlog", "mine/take.lcmlog", "new/deeper/folder"}) {
+    std::vector<std::string> record = {"record", "--source", "folder:" + in, "--out", folder_ / out};
+    if (out.ends_with(".lcmlog")) record.insert(record.end(), {"--max-size", "1GB"});
+    EXPECT_EQ(barehand(record).exit_code, 1);
+    EXPECT_FALSE(fs::exists(folder_ / "new")) << out;
+    EXPECT_TRUE(fs::is_empty(folder_ / "mine")) << out;
+  }
+}
+
 TEST_F(CopyCommands, MoreThanHalfOfTheFramesMustBeThere) {
   const std::string in = recording();
   fs::remove(in + "/depth/000001.png");

@@ -1,5 +1,10 @@
 // Outputs that are the standard output, another descriptor, or a named pipe.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
 
 #include "io/hand/hand_json.h"
 #include "io/hand/result_table.h"
@@ -11,6 +16,7 @@
 namespace barehand {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -88,6 +94,72 @@ TEST_F(PipedOutputs, AScannedHandIsWrittenOnce) {
   EXPECT_EQ(scan.exit_code, 0) << text_of("err");
   EXPECT_TRUE(load_profile(folder_ / "out.json")) << text_of("out.json");
   EXPECT_THAT(text_of("err"), HasSubstr("frames tracked"));
+}
+
+/// Reads from a named pipe what comes within one read.
+std::string some_of(const std::string& pipe, int file) {
+  std::string text(1 << 16, ' ');
+  const ssize_t count = read(file, text.data(), text.size());
+  EXPECT_GT(count, 0) << pipe;
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
+}
+
+TEST_F(PipedOutputs, AReaderThatGoesAndComesBackCostsNothingElse) {
+  const std::string pipe = folder_ / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "sim:fist,width=160,height=120,live=true,loop=true,fps=20",
+                      "--hand", folder_ / "take/hand.json", "--init", folder_ / "take/start_pose.json", "--no-publish",
+                      "--config", folder_ / "quick.yaml", "--result", pipe, "--states-log", folder_ / "live.lcmlog"});
+  ASSERT_TRUE(track.wait_for("waiting for somebody to read the pipe " + pipe)) << track.output();
+  int reader = open(pipe.c_str(), O_RDONLY);
+  EXPECT_THAT(some_of(pipe, reader), StartsWith("frame,timestamp"));
+  close(reader);
+
+  ASSERT_TRUE(track.wait_for("nobody reads this pipe")) << track.output();
+  reader = open(pipe.c_str(), O_RDONLY);
+  std::string again;
+  while (again.find("\nframe,timestamp") == std::string::npos && !again.starts_with("frame,timestamp"))
+    again += some_of(pipe, reader);
+  again = some_of(pipe, reader);
+  EXPECT_THAT(again, HasSubstr(",palm,"));
+
+  track.signal(SIGTERM);
+  EXPECT_EQ(track.finish(), 0) << track.output();
+  close(reader);
+  const auto log = LcmLogReader::open(folder_ / "live.lcmlog");
+  ASSERT_TRUE(log) << log.error().message();
+  EXPECT_EQ(log->damaged_bytes(), 0);
+  std::size_t states = 0;
+  for (const LogEntry& entry : log->entries()) states += entry.channel == "HAND_STATE";
+  EXPECT_THAT(track.output(), ContainsRegex("states log +" + std::to_string(states) + " "));
+}
+
+TEST_F(PipedOutputs, ARunThatWaitsForAReaderCanBeStopped) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const std::string option : {"--result", "--states-log", "--save-hand"}) {
+    ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "folder:" + (folder_ / "take"), "--no-publish", option,
+                        folder_ / "pipe"});
+    ASSERT_TRUE(track.wait_for("waiting for somebody to read the pipe")) << track.output();
+    track.signal(SIGINT);
+    EXPECT_EQ(track.finish(), 130) << track.output();
+  }
+}
+
+TEST_F(PipedOutputs, AStandardOutputThatNobodyReadsIsNotWaitedFor) {
+  const Outcome gone = run("exec 3> >(true); wait $!; " + kTrack + "--result /dev/stdout >&3");
+  EXPECT_EQ(gone.exit_code, 1);
+  EXPECT_THAT(gone.output, HasSubstr("Broken pipe"));
+}
+
+TEST_F(PipedOutputs, AReaderThatDoesNotWaitForTheHandIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const Outcome gone = run("(exec 3<$D/pipe) & " + kTrack + "--save-hand $D/pipe --result $D/out.csv");
+  EXPECT_EQ(gone.exit_code, 1) << gone.output;
+  EXPECT_EQ(text_of("out.csv"), table_);
+  const Outcome stays = run("cat $D/pipe >$D/out.json & " + kTrack + "--save-hand $D/pipe; rc=$?; wait; exit $rc");
+  EXPECT_EQ(stays.exit_code, 0) << stays.output;
+  EXPECT_EQ(text_of("out.json"), text_of("whole.json"));
 }
 
 TEST_F(PipedOutputs, WhatCannotBeIsRefused) {

@@ -1,9 +1,13 @@
 // What a program is started with and what happens around it: closed descriptors, pipes that nobody reads, terminals
 // that go away, limits.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "io/hand/result_table.h"
@@ -114,6 +118,62 @@ TEST_F(Surroundings, HangupEndsARecordingInOrder) {
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("stopped"));
   EXPECT_GT(events(folder_ / "a.lcmlog"), 0u);
+}
+
+TEST_F(Surroundings, WhatAKilledRecorderLeftIsPartOfItsSet) {
+  ChildProcess child({BAREHAND_PROGRAM, "record", "--source", kHand + std::string(",live=true,loop=true"), "--out",
+                      folder_ / "a.lcmlog", "--max-size", "1GB"});
+  wait_for_bytes("a-000001");
+  const Outcome living = script("$B convert $D/a.lcmlog $D/living");
+  EXPECT_EQ(living.exit_code, 2);
+  EXPECT_THAT(living.output, HasSubstr("is still being written"));
+  child.signal(SIGKILL);
+  EXPECT_EQ(child.finish(), 128 + SIGKILL);
+  fs::create_directory(folder_ / "set");
+  EXPECT_EQ(script("mv $D/a-* $D/set").exit_code, 0);
+  for (const std::string name : {"set/a.lcmlog", "set"}) {
+    const Outcome killed = script("$B convert $D/" + name + " $D/out && rm -r $D/out");
+    EXPECT_EQ(killed.exit_code, 0) << killed.output;
+    EXPECT_THAT(killed.output, HasSubstr("lcmlog.unfinished: was left by a killed recorder"));
+  }
+}
+
+/// Commands that have nothing to save in the middle are ended by the signal itself.
+TEST_F(Surroundings, CtrlCLeavesNoHalfFiguresOfEvalAndBench) {
+  recording();
+  ASSERT_EQ(mkfifo((folder_ / "r.csv").c_str(), 0600), 0);
+  ChildProcess eval({BAREHAND_PROGRAM, "eval", "--result", folder_ / "r.csv", "--truth", folder_ / "take/truth.csv",
+                     "--json", folder_ / "figures.json", "--plots", folder_ / "plots"});
+  const int pipe = open((folder_ / "r.csv").c_str(), O_WRONLY);  // returns when the table is being read
+  eval.signal(SIGINT);
+  EXPECT_EQ(eval.finish(), 128 + SIGINT) << eval.output();
+  close(pipe);
+
+  ChildProcess bench({BAREHAND_PROGRAM, "bench", "--source", "folder:" + (folder_ / "take"), "--config",
+                      folder_ / "quick.yaml", "--frames", "2", "--warm-up", "0", "--repeat", "1000", "--json",
+                      folder_ / "bench.json"});
+  ASSERT_TRUE(bench.wait_for("frames/s")) << bench.output();
+  bench.signal(SIGINT);
+  EXPECT_EQ(bench.finish(), 128 + SIGINT) << bench.output();
+
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"quick.yaml", "r.csv", "take"}));
+}
+
+TEST_F(Surroundings, CtrlCBetweenTheStepsOfAnExperimentKeepsWhatIsFinished) {
+  ChildProcess child({BAREHAND_PROGRAM, "experiment", "occlusion", "--configs", "default", "--frames", "3", "--set",
+                      "width=160", "--set", "height=120", "--out", folder_ / "out"});
+  ASSERT_TRUE(child.wait_for("1 of 7")) << child.output();
+  child.signal(SIGINT);
+  EXPECT_EQ(child.finish(), 130) << child.output();
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
+    if (entry.path().extension() == ".csv") {
+      const auto table = read_table(entry.path());
+      EXPECT_TRUE(table && !table->truncated) << entry.path();
+    }
+  EXPECT_TRUE(fs::exists(folder_ / "out/recordings/occlusion_0/depth.txt"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/occlusion.txt"));
 }
 
 TEST_F(Surroundings, HangupEndsATrackedRecordingInOrder) {

@@ -134,6 +134,24 @@ TEST(HandTracker, DrawsMoreSamplesOnlyWhereADeviceComparesThem) {
   EXPECT_TRUE(cpu.same_as(with("cpu", 0)));
 }
 
+TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
+  std::ostringstream text;
+  Workers workers(1);
+  TrackerParams params = test::quick_tracker();
+  params.segment_tracker.observer = "egl";
+  HandTracker tracker(params, test::adult_hand(), 1, workers, test::text_logger(text));
+  const std::string opened = text.str();
+  EXPECT_THAT(opened, HasSubstr("amples"));  // on a device, or why not
+
+  params.segment_tracker.samples += 1;
+  params.doubt += 0.01;
+  tracker.change(params);
+  EXPECT_EQ(text.str(), opened);
+  params.segment_tracker.pixel_distance_cap += 0.001;
+  tracker.change(params);
+  EXPECT_GT(text.str().size(), opened.size());
+}
+
 /// A pose is given from outside.
 class GivenStart : public testing::Test {
  protected:

@@ -60,6 +60,8 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
                    "thickness=1.15 or middle=1.1")
       ->allow_extra_args(false);
 
+  command->add_flag("--overwrite", o.overwrite, "replace an earlier experiment in this folder; other files stay");
+
   // How the hand is tracked.
   command->add_option("--hand", o.hand, "hand.json for the tracker; default: measured on the simulated hand");
   command->add_option("--init", a->init, "first pose: truth, or auto (found in the image)")

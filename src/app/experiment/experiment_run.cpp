@@ -7,7 +7,10 @@
 #include "app/shared/interrupt.h"
 #include "app/sim/render_progress.h"
 #include "app/sim/sim_run.h"
+#include "drivers/synthetic/synthetic_source.h"
 #include "io/hand/hand_json.h"
+#include "io/place.h"
+#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -15,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Step = tl::expected<void, TrackFailure>;
 
-constexpr std::int64_t kSnapshots = 8;  // frames per run that are stored with the tracked hand drawn over them
+constexpr const char* kMark = "/.experiment";  // in the folder of an experiment
+constexpr std::int64_t kSnapshots = 8;         // frames per run that are stored with the tracked hand drawn over them
 
 /// A failure as the result of a step.
 tl::unexpected<TrackFailure> stop(const Error& error, int exit_code = kExitFailure) {
@@ -38,6 +42,8 @@ class ExperimentRun {
  private:
   // Finds wrong input before anything is written.
   Step check() const;
+  // Removes what an earlier experiment left, and marks the folder as an experiment's.
+  Step take_folder() const;
   Step make_folders() const;
   // Renders a sequence into a recording; returns its number of frames.
   tl::expected<std::int64_t, TrackFailure> render(const std::string& sequence) const;
@@ -46,6 +52,7 @@ class ExperimentRun {
   // Tracks a sequence with one variant.
   tl::expected<ExperimentRow, TrackFailure> measure(const std::string& sequence, const ExperimentVariant& variant,
                                                     std::int64_t frames);
+  std::string spec_of(const std::string& sequence) const;
   std::string recording(const std::string& sequence) const { return options_.out + "/recordings/" + sequence; }
 
   const ExperimentPlan& plan_;
@@ -56,7 +63,7 @@ class ExperimentRun {
 
 tl::expected<ExperimentReport, TrackFailure> ExperimentRun::run() {
   report_.name = plan_.name;
-  if (auto good = check(); !good) return tl::unexpected(good.error());
+  if (auto ready = check().and_then([&] { return take_folder(); }); !ready) return tl::unexpected(ready.error());
   for (const std::string& sequence : plan_.sequences)
     if (auto compared = compare(sequence); !compared) return tl::unexpected(compared.error());
   if (auto written = write_experiment(report_, options_.out); !written) return stop(written.error());
@@ -64,12 +71,51 @@ tl::expected<ExperimentReport, TrackFailure> ExperimentRun::run() {
 }
 
 Step ExperimentRun::check() const {
+  // What is there is an experiment's, or stays.
   std::error_code error;
-  if (fs::exists(options_.out, error) && !(fs::is_directory(options_.out, error) && fs::is_empty(options_.out, error)))
-    return stop({"is there already", options_.out, "choose another folder or remove it first"}, kExitUsage);
+  const bool folder = fs::is_directory(options_.out, error);
+  const bool replaced = options_.overwrite && folder && fs::exists(options_.out + kMark, error);
+  if (fs::exists(options_.out, error) && !replaced && !(folder && fs::is_empty(options_.out, error)))
+    return stop({"is there already", options_.out,
+                 options_.overwrite ? "no experiment made it: choose another folder or remove it first"
+                                    : "choose another folder, or replace an experiment's with --overwrite"},
+                kExitUsage);
+
+  // The input is good, and not what would be replaced.
+  const SystemClock clock;
+  if (const auto source = synthetic::SyntheticSource::open(spec_of(plan_.sequences.front()), clock); !source)
+    return stop(source.error(), kExitUsage);
   if (options_.hand.empty()) return {};
+  if (replaced && Place(options_.hand).lies_in(Place(options_.out)))
+    return stop({"lies in the folder that is to be replaced", options_.hand, "copy it elsewhere"}, kExitUsage);
   if (const auto hand = load_profile(options_.hand); !hand) return stop(hand.error(), kExitUsage);
   return {};
+}
+
+Step ExperimentRun::take_folder() const {
+  std::error_code error;
+  if (options_.overwrite && fs::exists(options_.out + kMark, error)) {
+    std::vector<std::string> written = {"recordings", "results", "snapshots", "plots", "figures"};
+    for (const std::string& name : experiment_names())
+      for (const char* ending : {".txt", ".csv", ".json", ".png"}) written.push_back(name + ending);
+    for (const std::string& name : written) {
+      fs::remove_all(options_.out + "/" + name, error);
+      if (error) return stop({"cannot be removed: " + error.message(), options_.out + "/" + name, "check the path"});
+    }
+  }
+
+  fs::create_directories(options_.out, error);
+  if (error) return stop({"cannot be made: " + error.message(), options_.out, "check the path"}, kExitUsage);
+  if (const auto marked = write_whole_file(options_.out + kMark, "made by barehand experiment\n"); !marked)
+    return stop(marked.error(), kExitUsage);
+  return {};
+}
+
+std::string ExperimentRun::spec_of(const std::string& sequence) const {
+  std::string spec = sequence;
+  if (options_.frames) spec += ",frames=" + std::to_string(*options_.frames);
+  for (const std::string& key : options_.keys) spec += "," + key;
+  return spec;
 }
 
 Step ExperimentRun::make_folders() const {
@@ -82,9 +128,7 @@ Step ExperimentRun::make_folders() const {
 }
 
 tl::expected<std::int64_t, TrackFailure> ExperimentRun::render(const std::string& sequence) const {
-  std::string spec = sequence;
-  if (options_.frames) spec += ",frames=" + std::to_string(*options_.frames);
-  for (const std::string& key : options_.keys) spec += "," + key;
+  const std::string spec = spec_of(sequence);
   std::cerr << "rendering " << spec << std::endl;
   std::atomic<bool> stopped = false;
   const InterruptWatcher interrupt([&stopped] { stopped = true; });

@@ -17,6 +17,7 @@ struct ExperimentOptions {
   std::optional<std::int64_t> frames{};  ///< end every sequence after this many frames
   bool search_start = false;             ///< find the hand in the first frame; false: start at its true pose
   int threads = 1;
+  bool overwrite = false;  ///< replace what an earlier experiment left in `out`
 };
 
 /// Renders the plan's sequences, tracks each of them with every variant and compares the results with the truth. It
@@ -24,8 +25,11 @@ struct ExperimentOptions {
 /// - recordings/SEQUENCE,
 /// - results/SEQUENCE.VARIANT.csv,
 /// - snapshots/SEQUENCE.VARIANT/, up to eight frames with the tracked hand drawn over them,
-/// - plots/SEQUENCE/ and figures/SEQUENCE.json, as `barehand eval` writes them, and
-/// - the report (write_experiment).
+/// - plots/SEQUENCE/ and figures/SEQUENCE.json, as `barehand eval` writes them,
+/// - the report (write_experiment), and
+/// - .experiment, which says that all these are an experiment's.
+/// A folder that is not empty is refused. With `overwrite`, these go from one that an experiment made, just before the
+/// first rendering, and whatever else is in it stays.
 /// Progress is printed on standard error. The run ends at the first failure, or with kExitInterrupted; what was
 /// finished until then stays. A wrong hand, key or folder is noticed before anything is written.
 tl::expected<ExperimentReport, TrackFailure> run_experiment(const ExperimentPlan& plan,

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -17,6 +18,7 @@
 #include "pipeline/service_manager.h"
 
 namespace barehand {
+namespace fs = std::filesystem;
 namespace {
 
 FrameWriterOptions writer_options(const CopyRequest& request, double fps, const Clock& clock) {
@@ -76,6 +78,27 @@ std::string counts(const CopyResult& result, const std::string& place) {
          part(result.lost, " lost: " + result.lost_why);
 }
 
+/// The folders around an output that are not there yet. Those that are still empty in the end go again.
+class NewFolders {
+ public:
+  explicit NewFolders(const std::string& output) {
+    std::error_code ignored;
+    fs::path folder = fs::absolute(output, ignored);
+    if (!folder.has_filename()) folder = folder.parent_path();  // "folder/"
+    for (folder = folder.parent_path(); !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
+      folders_.push_back(folder);
+  }
+  ~NewFolders() {
+    std::error_code not_empty;
+    for (const fs::path& folder : folders_) fs::remove(folder, not_empty);
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+
+ private:
+  std::vector<fs::path> folders_;  // from the innermost outwards
+};
+
 /// Tells systemd, where it listens, that the copy moves and how far it is.
 class ServiceReport {
  public:
@@ -131,6 +154,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},
                                    request.overwrite);
   if (!apart) return refuse(apart.error());
+  const NewFolders around(request.out);
   std::optional<FileLock> lock;
   if (written_as.rotation && is_log_path(request.out)) {
     auto taken = lock_set(request.out, std::chrono::seconds(3));  // a service before this one may be about to end

@@ -67,6 +67,16 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   return {};
 }
 
+/// The images of a recording, whichever, are named as pictures are, and would go with them.
+Result<void> check_images(const Output& output, const Place& place) {
+  const fs::path folder = fs::path(target_of(output.path).path) / "";
+  const std::string recording = folder.parent_path().parent_path().string();
+  for (const std::string& images : files_of_source("folder:" + (recording.empty() ? "." : recording)).image_folders)
+    if (Place(images) == place)
+      return refuse(output, "holds images of the recording " + recording, "choose a folder of its own");
+  return {};
+}
+
 /// A device or a socket: what goes in and what comes out are apart.
 bool is_endless(const std::string& path) {
   std::error_code ignored;
@@ -115,6 +125,8 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
       if (!input.path.empty() && place == Place(input.path))
         return refuse(output, "is the file of " + input.option + " " + input.path);
     if (const auto apart = check_source(source, output, place); !apart) return apart;
+    if (output.kind == Output::Kind::pictures && place.exists())
+      if (const auto free = check_images(output, place); !free) return free;
     before.emplace_back(&output, place);
   }
 

@@ -35,6 +35,7 @@ struct Output {
 /// - that is an input or another output, whatever it is called (Place);
 /// - that is a file of the source, lies in one of its image folders, or as a folder is or contains the source. A new
 ///   file or folder beside the files of a recording is none of these;
+/// - that is a folder of pictures and holds images of a recording;
 /// - that exists, unless `overwrite`. A folder of pictures exists where there are pictures of frames in it.
 /// Devices are never refused, and pipes and descriptors only where they are an input or another output.
 Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/lcm/log_names.h"
 #include "io/place.h"
 #include "io/recording/stamped_list.h"
 
@@ -75,7 +76,9 @@ SourceFiles files_of_source(const std::string& spec) {
     add_recording(path, files);
   } else if (kind == "log" && fs::is_directory(path, ignored)) {
     add_logs(path, files);
-  } else if (kind == "log" || (kind == "openni2" && path.ends_with(".oni"))) {
+  } else if (kind == "log") {
+    if (auto logs = find_logs(path)) files.files = std::move(logs->files);
+  } else if (kind == "openni2" && path.ends_with(".oni")) {
     files.files.push_back(path);
   }
   return files;

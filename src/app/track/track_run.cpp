@@ -14,6 +14,7 @@
 #include "app/shared/run_inputs.h"
 #include "app/shared/source_factory.h"
 #include "app/shared/standard_streams.h"
+#include "app/track/pipe_readers.h"
 #include "app/track/track_outputs.h"
 #include "core/available_memory.h"
 #include "core/parallel/parallel.h"
@@ -67,11 +68,13 @@ class TrackRun {
   Step choose_start();
   Step choose_outputs();
   Step open_outputs();
+  Step await_readers();
   Step open_bus();
   CommandedTracker::Inbox inbox() const;
   template <class Open>
   auto connect(Open open, bool live) -> decltype(open());
   TrackFailure no_network(const Error& error) const;
+  tl::unexpected<TrackFailure> stopped(const std::string& when) const;
   void stop();
   void reload();
   Result<Reload::Changes> exchange_configuration();
@@ -95,6 +98,7 @@ class TrackRun {
   std::optional<HandPose> initial_;
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
+  PipeReaders readers_;
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -176,8 +180,23 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
   return {};
 }
 
+Step TrackRun::await_readers() {
+  for (std::string* path : {&options_.result, &options_.states_log, &options_.save_hand}) {
+    const auto opened = readers_.wait_for(*path, stop_.get_token(), [&] {
+      log_.warn("reader of " + *path, "waiting for somebody to read the pipe " + *path);
+      service_.ready("waiting for a reader of " + *path);
+      service_.alive();
+    });
+    if (!opened) return stopped("stopped while waiting for a reader of " + *path);
+    if (*opened != *path) log_.logger().info("the pipe {} is written as {}", *path, *opened);
+    *path = *opened;
+  }
+  return {};
+}
+
 Step TrackRun::open_outputs() {
-  Step ok;
+  Step ok = await_readers();
+  if (!ok) return ok;
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
   if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_, options_.overwrite));
@@ -188,7 +207,7 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(
         options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
-        options_.overlay_every));
+        options_.overlay_every, options_.overwrite));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (!ok) return ok;
   if (service_.present())
@@ -242,8 +261,13 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
 
 TrackFailure TrackRun::no_network(const Error& error) const {
   if (!stop_.stop_requested()) return {error, kExitFailure};
-  return {{"stopped while waiting for the LCM network", "", ""},
-          interrupt_.signal() == SIGINT ? kExitInterrupted : kExitOk};
+  return stopped("stopped while waiting for the LCM network").value();
+}
+
+/// Before the first frame.
+tl::unexpected<TrackFailure> TrackRun::stopped(const std::string& when) const {
+  const bool done = interrupt_.signal() != SIGINT && (!input_.source || input_.source->live());
+  return tl::unexpected(TrackFailure{{when, "", ""}, done ? kExitOk : kExitInterrupted});
 }
 
 void TrackRun::stop() {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "io/lcm/lcm_log_writer.h"
+#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -125,6 +126,10 @@ Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
 
 Result<void> LcmLogReader::open_file() {
   file_.reset(std::fopen(path_.c_str(), "rb"));
+
+  // A recorder that goes on with a set gives a draft in it its name.
+  if (const std::string name = finished_name(path_); !file_ && errno == ENOENT && !name.empty())
+    file_.reset(std::fopen(name.c_str(), "rb"));
   if (!file_) return fail(std::string("cannot open the log: ") + std::strerror(errno), path_);
   return {};
 }

@@ -79,6 +79,8 @@ void LcmLogWriter::start_write_back() {
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
+  std::clearerr(file);
+  if (reason == EPIPE) return fail("nobody reads this pipe", path_, "the log goes on when somebody does");
   const bool cut = !file_.direct() && ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
   failed_ = !cut;
   disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);

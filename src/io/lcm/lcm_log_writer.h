@@ -19,7 +19,7 @@ inline constexpr std::int64_t kEventHeader = 28;
 /// Writes an LCM log, which has its name when it is finished (WholeFile); the destructor finishes one that has events
 /// and removes one without. Every event is handed to the operating system before `send` returns, so a crash of the
 /// program loses nothing; when a write fails (disk full) the file is cut back to the last whole event, stays readable,
-/// and later events may succeed.
+/// and later events may succeed. Where the reader of a named pipe is gone, events are lost until another one is there.
 class LcmLogWriter : public MessageSink {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.

@@ -6,6 +6,8 @@
 #include <map>
 #include <regex>
 
+#include "io/whole_file.h"
+
 namespace barehand {
 namespace fs = std::filesystem;
 namespace {
@@ -30,12 +32,18 @@ bool begins_as_log(const fs::path& path) {
          std::string_view(start.data(), start.size()) == "\xed\xa1\xda\x01";
 }
 
+/// Of a draft the name that it is to get.
+fs::path final_name(const fs::path& path) {
+  const std::string name = finished_name(path.string());
+  return name.empty() ? path : fs::path(name);
+}
+
 /// In the order they were written.
 std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> sets;
   std::map<std::string, bool> rotated;
   for (const fs::path& path : paths) {
-    const LogName name = parse(path.filename().string());
+    const LogName name = parse(final_name(path).filename().string());
     sets[name.base].emplace_back(name.part, path.string());
     rotated[name.base] |= name.rotated;
   }
@@ -48,18 +56,39 @@ std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   return files;
 }
 
-/// The files of a folder that have bytes and are wanted.
+/// Why a draft is not played; none: it is, or `path` is no draft.
+std::optional<Error> why_left_out(const fs::path& path) {
+  const fs::path name = final_name(path);
+  std::error_code ignored;
+  if (name == path) return std::nullopt;
+  if (is_being_written(path)) return Error{"is still being written", path, "play it when its recorder has ended"};
+  if (fs::exists(name, ignored))
+    return Error{"was left by a killed recorder, and its name is taken", path, "rename it to have it played"};
+  return std::nullopt;
+}
+
+/// The files of a folder that have bytes and whose names are wanted.
 template <class Wanted>
-std::vector<std::string> logs_in(const fs::path& folder, const Wanted& wanted) {
+FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
+  FoundLogs logs;
   std::vector<fs::path> found;
   std::error_code error;
   for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
-    std::error_code ignored;  // what cannot be looked at is no log
-    if (entry->is_regular_file(ignored) && entry->file_size(ignored) > 0 && wanted(entry->path()))
-      found.push_back(entry->path());
+    // What cannot be looked at is no log.
+    const fs::path& path = entry->path();
+    std::error_code ignored;
+    if (!entry->is_regular_file(ignored) || entry->file_size(ignored) == 0 || !wanted(final_name(path))) continue;
+
+    // Other programs may have drafts, too.
+    if (final_name(path) != path && !begins_as_log(path)) continue;
+    if (auto reason = why_left_out(path))
+      logs.left_out.push_back(std::move(*reason));
+    else
+      found.push_back(path);
   }
-  return sorted(found);
+  logs.files = sorted(found);
+  return logs;
 }
 
 }  // namespace
@@ -80,23 +109,25 @@ std::optional<std::int64_t> number_in_set(const fs::path& log, const fs::path& s
   return std::stoll(parts[2]);
 }
 
-Result<std::vector<std::string>> find_logs(const std::string& path) {
+Result<FoundLogs> find_logs(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    auto files = logs_in(path, [](const fs::path& file) {
+    auto logs = logs_in(path, [](const fs::path& file) {
       return is_log_name(file) || (parse(file.filename().string()).part >= 0 && begins_as_log(file));
     });
-    if (files.empty()) return fail("the folder holds no LCM logs", path, "a recording folder is played as folder:DIR");
-    return files;
+    if (logs.files.empty() && logs.left_out.empty())
+      return fail("the folder holds no LCM logs", path, "a recording folder is played as folder:DIR");
+    return logs;
   }
-  if (fs::exists(path, error)) return std::vector<std::string>{path};
+  if (fs::exists(path, error)) return FoundLogs{{path}, {}};
   const fs::path set(path);
-  auto files = logs_in(set.has_parent_path() ? set.parent_path() : fs::path("."), [&](const fs::path& file) {
+  auto logs = logs_in(set.has_parent_path() ? set.parent_path() : fs::path("."), [&](const fs::path& file) {
     const LogName name = parse(file.filename().string());
-    return (name.part >= 0 && name.base == set.filename()) || number_in_set(file, set).has_value();
+    const bool part = name.part >= 0 && name.base == set.filename();
+    return part || number_in_set(file, set).has_value() || file.filename() == set.filename();
   });
-  if (files.empty()) files.push_back(path);  // opening it says what is wrong
-  return files;
+  if (logs.files.empty() && logs.left_out.empty()) logs.files.push_back(path);  // opening it says what is wrong
+  return logs;
 }
 
 }  // namespace barehand

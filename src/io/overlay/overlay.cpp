@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
 
 #include "core/format.h"
 #include "io/overlay/overlay_drawing.h"
@@ -21,6 +22,23 @@ bool is_other_video(const std::string& path) {
   return !fs::is_directory(path, error) && std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
+/// Whether a picture of a frame could have this name: 000012.jpg.
+bool is_picture_name(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  const bool number = stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+  return number && (stem.size() == 6 || stem[0] != '0') && name.extension() == ".jpg";
+}
+
+/// The pictures of an earlier run, and nothing else. What cannot be removed stays.
+void remove_pictures(const std::string& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> pictures;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (is_picture_name(entry.path().filename()) && entry.symlink_status(ignored).type() == fs::file_type::regular)
+      pictures.push_back(entry.path());
+  for (const fs::path& picture : pictures) fs::remove(picture, ignored);
+}
+
 }  // namespace
 
 class OverlayWriter::Output {
@@ -32,13 +50,15 @@ class OverlayWriter::Output {
 
 class OverlayWriter::Folder : public OverlayWriter::Output {
  public:
-  explicit Folder(std::string path) : path_(std::move(path)) {}
+  Folder(std::string path, bool overwrite) : path_(std::move(path)), old_pictures_(overwrite) {}
   Result<void> write(const Image<Rgb>& picture, std::int64_t number) override {
+    if (std::exchange(old_pictures_, false)) remove_pictures(path_);
     return write_colour(path_ + formatted("/%06lld.jpg", static_cast<long long>(number)), picture);
   }
 
  private:
   std::string path_;
+  bool old_pictures_;  ///< of an earlier run may be there, and are to go
 };
 
 class OverlayWriter::Video : public OverlayWriter::Output {
@@ -51,7 +71,7 @@ class OverlayWriter::Video : public OverlayWriter::Output {
   VideoFile file_;
 };
 
-Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps) {
+Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps, bool overwrite) {
   if (video_format(path)) {
     return VideoFile::create(path, fps).map(
         [](VideoFile&& file) { return OverlayWriter(std::make_unique<Video>(std::move(file))); });
@@ -61,7 +81,7 @@ Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) return fail("cannot be made: " + error.message(), path, "check the path and its permissions");
-  return OverlayWriter(std::make_unique<Folder>(path));
+  return OverlayWriter(std::make_unique<Folder>(path, overwrite));
 }
 
 OverlayWriter::OverlayWriter(std::unique_ptr<Output> output) : output_(std::move(output)) {}

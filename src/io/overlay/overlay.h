@@ -15,8 +15,9 @@ namespace barehand {
 /// frame, named by its number, into a folder, which is made.
 class OverlayWriter {
  public:
-  /// `fps`: of the video. Errors: a folder that cannot be made; those of VideoFile.
-  static Result<OverlayWriter> open(const std::string& path, double fps);
+  /// `fps`: of the video. `overwrite`: the first picture in a folder takes the place of all that an earlier writer left
+  /// there; other files stay. Errors: a folder that cannot be made; those of VideoFile.
+  static Result<OverlayWriter> open(const std::string& path, double fps, bool overwrite = false);
   OverlayWriter(OverlayWriter&&) noexcept;
   OverlayWriter& operator=(OverlayWriter&&) noexcept;
   ~OverlayWriter();

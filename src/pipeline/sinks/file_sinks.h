@@ -47,7 +47,7 @@ class DecisionSink : public Sink {
 /// --overlay: the tracked hands drawn over the images, on the first and then on each `every`-th frame.
 class OverlaySink : public Sink {
  public:
-  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every);
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every, bool overwrite);
   std::string name() const override { return "overlay"; }
   Result<void> consume(const TrackedFrame& tracked) override {
     if (seen_++ % every_ != 0) return {};
