@@ -16,6 +16,10 @@ add_library(barehand_settings INTERFACE)
 target_include_directories(barehand_settings INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 # Never -ffast-math: small SVDs returned NaN under it. These two alone let the compiler vectorise.
 target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math)
+if(BAREHAND_WERROR)
+  # GCC 12 sees overlapping copies within libstdc++'s strings, where there are none.
+  target_compile_options(barehand_settings INTERFACE -Werror -Wno-error=restrict)
+endif()
 barehand_instruction_set(barehand_settings)
 set(BAREHAND_TEST_TIMEOUT 300)  # seconds
 if(BAREHAND_SANITIZE)
