@@ -29,7 +29,6 @@ function(barehand_more_instruction_sets)
       BINARY_DIR ${build}
       CMAKE_CACHE_ARGS -DBAREHAND_ARCH:STRING=${arch} -DBAREHAND_TESTS:BOOL=OFF
                        -DCMAKE_BUILD_TYPE:STRING=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER:STRING=${CMAKE_CXX_COMPILER}
-                       -DCMAKE_CXX_COMPILER_LAUNCHER:STRING=${CMAKE_CXX_COMPILER_LAUNCHER}
                        -DCMAKE_SHARED_LINKER_FLAGS:STRING=${CMAKE_SHARED_LINKER_FLAGS}
       BUILD_COMMAND ${CMAKE_COMMAND} --build ${build} --target barehand_program
       INSTALL_COMMAND ""

@@ -9,13 +9,19 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # Without these it caches nothing that is compiled with precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 add_library(barehand_settings INTERFACE)
 target_include_directories(barehand_settings INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 # Never -ffast-math: small SVDs returned NaN under it. These two alone let the compiler vectorise.
-target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math)
+target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math -pthread)
+if(BAREHAND_WERROR)
+  # GCC 12 imagines these three in libstdc++'s strings and in Eigen's vectors of three: they stay warnings.
+  target_compile_options(barehand_settings INTERFACE
+    -Werror -Wno-error=restrict -Wno-error=stringop-overflow -Wno-error=array-bounds)
+endif()
 barehand_instruction_set(barehand_settings)
 set(BAREHAND_TEST_TIMEOUT 300)  # seconds
 if(BAREHAND_SANITIZE)
@@ -31,7 +37,8 @@ function(barehand_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
   add_library(barehand_${name} STATIC ${ARG_SOURCES})
   add_library(barehand::${name} ALIAS barehand_${name})
-  target_link_libraries(barehand_${name} PUBLIC barehand_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  target_link_libraries(barehand_${name} PUBLIC barehand_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS} ${common_libraries})
+  target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
 endfunction()
 
 # barehand_test(core SOURCES a_test.cpp ... DEPS lib ...): one test binary per area, each case known to ctest.
@@ -44,6 +51,7 @@ function(barehand_test area)
   endif()
   add_executable(${area}_test ${ARG_SOURCES})
   target_include_directories(${area}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(${area}_test PRIVATE ${ARG_DEPS} GTest::gtest_main GTest::gmock)
+  target_link_libraries(${area}_test PRIVATE ${ARG_DEPS} ${common_libraries} GTest::gtest_main GTest::gmock)
+  target_precompile_headers(${area}_test REUSE_FROM barehand_test_headers)
   gtest_discover_tests(${area}_test TEST_PREFIX "${area}." DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

@@ -21,10 +21,10 @@ fi
 deploy/fetch_hand_mesh.sh
 
 if [ "${1:-}" = --tests ]; then
-  cmake --preset release -DBAREHAND_TESTS=ON
+  cmake --preset release -DBAREHAND_TESTS=ON -DBAREHAND_WERROR=ON
   cmake --build --preset release
   ctest --preset release
 else
-  cmake --preset release -DBAREHAND_TESTS=OFF
+  cmake --preset release -DBAREHAND_TESTS=OFF -DBAREHAND_WERROR=OFF
   cmake --build --preset release --target barehand
 fi

@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-/// Sends messages on <prefix>HAND_STATE, GLOVE_STATE, HAND_JOINTS and HEALTH to every sink it was given (a bus, a log,
+/// Sends messages on `<prefix>`HAND_STATE, GLOVE_STATE, HAND_JOINTS and HEALTH to every sink it was given (a bus, a log,
 /// both). Sinks outlive it.
 class Publisher {
  public:

@@ -225,8 +225,9 @@ class Return : public testing::Test {
   void SetUp() override {
     tracker_.apply(StartAt{pose_});
     for (int i = 0; i < 5; ++i) ASSERT_EQ(status_at(*hand_), TrackStatus::tracking);
-    const HandObservationPtr nothing = std::make_shared<HandObservation>(HandObservation{.frame = hand_->frame});
-    while (status_at(*nothing) != TrackStatus::lost) ASSERT_LT(utime_, 2'000'000);
+    HandObservation nothing;
+    nothing.frame = hand_->frame;
+    while (status_at(nothing) != TrackStatus::lost) ASSERT_LT(utime_, 2'000'000);
   }
   TrackStatus status_at(const HandObservation& observation) {
     return tracker_.process(*test::stamped(observation, utime_ += 33'000))->status;

@@ -12,7 +12,7 @@ std::string number(double value) {
   return std::string(buffer, end);
 }
 
-std::string quoted(const std::string& text) {
+std::string yaml_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -38,14 +38,14 @@ void ConfigText::operator()(const char* key, bool& value, const char* doc) {
 }
 
 void ConfigText::operator()(const char* key, std::string& value, const char* doc) {
-  entry(key, quoted(value), "", doc);
+  entry(key, yaml_string(value), "", doc);
 }
 
 void ConfigText::operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
                             const char* doc) {
   std::string list;
   for (const auto choice : choices) list += (list.empty() ? "" : " | ") + std::string(choice);
-  entry(key, quoted(value), "[" + list + "]", doc);
+  entry(key, yaml_string(value), "[" + list + "]", doc);
 }
 
 void ConfigText::operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) {

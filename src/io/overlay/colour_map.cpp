@@ -28,7 +28,7 @@ Rgb darkened(const Rgb& c) {
 
 }  // namespace
 
-DepthRange typical_range(const RgbdFrame& frame) {
+ColouredDepths typical_range(const RgbdFrame& frame) {
   std::vector<std::uint16_t> counts;
   for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel suffices
     if (frame.depth[i] > 0) counts.push_back(frame.depth[i]);
@@ -42,7 +42,7 @@ DepthRange typical_range(const RgbdFrame& frame) {
   return {near, std::max(at(0.98), near + 0.05)};
 }
 
-Image<Rgb> depth_colours(const RgbdFrame& frame, const DepthRange& range) {
+Image<Rgb> depth_colours(const RgbdFrame& frame, const ColouredDepths& range) {
   const std::array<Rgb, kLevels> colours = turbo_colours();
   Image<Rgb> picture(frame.depth.width(), frame.depth.height());
   for (std::size_t i = 0; i < picture.size(); ++i) {

@@ -6,14 +6,14 @@
 namespace barehand {
 
 /// Range of depths that is shown in colours [m].
-struct DepthRange {
+struct ColouredDepths {
   double near = 0, far = 1;
 };
 /// The range of the middle 96 % of a frame's measurements; the default range if there are none.
-DepthRange typical_range(const RgbdFrame& frame);
+ColouredDepths typical_range(const RgbdFrame& frame);
 
 /// Depth in the colours of the Turbo map: near is red, far is blue, values out of range are darkened, and missing
 /// depth is black.
-Image<Rgb> depth_colours(const RgbdFrame& frame, const DepthRange& range);
+Image<Rgb> depth_colours(const RgbdFrame& frame, const ColouredDepths& range);
 
 }  // namespace barehand

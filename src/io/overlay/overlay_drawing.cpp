@@ -106,7 +106,7 @@ class HandDrawing {
 };
 
 Image<Rgb> grey_depth_picture(const RgbdFrame& frame) {
-  const DepthRange range = typical_range(frame);
+  const ColouredDepths range = typical_range(frame);
   Image<Rgb> picture(frame.depth.width(), frame.depth.height());
   for (std::size_t i = 0; i < picture.size(); ++i) {
     if (frame.depth[i] == 0) continue;
@@ -117,8 +117,8 @@ Image<Rgb> grey_depth_picture(const RgbdFrame& frame) {
   return picture;
 }
 
-DepthRange shown_range(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
-  DepthRange range{INFINITY, -INFINITY};
+ColouredDepths shown_range(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
+  ColouredDepths range{INFINITY, -INFINITY};
   for (const DrawnHand& hand : hands) {
     if (!hand.estimate.has_pose()) continue;
     const double z = hand.estimate.segments[segment_of(2, 0)].T_camera_segment.t.z();
