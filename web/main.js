@@ -65,13 +65,13 @@ function loop(now) {
     latest = null;
     if (scene) scene.show(shown);
     showPicture(shown);
-    showHands(shown.states);
   }
   if (scene) scene.draw(now);
   for (; unacknowledged > 0; --unacknowledged) connection.acknowledge();
   if (now - (loop.slowAt || 0) > 100) {
     loop.slowAt = now;
     plots.draw(theme());
+    if (shown) showHands(shown.states);
     meter.show(status && status.live, performance.now());
     notice(problem());
   }
@@ -80,8 +80,8 @@ function loop(now) {
 
 function showPicture(frame) {
   picture.explain(state.picture, frame);
-  picture.show(frame, !state.raw);
-  if (scene) scene.setPicture(state.picture === "none" || !frame.picture ? null : picture.plain);
+  picture.show(frame, !state.raw, state.view === "camera");
+  if (scene) scene.setPicture(state.view === "camera" && frame.picture ? picture.plain : null);
 }
 
 // What the user must know, most important first; "": all is well.
@@ -117,13 +117,13 @@ function applyState() {
   press("[data-plot]", "plot", (kind) => kind === state.plot);
   byId("frozen").hidden = !state.freeze;
   plots.kind = state.plot;
-  connection.want({cloud: state.cloud, picture: state.picture});
-  if (shown) picture.explain(state.picture, shown);
+  connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
   if (!scene) return;
   if (scene.view !== state.view) scene.setView(state.view);
   scene.options = {smoothed: !state.raw, ellipsoids: state.ellipsoids};
-  if (state.picture === "none") scene.setPicture(null);
-  if (shown) scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
+  if (!shown) return;
+  showPicture(shown);
+  scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
 }
 function set(change) { Object.assign(state, change); applyState(); }
 const next = (kinds, kind) => kinds[(kinds.indexOf(kind) + 1) % kinds.length];

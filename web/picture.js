@@ -13,10 +13,11 @@ export class Picture {
     if (frame.picture) frame.picture.image = await createImageBitmap(frame.picture.jpeg).catch(() => null);
   }
 
-  show(frame, smoothed) {
+  // `plain`: also without the skeleton.
+  show(frame, smoothed, plain) {
     const image = frame.picture && frame.picture.image;
     if (!image) return;
-    for (const canvas of [this.plain, this.canvas]) {
+    for (const canvas of plain ? [this.plain, this.canvas] : [this.canvas]) {
       if (canvas.width !== image.width || canvas.height !== image.height) {
         canvas.width = image.width;
         canvas.height = image.height;
@@ -35,7 +36,7 @@ export class Picture {
       const to = pixel(smoothed ? segment.smoothed_distal : segment.distal);
       draw.strokeStyle = s === 0 ? "#ffffff" : kFingerColours[Math.floor((s - 1) / 3)];
       draw.setLineDash(segment.seen ? [] : [3, 5]);
-      draw.lineWidth = 3;
+      draw.lineWidth = Math.max(2, this.canvas.width / 200);
       draw.beginPath();
       draw.moveTo(...from);
       draw.lineTo(...to);

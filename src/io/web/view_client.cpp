@@ -59,7 +59,7 @@ void ViewClient::post(ViewFramePtr frame) {
   changed_.notify_all();
 }
 
-void ViewClient::post_status(ViewStatus status) {
+void ViewClient::post_status(StatusText status) {
   {
     const std::lock_guard lock(mutex_);
     next_.status = std::move(status);
@@ -131,7 +131,7 @@ bool ViewClient::send_frame(const ViewFrame& frame, const ViewWish& wish) {
     bytes_.insert(bytes_.end(), chunk.begin(), chunk.end());
   };
   append(frame.cloud(wish.cloud));
-  append(frame.picture(wish.picture));
+  append(frame.picture(wish.picture, wish.large));
   return socket_.send_binary(bytes_);
 }
 

@@ -14,7 +14,7 @@
 
 namespace barehand {
 
-using ViewStatus = std::shared_ptr<const std::string>;  ///< JSON
+using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 
 /// One client of the page's WebSocket. It keeps the newest frame that was not sent yet, and nothing behind it, and
 /// sends on a thread of its own; frames not before the client has said what it wants of them. A client that reads
@@ -31,7 +31,7 @@ class ViewClient : public WebPeer {
   bool hear(std::string_view text) override;
   /// Any thread, at once. A frame that waits is replaced and counted as dropped.
   void post(ViewFramePtr frame);
-  void post_status(ViewStatus status);
+  void post_status(StatusText status);
   /// Frames of this client; a capacity of one.
   QueueHealth health() const;
 
@@ -39,7 +39,7 @@ class ViewClient : public WebPeer {
   /// What is to be sent next.
   struct Due {
     ViewFramePtr frame;
-    ViewStatus status, reply;
+    StatusText status, reply;
     ViewWish wish;
   };
   void run();

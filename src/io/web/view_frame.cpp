@@ -62,10 +62,10 @@ Image<Rgb> shrunk(const Image<Rgb>& image, int width) {
   return small;
 }
 
-std::vector<std::uint8_t> picture_chunk(const Image<Rgb>& image, ViewPicture kind) {
+std::vector<std::uint8_t> picture_chunk(const Image<Rgb>& image, ViewPicture kind, int width) {
   std::vector<std::uint8_t> bytes;
   if (image.empty()) return bytes;
-  const auto jpeg = encode_jpeg(shrunk(image, ViewFrame::kMaxPictureWidth), kJpegQuality);
+  const auto jpeg = encode_jpeg(shrunk(image, width), kJpegQuality);
   if (!jpeg) return bytes;
   ChunkWriter out(bytes);
   out.begin('P', static_cast<int>(kind));
@@ -127,15 +127,16 @@ std::span<const std::uint8_t> ViewFrame::cloud(ViewCloud kind) const {
   return made.bytes;
 }
 
-std::span<const std::uint8_t> ViewFrame::picture(ViewPicture kind) const {
+std::span<const std::uint8_t> ViewFrame::picture(ViewPicture kind, bool large) const {
   if (kind == ViewPicture::none || !content_.frame) return {};
-  Made& made = kind == ViewPicture::colour ? colour_ : depth_;
+  Made& made = pictures_[kind == ViewPicture::depth ? 1 : 0][large ? 1 : 0];
   std::call_once(made.flag, [&] {
     const RgbdFrame& frame = *content_.frame;
+    const int width = large ? kLargeWidth : kSmallWidth;
     if (kind == ViewPicture::colour)
-      made.bytes = picture_chunk(frame.colour, kind);
+      made.bytes = picture_chunk(frame.colour, kind, width);
     else
-      made.bytes = picture_chunk(depth_colours(frame, typical_range(frame)), kind);
+      made.bytes = picture_chunk(depth_colours(frame, typical_range(frame)), kind, width);
   });
   return made.bytes;
 }

@@ -50,10 +50,10 @@ class ViewFrame {
   /// Chunk 'D', the depth image on a grid of at most kMaxPoints; empty without images. `hand`: what is in focus, or all
   /// of it if nothing is.
   std::span<const std::uint8_t> cloud(ViewCloud kind) const;
-  /// Chunk 'P', a JPEG at most kMaxPictureWidth wide; empty without such an image.
-  std::span<const std::uint8_t> picture(ViewPicture kind) const;
+  /// Chunk 'P', a JPEG at most kLargeWidth or kSmallWidth pixels wide; empty without such an image.
+  std::span<const std::uint8_t> picture(ViewPicture kind, bool large) const;
 
-  static constexpr int kMaxPoints = 20'000, kMaxPictureWidth = 640;
+  static constexpr int kMaxPoints = 20'000, kLargeWidth = 640, kSmallWidth = 320;
 
  private:
   struct Made {
@@ -61,7 +61,8 @@ class ViewFrame {
     std::vector<std::uint8_t> bytes;
   };
   Content content_;
-  mutable Made scene_cloud_, hand_cloud_, colour_, depth_;
+  mutable Made scene_cloud_, hand_cloud_;
+  mutable std::array<std::array<Made, 2>, 2> pictures_;  // colour and depth, small and large
 };
 using ViewFramePtr = std::shared_ptr<const ViewFrame>;
 

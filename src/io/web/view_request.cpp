@@ -34,6 +34,7 @@ Result<ViewDemand> wish_of(const json& message) {
   const auto picture = choice_of(message, "picture", {"none", "colour", "depth"});
   if (!picture) return tl::unexpected(picture.error());
   wish.picture = static_cast<ViewPicture>(*picture);
+  wish.large = message.value("large", wish.large);
   wish.rate = message.value("rate", wish.rate);
   if (!(wish.rate >= 0.1 && wish.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
   wish.window = message.value("window", wish.window);

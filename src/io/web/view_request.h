@@ -15,8 +15,9 @@ enum class ViewCloud { none, hand, scene };
 struct ViewWish {
   ViewCloud cloud = ViewCloud::none;
   ViewPicture picture = ViewPicture::none;
-  double rate = 60;  ///< frames a second at most
-  int window = 0;    ///< frames that may be under way before the client acknowledges one; 0: it does not acknowledge
+  bool large = false;  ///< the picture: as it is instead of small
+  double rate = 60;    ///< frames a second at most
+  int window = 0;      ///< frames that may be under way before the client acknowledges one; 0: it does not acknowledge
 };
 
 /// A frame has been shown; another one may come.

@@ -51,7 +51,7 @@ class ViewServer {
   std::set<ViewClient*> clients_;
   QueueHealth gone_;  // of the clients that have left
   ViewFramePtr frame_;
-  ViewStatus status_;
+  StatusText status_;
 
   std::unique_ptr<WebServer> web_;  // destroyed first: it lets all clients go
 };
