@@ -14,6 +14,9 @@ find_package(assimp REQUIRED)
 find_package(JPEG REQUIRED)  # libjpeg-turbo
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_path(CIVETWEB_INCLUDE_DIR civetweb.h REQUIRED)  # its CMake package asks for a program that is not in libcivetweb-dev
+find_library(CIVETWEB_LIBRARY civetweb REQUIRED)
+find_path(THREE_JS_DIR build/three.module.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)  # of the live page
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)

@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 set(data share/barehand)  # src/io/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
 install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json" PATTERN "*.onnx")
+install(DIRECTORY web DESTINATION ${data})
 install(DIRECTORY lcmtypes DESTINATION ${data} FILES_MATCHING PATTERN "*.lcm" PATTERN foreign EXCLUDE)
 install(PROGRAMS deploy/fetch_hand_mesh.sh DESTINATION ${data}/deploy)
 install(DIRECTORY deploy/batch DESTINATION ${data}/deploy USE_SOURCE_PERMISSIONS)
@@ -42,6 +43,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # CP
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME barehand)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "libjs-three")  # of the live page; the libraries are added
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "barehand-video, liblcm-bin, libegl1, npm, parallel")  # the last two for its scripts
 set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "tracks a bare hand and publishes glove-like states on LCM
 Barehand is a daemon beside a depth sensor. It watches a bare hand that holds

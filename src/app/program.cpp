@@ -17,6 +17,7 @@
 #include "app/shared/standard_streams.h"
 #include "app/sim/sim_command.h"
 #include "app/track/track_command.h"
+#include "app/view/view_command.h"
 
 namespace barehand {
 
@@ -39,6 +40,7 @@ int run_program(int argc, char** argv) {
   add_calibrate_command(app, exit_code);
   add_experiment_command(app, exit_code);
   add_listen_command(app, exit_code);
+  add_view_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_doctor_command(app, exit_code);
   try {

@@ -46,6 +46,14 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
   track
+      ->add_option("--view", o.view,
+                   "serve a page that shows the tracked hand, at this PORT or ADDRESS:PORT (0.0.0.0:8765: to the whole "
+                   "network); without one at http://localhost:8765")
+      ->expected(0, 1)
+      ->default_str("8765")
+      ->type_name("[PORT]");
+  track->add_option("--view-origin", o.view_origins, "a foreign page that may connect, such as https://example.org");
+  track
       ->add_flag("--print-config{user}", o.print_config,
                  "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "
                  "differs from the defaults")

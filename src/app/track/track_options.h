@@ -26,6 +26,8 @@ struct TrackOptions {
   bool no_publish = false;
   std::string print_config;  ///< which keys: user, all or changed; "": none
   bool health = false;
+  std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: there is none
+  std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
 };
 
 }  // namespace barehand

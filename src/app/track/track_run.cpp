@@ -31,6 +31,7 @@
 #include "pipeline/sinks/health_sink.h"
 #include "pipeline/sinks/publish_sink.h"
 #include "pipeline/sinks/service_sink.h"
+#include "pipeline/sinks/view_sink.h"
 #include "pipeline/summary.h"
 #include "pipeline/track_stages.h"
 #include "stages/publish/publisher.h"
@@ -70,6 +71,7 @@ class TrackRun {
   Step open_outputs();
   Step await_readers();
   Step open_bus();
+  Step open_view();
   CommandedTracker::Inbox inbox() const;
   template <class Open>
   auto connect(Open open, bool live) -> decltype(open());
@@ -79,6 +81,7 @@ class TrackRun {
   void reload();
   Result<Reload::Changes> exchange_configuration();
   Step add(Result<std::unique_ptr<Sink>> sink);
+  PipelineHealth with_view(PipelineHealth health) const;
   int conclude(const RunResult& result);
   int judge_frames(const PipelineHealth& health);
 
@@ -99,6 +102,7 @@ class TrackRun {
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
   PipeReaders readers_;
+  std::unique_ptr<ViewServer> view_;  // null: nobody wants it, or it could not be started
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -209,6 +213,7 @@ Step TrackRun::open_outputs() {
         options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
         options_.overlay_every, options_.overwrite));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
+  if (ok && options_.view) ok = open_view();
   if (!ok) return ok;
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
@@ -236,7 +241,7 @@ Step TrackRun::open_bus() {
     commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
     log_.logger().info("following commands on {}COMMAND", config_.run.channel_prefix);
   }
-  BusSink::Health health{[this] { return pipeline_->take_interval_health(); },
+  BusSink::Health health{[this] { return with_view(pipeline_->take_interval_health()); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
   return add(
       BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &news_.bus));
@@ -257,6 +262,28 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
     std::unique_lock lock(mutex);
     never.wait_for(lock, stop_.get_token(), std::chrono::seconds(1), [] { return false; });
   }
+}
+
+/// The page is an extra: what keeps it from being served does not keep hands from being tracked.
+Step TrackRun::open_view() {
+  const auto address = parse_web_address(*options_.view);
+  if (!address) return usage(address.error());
+  auto view = ViewServer::start({*address, options_.view_origins, {}}, clock_);
+  if (!view) {
+    log_.logger().error("{}; tracking goes on without the page", view.error().message());
+    return {};
+  }
+  view_ = std::move(*view);
+  log_.logger().info("open {} in a browser to see the hand", view_->url());
+  ViewSink::Input input{input_.source->name(), input_.source->live(), [this] { return pipeline_->health(); }};
+  sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &news_.view));
+  return {};
+}
+
+/// With the queue of frames for the page.
+PipelineHealth TrackRun::with_view(PipelineHealth health) const {
+  if (view_) health.queues.push_back(view_->health());
+  return health;
 }
 
 TrackFailure TrackRun::no_network(const Error& error) const {
@@ -315,7 +342,7 @@ TrackOutcome TrackRun::run() {
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
   const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
-  return {result.health, progress_->counts(), seconds, result.stopped, conclude(result)};
+  return {with_view(result.health), progress_->counts(), seconds, result.stopped, conclude(result)};
 }
 
 int TrackRun::conclude(const RunResult& result) {

@@ -1,0 +1,78 @@
+#include "app/view/frame_messages.h"
+
+#include <cmath>
+
+#include "drivers/lcm/frame_message.h"
+#include "drivers/lcm/layouts.h"
+
+namespace barehand {
+namespace {
+
+/// How much larger the tracked hand is than the profile: by the lengths of its segments.
+double relative_size(const hand_state_t& state, const HandProfile& profile) {
+  double tracked = 0, own = 0;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const segment_state_t& segment = state.segments[s];
+    tracked += (Eigen::Vector3d(segment.distal) - Eigen::Vector3d(segment.position)).norm();
+    own += profile.segments[s].distal.norm();
+  }
+  return tracked / own;
+}
+
+void add(ViewFrame::Content& content, const char* channel, const LcmMessage& message) {
+  ViewMessage& added = content.messages.emplace_back();
+  added.channel = channel;
+  added.bytes.assign(message.bytes.begin(), message.bytes.end());
+}
+
+}  // namespace
+
+MessageKind kind_of(std::int64_t hash) {
+  if (hash == hand_state_t::getHash()) return MessageKind::hand_state;
+  if (hash == glove_state_t::getHash()) return MessageKind::glove_state;
+  if (hash == health_t::getHash()) return MessageKind::health;
+  return carries_frames(hash) ? MessageKind::frame : MessageKind::other;
+}
+
+ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {
+  constexpr double kSameSize = 0.02;
+  const std::size_t side = state.handedness == hand_state_t::LEFT ? 0 : 1;
+  const double size = state.has_pose ? relative_size(state, *profiles_[side]) : sizes_[side];
+  if (!(size > 0.3 && size < 3)) return skins_[side];
+  if (std::abs(size - sizes_[side]) > kSameSize * size) {
+    sizes_[side] = size;
+    skins_[side] =
+        std::make_shared<const ViewSkin>(std::make_shared<const HandProfile>(scaled(*profiles_[side], size)));
+  }
+  return skins_[side];
+}
+
+ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
+                                 const GivenIntrinsics& foreign) {
+  ViewFrame::Content content;
+  FrameVector<Eigen::Vector3d> places;
+  for (const LcmMessage& message : messages) {
+    const MessageKind kind = kind_of(message_hash(message.bytes));
+    if (kind == MessageKind::hand_state) {
+      const auto state = decode_message<hand_state_t>(message.bytes);
+      if (!state) continue;
+      content.utime = state->utime;
+      content.number = state->frame_number;
+      content.skins[state->handedness == hand_state_t::LEFT ? 0 : 1] = hands.skin_of(*state);
+      for (const segment_state_t& segment : state->segments) places.push_back(Eigen::Vector3d(segment.position));
+      add(content, "HAND_STATE", message);
+    } else if (kind == MessageKind::glove_state) {
+      if (decode_message<glove_state_t>(message.bytes)) add(content, "GLOVE_STATE", message);
+    } else if (kind == MessageKind::frame && !content.frame) {
+      if (const auto frame = decode_frame_message(message.bytes, foreign, content.number)) content.frame = *frame;
+    }
+  }
+  if (content.frame && content.messages.empty()) {
+    content.utime = content.frame->utime;
+    content.number = content.frame->number;
+  }
+  if (content.frame) content.focus = focus_on(places, content.frame->camera);
+  return content;
+}
+
+}  // namespace barehand

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "app/view/frame_messages.h"
+#include "core/clock.h"
+#include "core/queue.h"
+#include "drivers/lcm/lcm_listener.h"
+#include "io/web/view_server.h"
+
+namespace barehand {
+
+/// Shows what trackers send on an LCM network: gathers the messages of one frame by their time.
+class LiveView {
+ public:
+  /// `prefix`: of the tracker's channels. `server` and `clock` outlive it.
+  LiveView(std::shared_ptr<LcmBus> bus, std::string prefix, ShownHands hands, ViewServer& server, const Clock& clock);
+  /// Waits no longer than `patience` for a message, and shows the frame that is complete then.
+  void step(std::chrono::milliseconds patience);
+  bool broken() const { return listener_.broken(); }
+
+ private:
+  void take(LcmMessage message);
+  void keep_image(LcmMessage message);
+  void show_gathered();
+  void show_status();
+
+  const std::string prefix_, name_;
+  ShownHands hands_;
+  ViewServer& server_;
+  const Clock& clock_;
+  std::vector<LcmMessage> gathered_;  // states of one frame
+  std::vector<LcmMessage> images_;    // the last ones, oldest first; states come after the image that they are of
+  std::optional<PipelineHealth> health_;
+  std::int64_t frame_us_, status_us_ = 0, gathered_us_ = 0;  // steady clock
+  BoundedQueue<LcmMessage> queue_{"LCM", 64, Overflow::drop_oldest};
+  LcmListener listener_;  // last: it fills the queue
+};
+
+}  // namespace barehand

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace barehand {
+
+/// Adds `barehand view`, which shows what another tracker sends, or a log. When it has run, `exit_code` holds its
+/// result (exit_code.h).
+void add_view_command(CLI::App& app, int& exit_code);
+
+}  // namespace barehand

@@ -1,0 +1,142 @@
+#include "app/view/view_run.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "app/shared/exit_code.h"
+#include "app/shared/interrupt.h"
+#include "app/shared/run_inputs.h"
+#include "app/view/live_view.h"
+#include "app/view/log_player.h"
+#include "io/web/view_server.h"
+
+namespace barehand {
+namespace {
+
+int tell(const Error& error, int exit_code) {
+  std::cerr << "barehand view: " << error.message() << std::endl;
+  return exit_code;
+}
+
+/// Of both sides: what the user gave, else the mean adult hand.
+Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
+  std::array<std::shared_ptr<const HandProfile>, 2> profiles;
+  for (const auto& names : {std::vector<std::string>{"both"}, wanted}) {
+    if (names.empty()) continue;
+    const auto hands = choose_hands(names, {});
+    if (!hands) return tl::unexpected(hands.error());
+    for (const NamedHand& hand : *hands) profiles[static_cast<std::size_t>(hand.profile->handedness)] = hand.profile;
+  }
+  return ShownHands(profiles);
+}
+
+/// Plays a log until `stop`; commands of clients come from other threads.
+class LogShow {
+ public:
+  LogShow(LogIndex index, std::string name, ShownHands hands, const Clock& clock)
+      : index_(std::move(index)),
+        name_(std::move(name)),
+        hands_(std::move(hands)),
+        clock_(clock),
+        position_(make_position(index_)) {}
+
+  void follow(const PlayerCommand& command) {
+    const std::lock_guard lock(mutex_);
+    position_.follow(command, clock_.steady_us());
+    commanded_ = true;
+    changed_.notify_all();
+  }
+  void run(ViewServer& server, const std::atomic<bool>& stop);
+
+ private:
+  static LogPosition make_position(const LogIndex& index) {
+    std::vector<double> seconds;
+    for (std::int64_t i = 0; i < index.frames(); ++i) seconds.push_back(index.seconds(i));
+    return {std::move(seconds), index.lost()};
+  }
+
+  LogIndex index_;
+  const std::string name_;
+  ShownHands hands_;
+  const Clock& clock_;
+  std::mutex mutex_;  // protects the members below
+  std::condition_variable changed_;
+  LogPosition position_;
+  bool commanded_ = false;
+};
+
+void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
+  constexpr std::int64_t kPatienceUs = 50'000;  // bounds the time to stop
+  std::unique_lock lock(mutex_);
+  while (!stop) {
+    if (!server.has_clients() && !stop) {  // it begins when somebody looks
+      changed_.wait_for(lock, std::chrono::microseconds(kPatienceUs));
+      position_.wait(clock_.steady_us());
+      continue;
+    }
+    const bool moved = position_.advance(clock_.steady_us()), tell = moved || commanded_;
+    const PlayedLog state = position_.state();
+    commanded_ = false;
+
+    // Reading and showing take a while; commands may come meanwhile.
+    lock.unlock();
+    if (moved)
+      server.show(std::make_shared<const ViewFrame>(frame_content(index_.messages(state.position), hands_, {})));
+    if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state}));
+    lock.lock();
+
+    const std::int64_t now_us = clock_.steady_us();
+    const std::int64_t wait_us = std::min(position_.due_us().value_or(now_us + kPatienceUs) - now_us, kPatienceUs);
+    if (!commanded_ && wait_us > 0) changed_.wait_for(lock, std::chrono::microseconds(wait_us));
+  }
+}
+
+int view_logs(const ViewOptions& options, const WebAddress& address, ShownHands hands, const std::atomic<bool>& stop) {
+  auto index = LogIndex::open(options.logs);
+  if (!index) return tell(index.error(), kExitUsage);
+  std::string name;
+  for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
+  const SystemClock clock;
+  LogShow show(std::move(*index), name, std::move(hands), clock);
+  auto server = ViewServer::start({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }}, clock);
+  if (!server) return tell(server.error(), kExitFailure);
+  std::cerr << "open " << (*server)->url() << " in a browser to see the log; Ctrl-C ends\n";
+  show.run(**server, stop);
+  return kExitOk;
+}
+
+int view_network(const ViewOptions& options, const WebAddress& address, ShownHands hands,
+                 const std::atomic<bool>& stop) {
+  auto bus = LcmBus::open(options.lcm_url);
+  if (!bus) return tell(bus.error(), kExitFailure);
+  const SystemClock clock;
+  auto server = ViewServer::start({address, options.origins, {}}, clock);
+  if (!server) return tell(server.error(), kExitFailure);
+  std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()
+            << "; Ctrl-C ends\n";
+  LiveView live(std::move(*bus), options.prefix, std::move(hands), **server, clock);
+  while (!stop && !live.broken()) live.step(std::chrono::milliseconds(20));
+  return live.broken() ? tell({"the LCM connection broke", options.lcm_url, "start again"}, kExitFailure) : kExitOk;
+}
+
+}  // namespace
+
+int run_view(const ViewOptions& options) {
+  std::atomic<bool> stop = false;
+  const InterruptWatcher interrupt([&stop] { stop = true; });
+  if (options.lcm != options.logs.empty())
+    return tell({"nothing to show", "", "give logs, or --lcm, but not both"}, kExitUsage);
+  const auto address = parse_web_address(options.port);
+  if (!address) return tell(address.error(), kExitUsage);
+  auto hands = shown_hands(options.hands);
+  if (!hands) return tell(hands.error(), kExitUsage);
+  const int code = options.lcm ? view_network(options, *address, std::move(*hands), stop)
+                               : view_logs(options, *address, std::move(*hands), stop);
+  return code == kExitOk && interrupt.signal() == SIGINT ? kExitInterrupted : code;
+}
+
+}  // namespace barehand

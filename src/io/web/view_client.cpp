@@ -1,0 +1,150 @@
+#include "io/web/view_client.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace barehand {
+namespace {
+constexpr std::int64_t kSkinPeriodUs = 2'000'000;  // a profile that is being learnt changes often
+}
+
+ViewClient::ViewClient(WebSocket socket, const Clock& clock, OnCommand on_command, OnGone on_gone)
+    : socket_(socket), clock_(clock), on_command_(std::move(on_command)), on_gone_(std::move(on_gone)) {}
+
+ViewClient::~ViewClient() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  on_gone_(*this);
+}
+
+void ViewClient::start() {
+  thread_ = std::thread([this] { run(); });
+}
+
+bool ViewClient::hear(std::string_view text) {
+  const auto demand = parse_view_demand(text);
+  if (demand)
+    if (const auto* command = std::get_if<PlayerCommand>(&*demand)) on_command_(*command);
+
+  const std::lock_guard lock(mutex_);
+  if (!demand) {
+    const nlohmann::json reply{{"type", "error"}, {"text", demand.error().message()}};
+    constexpr auto replace = nlohmann::json::error_handler_t::replace;  // what came need not be UTF-8
+    next_.reply = std::make_shared<const std::string>(reply.dump(-1, ' ', false, replace));
+  } else if (const auto* wish = std::get_if<ViewWish>(&*demand)) {
+    next_.wish = *wish;
+    asked_ = true;
+    under_way_ = 0;
+    next_at_us_ = 0;
+  } else if (std::holds_alternative<ViewAcknowledge>(*demand) && under_way_ > 0) {
+    --under_way_;
+  }
+  changed_.notify_all();
+  return !broken_;
+}
+
+void ViewClient::post(ViewFramePtr frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (ending_) return;
+    ++pushed_;
+    if (next_.frame) ++dropped_;
+    next_.frame = std::move(frame);
+  }
+  changed_.notify_all();
+}
+
+void ViewClient::post_status(StatusText status) {
+  {
+    const std::lock_guard lock(mutex_);
+    next_.status = std::move(status);
+  }
+  changed_.notify_all();
+}
+
+QueueHealth ViewClient::health() const {
+  const std::lock_guard lock(mutex_);
+  return {"view", 1, next_.frame ? 1u : 0u, pushed_, popped_, dropped_, {}};
+}
+
+void ViewClient::run() {
+  Due due;
+  while (wait(due)) {
+    if (send(due)) continue;
+    const std::lock_guard lock(mutex_);
+    broken_ = true;
+  }
+}
+
+bool ViewClient::has_due(std::int64_t now_us) const {
+  if (broken_) return false;
+  return next_.status || next_.reply || has_due_frame(now_us);
+}
+
+bool ViewClient::has_due_frame(std::int64_t now_us) const {
+  const bool window_open = next_.wish.window == 0 || under_way_ < next_.wish.window;
+  return next_.frame && asked_ && window_open && now_us >= next_at_us_;
+}
+
+/// Waits for something that may be sent, and takes it. False: the client ends.
+bool ViewClient::wait(Due& due) {
+  std::unique_lock lock(mutex_);
+  while (!ending_ && !has_due(clock_.steady_us())) {
+    const std::int64_t early_us = next_.frame ? next_at_us_ - clock_.steady_us() : 0;
+    if (early_us > 0 && !broken_)
+      changed_.wait_for(lock, std::chrono::microseconds(early_us));
+    else
+      changed_.wait(lock);
+  }
+  if (ending_) return false;
+  due.status = std::exchange(next_.status, nullptr);
+  due.reply = std::exchange(next_.reply, nullptr);
+  due.wish = next_.wish;
+  due.frame = nullptr;
+
+  // A frame waits on where the window is closed or its time has not come.
+  if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
+    due.frame = std::exchange(next_.frame, nullptr);
+    ++popped_;
+    if (next_.wish.window > 0) ++under_way_;
+    next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.wish.rate * 0.9);
+  }
+  return true;
+}
+
+bool ViewClient::send(const Due& due) {
+  if (due.reply && !socket_.send_text(*due.reply)) return false;
+  if (due.status && !socket_.send_text(*due.status)) return false;
+  return !due.frame || send_frame(*due.frame, due.wish);
+}
+
+bool ViewClient::send_frame(const ViewFrame& frame, const ViewWish& wish) {
+  bytes_.clear();
+  write_new_skins(frame);
+  frame.write_states(clock_.utime(), bytes_);
+  const auto append = [&](std::span<const std::uint8_t> chunk) {
+    bytes_.insert(bytes_.end(), chunk.begin(), chunk.end());
+  };
+  append(frame.cloud(wish.cloud));
+  append(frame.picture(wish.picture, wish.large));
+  return socket_.send_binary(bytes_);
+}
+
+void ViewClient::write_new_skins(const ViewFrame& frame) {
+  for (std::size_t side = 0; side < skins_.size(); ++side) {
+    const ViewSkinPtr& skin = frame.content().skins[side];
+    const std::int64_t now_us = clock_.steady_us();
+    const bool early = skins_[side] && now_us - skin_sent_us_[side] < kSkinPeriodUs;
+    if (!skin || skin == skins_[side] || early) continue;
+    bytes_.insert(bytes_.end(), skin->bytes().begin(), skin->bytes().end());
+    skins_[side] = skin;
+    skin_sent_us_[side] = now_us;
+  }
+}
+
+}  // namespace barehand

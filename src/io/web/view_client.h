@@ -1,0 +1,72 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "core/clock.h"
+#include "core/statistics.h"
+#include "io/web/view_frame.h"
+#include "io/web/web_server.h"
+
+namespace barehand {
+
+using StatusText = std::shared_ptr<const std::string>;  ///< JSON
+
+/// One client of the page's WebSocket. It keeps the newest frame that was not sent yet, and nothing behind it, and
+/// sends on a thread of its own; frames not before the client has said what it wants of them. A client that reads
+/// slowly, or not at all, gets fewer frames and holds up nobody.
+class ViewClient : public WebPeer {
+ public:
+  using OnCommand = std::function<void(const PlayerCommand&)>;
+  using OnGone = std::function<void(const ViewClient&)>;
+  /// `on_command` and `on_gone` are called on threads of the server, `on_gone` while the client is being destroyed.
+  ViewClient(WebSocket socket, const Clock& clock, OnCommand on_command, OnGone on_gone);
+  ~ViewClient() override;
+
+  void start() override;
+  bool hear(std::string_view text) override;
+  /// Any thread, at once. A frame that waits is replaced and counted as dropped.
+  void post(ViewFramePtr frame);
+  void post_status(StatusText status);
+  /// Frames of this client; a capacity of one.
+  QueueHealth health() const;
+
+ private:
+  /// What is to be sent next.
+  struct Due {
+    ViewFramePtr frame;
+    StatusText status, reply;
+    ViewWish wish;
+  };
+  void run();
+  bool wait(Due& due);
+  bool has_due(std::int64_t now_us) const;
+  bool has_due_frame(std::int64_t now_us) const;
+  bool send(const Due& due);
+  bool send_frame(const ViewFrame& frame, const ViewWish& wish);
+  void write_new_skins(const ViewFrame& frame);
+
+  WebSocket socket_;
+  const Clock& clock_;
+  const OnCommand on_command_;
+  const OnGone on_gone_;
+
+  mutable std::mutex mutex_;  // protects the members down to the blank line
+  std::condition_variable changed_;
+  Due next_;
+  int under_way_ = 0;            // sent and not acknowledged
+  std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
+  std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
+  bool asked_ = false, ending_ = false, broken_ = false;
+
+  std::array<ViewSkinPtr, 2> skins_;  // sent last; sender's thread only, like the next one
+  std::array<std::int64_t, 2> skin_sent_us_{};
+  std::vector<std::uint8_t> bytes_;
+  std::thread thread_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,80 @@
+#include "io/web/view_request.h"
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace barehand {
+namespace {
+
+using nlohmann::json;
+constexpr const char* kWhere = "message of a client";
+
+/// The position of `message[key]` among `names`, 0 where there is no such key.
+Result<int> choice_of(const json& message, const char* key, std::initializer_list<const char*> names) {
+  const std::string wanted = message.value(key, *names.begin());
+  std::string list;
+  int position = 0;
+  for (const char* name : names) {
+    if (wanted == name) return position;
+    list.append(list.empty() ? "" : ", ").append(name);
+    ++position;
+  }
+  return fail(std::string("no such ") + key, kWhere, "ask for one of " + list);
+}
+
+Result<ViewDemand> wish_of(const json& message) {
+  ViewWish wish;
+  const auto cloud = choice_of(message, "cloud", {"none", "hand", "scene"});
+  if (!cloud) return tl::unexpected(cloud.error());
+  wish.cloud = static_cast<ViewCloud>(*cloud);
+  const auto picture = choice_of(message, "picture", {"none", "colour", "depth"});
+  if (!picture) return tl::unexpected(picture.error());
+  wish.picture = static_cast<ViewPicture>(*picture);
+  wish.large = message.value("large", wish.large);
+  wish.rate = message.value("rate", wish.rate);
+  if (!(wish.rate >= 0.1 && wish.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
+  wish.window = message.value("window", wish.window);
+  if (wish.window < 0 || wish.window > 100) return fail("window is out of range", kWhere, "give 0 to 100");
+  return wish;
+}
+
+std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
+  using Kind = PlayerCommand::Kind;
+  constexpr std::array<std::pair<const char*, Kind>, 6> kKinds = {{{"play", Kind::play},
+                                                                   {"pause", Kind::pause},
+                                                                   {"seek", Kind::seek},
+                                                                   {"step", Kind::step},
+                                                                   {"speed", Kind::speed},
+                                                                   {"lost", Kind::lost}}};
+  for (const auto& [name, kind] : kKinds)
+    if (type == name) return kind;
+  return std::nullopt;
+}
+
+Result<ViewDemand> demand_of(const json& message) {
+  const std::string type = message.at("type");
+  if (type == "want") return wish_of(message);
+  if (type == "ack") return ViewAcknowledge{};
+  const auto kind = player_kind(type);
+  if (!kind) return fail("unknown type", kWhere, "give want, ack, play, pause, seek, step, speed or lost");
+  const double value = message.value("value", 0.0);
+  if (!(std::abs(value) <= 1e9)) return fail("value is out of range", kWhere, "give a number");
+  return PlayerCommand{*kind, value};
+}
+
+}  // namespace
+
+Result<ViewDemand> parse_view_demand(std::string_view text) {
+  // A client may send anything; nlohmann's exceptions say what was wrong with it.
+  try {
+    return demand_of(json::parse(text));
+  } catch (const json::exception& error) {
+    return fail(error.what(), kWhere, "send JSON as docs/view.md says");
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,77 @@
+#include "io/web/view_server.h"
+
+#include "io/web/web_page.h"
+
+namespace barehand {
+
+Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clock& clock) {
+  auto page = read_web_page();
+  if (!page) return tl::unexpected(page.error());
+  if (!options.on_command) options.on_command = [](const PlayerCommand&) {};
+  std::unique_ptr<ViewServer> server(new ViewServer(std::move(options.on_command), clock));
+
+  WebServer::Options web;
+  web.address = options.address.address;
+  web.port = options.address.port;
+  web.invited = std::move(options.invited);
+  web.files = std::move(*page);
+  web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
+  auto started = WebServer::start(std::move(web));
+  if (!started) return tl::unexpected(started.error());
+  server->web_ = std::move(*started);
+  return server;
+}
+
+ViewServer::~ViewServer() = default;
+
+std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
+  auto client =
+      std::make_unique<ViewClient>(socket, clock_, on_command_, [this](const ViewClient& gone) { forget(gone); });
+  const std::lock_guard lock(mutex_);
+  clients_.insert(client.get());
+  clients_count_ = static_cast<int>(clients_.size());
+  if (status_) client->post_status(status_);
+  if (frame_) client->post(frame_);
+  return client;
+}
+
+void ViewServer::forget(const ViewClient& client) {
+  const QueueHealth last = client.health();
+  const std::lock_guard lock(mutex_);
+  gone_.pushed += last.pushed;
+  gone_.popped += last.popped;
+  gone_.dropped += last.dropped + static_cast<std::int64_t>(last.depth);
+  clients_.erase(const_cast<ViewClient*>(&client));
+  clients_count_ = static_cast<int>(clients_.size());
+  if (clients_.empty()) frame_ = nullptr;  // what comes next is newer by far
+}
+
+void ViewServer::show(const ViewFramePtr& frame) {
+  const std::lock_guard lock(mutex_);
+  frame_ = frame;
+  for (ViewClient* client : clients_) client->post(frame);
+}
+
+void ViewServer::show_status(std::string json) {
+  const auto status = std::make_shared<const std::string>(std::move(json));
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+  for (ViewClient* client : clients_) client->post_status(status);
+}
+
+QueueHealth ViewServer::health() const {
+  const std::lock_guard lock(mutex_);
+  QueueHealth all = gone_;
+  all.name = "view";
+  all.capacity = clients_.size();
+  for (const ViewClient* client : clients_) {
+    const QueueHealth one = client->health();
+    all.depth += one.depth;
+    all.pushed += one.pushed;
+    all.popped += one.popped;
+    all.dropped += one.dropped;
+  }
+  return all;
+}
+
+}  // namespace barehand

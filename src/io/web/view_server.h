@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "core/clock.h"
+#include "core/statistics.h"
+#include "io/web/view_client.h"
+
+namespace barehand {
+
+/// Serves the live page and what it shows. Whoever posts never waits for a client.
+class ViewServer {
+ public:
+  struct Options {
+    WebAddress address;
+    std::vector<std::string> invited;  ///< foreign origins whose pages may connect
+    /// Commands of clients, on threads of the server. Empty: there is nothing to play.
+    std::function<void(const PlayerCommand&)> on_command;
+  };
+  /// `clock` outlives it. Errors: the port is taken, the page's files are missing.
+  static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);
+  ~ViewServer();
+
+  std::string url() const { return web_->url(); }
+  /// Whether anybody looks; else nothing need be made for show().
+  bool has_clients() const { return clients_count_ > 0; }
+  int clients() const { return clients_count_; }
+  /// Any thread: the newest frame, of all clients.
+  void show(const ViewFramePtr& frame);
+  /// Any thread: JSON, to those who are there and, until the next one, to those who come.
+  void show_status(std::string json);
+  /// Frames for clients since the start, of all of them together. The capacity is one frame a client.
+  QueueHealth health() const;
+
+ private:
+  ViewServer(std::function<void(const PlayerCommand&)> on_command, const Clock& clock)
+      : on_command_(std::move(on_command)), clock_(clock) {}
+  std::unique_ptr<WebPeer> connect(WebSocket socket);
+  void forget(const ViewClient& client);
+
+  const std::function<void(const PlayerCommand&)> on_command_;
+  const Clock& clock_;
+  std::atomic<int> clients_count_ = 0;
+
+  mutable std::mutex mutex_;  // protects the members down to the blank line
+  std::set<ViewClient*> clients_;
+  QueueHealth gone_;  // of the clients that have left
+  ViewFramePtr frame_;
+  StatusText status_;
+
+  std::unique_ptr<WebServer> web_;  // destroyed first: it lets all clients go
+};
+
+}  // namespace barehand

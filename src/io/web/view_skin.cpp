@@ -1,0 +1,42 @@
+#include "io/web/view_skin.h"
+
+#include "hand/skin.h"
+#include "io/web/view_bytes.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kCell = 0.004;  // m; finer is not seen on a screen
+
+void put_vector(ChunkWriter& out, const Eigen::Vector3f& v) {
+  for (int i = 0; i < 3; ++i) out.put<float>(v[i]);
+}
+
+std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
+  Skin skin = make_skin(profile, kCell);
+  if (profile.scanned_skin) skin = coarsened(skin, kCell);
+  std::vector<std::uint8_t> bytes;
+  ChunkWriter out(bytes);
+  out.begin('S', static_cast<int>(profile.handedness));
+  out.put(static_cast<std::uint32_t>(skin.vertices.size()));
+  out.put(static_cast<std::uint32_t>(skin.triangles.size()));
+  for (const SkinVertex& v : skin.vertices) put_vector(out, v.in_a);
+  for (const SkinVertex& v : skin.vertices) put_vector(out, v.a == v.b ? v.in_a : v.in_b);
+  for (const SkinVertex& v : skin.vertices) put_vector(out, v.normal_in_a);
+  for (const SkinVertex& v : skin.vertices) out.put<float>(v.weight_b);
+  for (const auto& triangle : skin.triangles)
+    for (const std::int32_t corner : triangle) out.put(static_cast<std::uint32_t>(corner));
+  for (const SkinVertex& v : skin.vertices) out.put(static_cast<std::uint8_t>(v.a));
+  for (const SkinVertex& v : skin.vertices) out.put(static_cast<std::uint8_t>(v.b));
+  out.end();
+  return bytes;
+}
+
+}  // namespace
+
+const std::vector<std::uint8_t>& ViewSkin::bytes() const {
+  std::call_once(made_, [this] { bytes_ = skin_chunk(*profile_); });
+  return bytes_;
+}
+
+}  // namespace barehand

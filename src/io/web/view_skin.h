@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hand/profile.h"
+
+namespace barehand {
+
+/// The skin of a hand profile as the page draws it. Whoever asks first makes it, on his thread: that takes tens of
+/// milliseconds.
+class ViewSkin {
+ public:
+  explicit ViewSkin(std::shared_ptr<const HandProfile> profile) : profile_(std::move(profile)) {}
+  const std::shared_ptr<const HandProfile>& profile() const { return profile_; }
+  /// One chunk 'S'.
+  const std::vector<std::uint8_t>& bytes() const;
+
+ private:
+  std::shared_ptr<const HandProfile> profile_;
+  mutable std::once_flag made_;
+  mutable std::vector<std::uint8_t> bytes_;
+};
+using ViewSkinPtr = std::shared_ptr<const ViewSkin>;
+
+}  // namespace barehand

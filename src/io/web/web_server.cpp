@@ -1,0 +1,201 @@
+#include "io/web/web_server.h"
+
+#include <civetweb.h>
+
+#include <atomic>
+#include <charconv>
+#include <mutex>
+
+#include "io/web/own_origin.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::size_t kLongestMessage = 64 << 10;  // of a client [bytes]
+constexpr int kText = 1, kClose = 8;               // WebSocket opcodes
+
+std::string_view header(const mg_connection* connection, const char* name) {
+  const char* value = mg_get_header(connection, name);
+  return value ? value : "";
+}
+
+/// What the server keeps of one connection.
+struct Connection {
+  std::unique_ptr<WebPeer> peer;
+  std::string message;  // the parts that have come of it
+};
+
+Connection* connection_of(const mg_connection* connection) {
+  return static_cast<Connection*>(mg_get_user_connection_data(connection));
+}
+
+}  // namespace
+
+bool WebSocket::send_text(std::string_view text) { return send(MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size()); }
+bool WebSocket::send_binary(std::span<const std::uint8_t> bytes) {
+  return send(MG_WEBSOCKET_OPCODE_BINARY, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+bool WebSocket::send(int opcode, const char* data, std::size_t size) {
+  // It returns what it wrote of the header and the data; less than the data is a frame that was cut off.
+  return mg_websocket_write(connection_, opcode, data, size) >= static_cast<int>(size) && size > 0;
+}
+
+class WebServer::Impl {
+ public:
+  explicit Impl(Options options) : options_(std::move(options)) {}
+  ~Impl() {
+    if (context_) mg_stop(context_);
+  }
+
+  Result<int> start();
+
+ private:
+  /// An HTTP request.
+  int answer(mg_connection* connection) const;
+  static void send_error(mg_connection* connection, int status, const char* text);
+  bool is_allowed(const mg_connection* connection) const;
+  bool admit(const mg_connection* connection);
+  void ready(mg_connection* connection);
+  static bool hear(const mg_connection* connection, int bits, std::string_view data);
+  void closed(const mg_connection* connection);
+
+  static int on_request(mg_connection* connection, void* self) { return static_cast<Impl*>(self)->answer(connection); }
+  static int on_connect(const mg_connection* connection, void* self) {
+    return static_cast<Impl*>(self)->admit(connection) ? 0 : 1;
+  }
+  static void on_ready(mg_connection* connection, void* self) { static_cast<Impl*>(self)->ready(connection); }
+  static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void*) {
+    return hear(connection, bits, {data, size}) ? 1 : 0;
+  }
+  static void on_close(const mg_connection* connection, void* self) { static_cast<Impl*>(self)->closed(connection); }
+
+  const Options options_;
+  mg_context* context_ = nullptr;
+  std::atomic<int> clients_ = 0;
+};
+
+Result<int> WebServer::Impl::start() {
+  // Every WebSocket holds one of the server's threads for as long as it lives.
+  const std::string threads = std::to_string(kMaxClients + 8), stuck = std::to_string(kStuckSeconds * 1000);
+  const std::string port = options_.address + ":" + std::to_string(options_.port);
+  const char* settings[] = {"listening_ports",
+                            port.c_str(),
+                            "num_threads",
+                            threads.c_str(),
+                            "tcp_nodelay",
+                            "1",
+                            "request_timeout_ms",
+                            stuck.c_str(),
+                            "websocket_timeout_ms",
+                            stuck.c_str(),
+                            "enable_websocket_ping_pong",
+                            "yes",
+                            "access_control_allow_origin",
+                            "",
+                            "enable_directory_listing",
+                            "no",
+                            nullptr};
+  mg_callbacks callbacks{};
+  callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // said by start() itself
+  context_ = mg_start(&callbacks, this, settings);
+  if (!context_) return fail("cannot listen on " + port, "view", "another program may have the port; give --view=PORT");
+
+  mg_set_request_handler(context_, "**", on_request, this);
+  mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
+  mg_server_port ports[1] = {};
+  return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
+}
+
+bool WebServer::Impl::is_allowed(const mg_connection* connection) const {
+  const std::string_view host = header(connection, "Host");
+  return is_own_host(host) && is_welcome(header(connection, "Origin"), host, options_.invited);
+}
+
+void WebServer::Impl::send_error(mg_connection* connection, int status, const char* text) {
+  mg_send_http_error(connection, status, "%s", text);
+}
+
+int WebServer::Impl::answer(mg_connection* connection) const {
+  const mg_request_info& request = *mg_get_request_info(connection);
+  const std::string_view method = request.request_method;
+  if (!is_allowed(connection))
+    send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
+  else if (method != "GET" && method != "HEAD")
+    send_error(connection, 405, "Files can be read only.");
+  else if (const auto file =
+               options_.files.find(std::string_view(request.local_uri) == "/" ? "/index.html" : request.local_uri);
+           file == options_.files.end())
+    send_error(connection, 404, "There is no such file.");
+  else {
+    mg_printf(connection,
+              "HTTP/1.1 200 OK\r\nContent-Type: %s\r\nContent-Length: %zu\r\nCache-Control: no-cache\r\n"
+              "X-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\n"
+              "Content-Security-Policy: default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws:\r\n"
+              "Connection: close\r\n\r\n",
+              file->second.type.c_str(), file->second.bytes.size());
+    if (method == "GET") mg_write(connection, file->second.bytes.data(), file->second.bytes.size());
+  }
+  return 1;  // the request is done with, whatever the status
+}
+
+bool WebServer::Impl::admit(const mg_connection* connection) {
+  if (!is_allowed(connection)) return false;
+  if (++clients_ <= kMaxClients) return true;
+  --clients_;
+  return false;
+}
+
+void WebServer::Impl::ready(mg_connection* connection) {
+  auto made = std::make_unique<Connection>();
+  made->peer = options_.connect(WebSocket(connection));
+  WebPeer& peer = *made->peer;
+  mg_set_user_connection_data(connection, made.release());
+  peer.start();
+}
+
+bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::string_view data) {
+  Connection* known = connection_of(connection);
+  const int opcode = bits & 0xf;
+  const bool last = (bits & 0x80) != 0;
+  if (!known || opcode == kClose) return false;
+  if (opcode > kClose) return true;  // ping and pong are the server's own
+  if (opcode == kText) known->message.clear();
+  if (known->message.size() + data.size() > kLongestMessage) return false;
+  known->message.append(data);
+  return !last || known->peer->hear(known->message);
+}
+
+void WebServer::Impl::closed(const mg_connection* connection) {
+  const std::unique_ptr<Connection> known(connection_of(connection));
+  --clients_;
+}
+
+WebServer::WebServer() = default;
+WebServer::~WebServer() = default;
+
+Result<std::unique_ptr<WebServer>> WebServer::start(Options options) {
+  std::unique_ptr<WebServer> server(new WebServer);
+  server->impl_ = std::make_unique<Impl>(std::move(options));
+  const auto port = server->impl_->start();
+  if (!port) return tl::unexpected(port.error());
+  server->port_ = *port;
+  return server;
+}
+
+std::string WebServer::url() const { return "http://localhost:" + std::to_string(port_); }
+
+Result<WebAddress> parse_web_address(const std::string& text) {
+  WebAddress out;
+  std::string_view port = text;
+  if (const auto colon = text.rfind(':'); colon != std::string::npos) {
+    out.address = text.substr(0, colon);
+    port.remove_prefix(colon + 1);
+  }
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), out.port);
+  const bool number = error == std::errc() && end == port.data() + port.size() && out.port >= 0 && out.port < 65536;
+  if (!number || out.address.empty())
+    return fail("no port", text, "give PORT, or ADDRESS:PORT such as 0.0.0.0:8765 for the whole network");
+  return out;
+}
+
+}  // namespace barehand

@@ -1,0 +1,89 @@
+#include "pipeline/sinks/view_sink.h"
+
+#include <limits>
+
+#include "core/format.h"
+
+namespace barehand {
+namespace {
+
+constexpr std::int64_t kStatusPeriodUs = 500'000;
+constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this long without a frame the status says so
+
+template <class Message>
+ViewMessage encoded(const char* channel, const Message& message) {
+  ViewMessage out{channel, {}};
+  out.bytes.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(out.bytes.data(), 0, static_cast<int>(out.bytes.size()));
+  return out;
+}
+
+}  // namespace
+
+ViewSink::ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
+                   Slot<PublishParams>* news)
+    : params_(params),
+      server_(server),
+      input_(std::move(input)),
+      clock_(clock),
+      news_(news),
+      frame_us_(clock.steady_us()),
+      status_us_(clock.steady_us() - kStatusPeriodUs) {}
+
+Result<void> ViewSink::consume(const TrackedFrame& tracked) {
+  frame_us_ = clock_.steady_us();
+  any_frame_ = true;
+  if (const auto params = news_ ? news_->take() : std::nullopt) {
+    params_ = *params;
+    makers_.clear();
+  }
+  if (server_.has_clients()) server_.show(make_frame(tracked));
+  return idle();
+}
+
+Result<void> ViewSink::idle() {
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs) show_status();
+  return {};
+}
+
+ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
+  while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
+  ViewFrame::Content content;
+  content.utime = tracked.frame->utime;
+  content.number = tracked.frame->number;
+  content.frame = tracked.frame;
+  FrameVector<Eigen::Vector3d> places;
+  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) {
+    const HandEstimate& estimate = *tracked.estimates[k];
+    if (estimate.has_pose())
+      for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
+    const HandMessages messages = makers_[k].process(estimate);
+    content.messages.push_back(encoded("HAND_STATE", messages.state));
+    content.messages.push_back(encoded("GLOVE_STATE", messages.glove));
+    content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
+  }
+  content.focus = focus_on(places, tracked.frame->camera);
+  return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
+}
+
+ViewSkinPtr ViewSink::skin_of(const HandEstimate& estimate) {
+  ViewSkinPtr& last = skins_[static_cast<std::size_t>(estimate.handedness)];
+  if (estimate.profile && (!last || last->profile() != estimate.profile))
+    last = std::make_shared<const ViewSkin>(estimate.profile);
+  return last;
+}
+
+void ViewSink::show_status() {
+  status_us_ = clock_.steady_us();
+  if (!server_.has_clients()) return server_.show_status(status_json({input_.source, input_.live, "", 0, {}, {}}));
+
+  ViewState state{input_.source, input_.live, "", server_.clients(), input_.health(), {}};
+  state.health->queues.push_back(server_.health());
+  if (const std::int64_t silent_us = status_us_ - frame_us_; silent_us >= kNoFramesUs)
+    state.trouble = formatted(any_frame_ ? "No frame has come from the source for %lld s."
+                                         : "No frame has come from the source yet, for %lld s.",
+                              static_cast<long long>(silent_us / 1'000'000));
+  server_.show_status(status_json(state));
+}
+
+}  // namespace barehand

@@ -1,0 +1,37 @@
+// The WebSocket: connects again by itself, says what is wanted of every frame, and acknowledges what was shown, so that
+// a slow browser gets fewer frames instead of late ones.
+import {decodeFrame} from "./messages.js";
+
+const kRetryMs = 1000;
+const kWindow = 2;  // frames under way
+
+export class Connection {
+  // onFrame(frame), onStatus(status), onOpen(), onClose()
+  constructor(handlers) {
+    this.handlers = handlers;
+    this.wish = {};
+    this.connect();
+  }
+
+  connect() {
+    this.socket = new WebSocket(`ws://${location.host}/live`);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.onopen = () => { this.handlers.onOpen(); this.sendWish(); };
+    this.socket.onmessage = (event) => this.hear(event.data);
+    this.socket.onclose = () => { this.handlers.onClose(); setTimeout(() => this.connect(), kRetryMs); };
+  }
+
+  hear(data) {
+    if (typeof data !== "string") return this.handlers.onFrame(decodeFrame(data));
+    const message = JSON.parse(data);
+    if (message.type === "status") this.handlers.onStatus(message);
+    if (message.type === "error") console.warn(message.text);
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+  sendWish() { this.send({type: "want", window: kWindow, ...this.wish}); }
+  want(wish) { this.wish = wish; this.sendWish(); }
+  acknowledge() { this.send({type: "ack"}); }
+}

@@ -1,0 +1,51 @@
+// Decodes the LCM messages that the page needs (lcmtypes/*.lcm). LCM is big endian; a message starts with the 8 bytes of
+// its type's fingerprint.
+
+class Reader {
+  constructor(view, at) { this.view = view; this.at = at; }
+  int8() { return this.view.getInt8(this.at++); }
+  int32() { this.at += 4; return this.view.getInt32(this.at - 4); }
+  int64() { this.at += 8; return Number(this.view.getBigInt64(this.at - 8)); }
+  double() { this.at += 8; return this.view.getFloat64(this.at - 8); }
+  doubles(count) { return Array.from({length: count}, () => this.double()); }
+  int8s(count) { return Array.from({length: count}, () => this.int8()); }
+  string() {
+    const length = this.int32();
+    const bytes = new Uint8Array(this.view.buffer, this.view.byteOffset + this.at, length - 1);
+    this.at += length;
+    return new TextDecoder().decode(bytes);
+  }
+}
+
+function header(read) {
+  return {utime: read.int64(), frame_number: read.int64(), sensor: read.string(), hand_id: read.int32(),
+          handedness: read.int8(), status: read.int8()};
+}
+
+function segment(read) {
+  return {position: read.doubles(3), orientation: read.doubles(4), distal: read.doubles(3),
+          smoothed_position: read.doubles(3), smoothed_orientation: read.doubles(4), smoothed_distal: read.doubles(3),
+          linear_velocity: read.doubles(3), angular_velocity: read.doubles(3), covariance: read.doubles(36),
+          confidence: read.double(), visible: read.double(), seen: read.int8() !== 0};
+}
+
+// hand_state_t; orientations are quaternions (w, x, y, z). `view`: a DataView of the whole message.
+export function decodeHandState(view) {
+  const read = new Reader(view, 8);
+  return {...header(read), has_pose: read.int8() !== 0, pose_utime: read.int64(), score: read.double(),
+          joint_gap: read.double(), segments: Array.from({length: 16}, () => segment(read))};
+}
+
+// glove_state_t; angles in radians, NaN where they are not known.
+export function decodeGloveState(view) {
+  const read = new Reader(view, 8);
+  return {...header(read), joint_name: Array.from({length: 21}, () => read.string()), joint_angle: read.doubles(21),
+          joint_angle_raw: read.doubles(21), joint_flag: read.int8s(21), channel: read.doubles(22),
+          channel_raw: read.doubles(22), channel_flag: read.int8s(22)};
+}
+
+export const kStatusNames = ["searching", "tracking", "holding", "lost"];
+export const kSideNames = ["left", "right"];
+export const kGloveChannels = ["thumb rotate", "thumb MPJ", "thumb IJ", "thumb abd", "index MPJ", "index PIJ",
+  "index DIJ", "middle MPJ", "middle PIJ", "middle DIJ", "middle–index", "ring MPJ", "ring PIJ", "ring DIJ",
+  "ring–middle", "little MPJ", "little PIJ", "little DIJ", "little–ring", "palm arch", "wrist pitch", "wrist yaw"];

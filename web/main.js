@@ -1,0 +1,174 @@
+// Puts the page together: what comes from the program goes to the view and the panels, what the user wants to the
+// program.
+import {Connection} from "./connection.js";
+import {Meter, notice, showConnection, showHands, showHealth} from "./panels.js";
+import {Picture} from "./picture.js";
+import {Plots} from "./plots.js";
+import {Timeline} from "./timeline.js";
+
+const byId = (id) => document.getElementById(id);
+const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
+const kSlowFrameMs = 1500;  // after so long without a frame the page says so
+
+const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, freeze: false, picture: "colour", plot: "joints"};
+const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
+const skins = [];  // that came before the view was there
+let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
+
+// three.js may be missing, and a browser may lack WebGL: the rest of the page works all the same.
+async function startScene() {
+  try {
+    const {Scene} = await import("./scene.js");
+    scene = new Scene(byId("scene"));
+    skins.forEach((skin) => scene.setSkin(skin));
+    applyTheme();
+    applyState();
+  } catch (error) {
+    console.warn(error);
+    sceneProblem = String(error).includes("WebGL") ? "This browser draws nothing in 3D: WebGL is off or not supported."
+      : "The 3D view could not be loaded. Is three.js installed beside Barehand (package libjs-three)?";
+  }
+}
+
+const connection = new Connection({
+  onOpen() { open = true; showConnection("good", "connected"); },
+  onClose() {
+    open = false;
+    latest = null;
+    unacknowledged = 0;
+    showConnection("lost", "no connection");
+  },
+  onStatus(message) {
+    status = message;
+    byId("source").textContent = message.source;
+    showHealth(message);
+    timeline.show(message.log);
+  },
+  async onFrame(frame) {
+    for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins.push(skin);
+    frameAt = performance.now();
+    meter.add(frame.header, status && status.live, frameAt);
+    if (!state.freeze) {
+      plots.add(frame);
+      await picture.decode(frame);  // so that hand and picture are those of one frame
+      latest = frame;
+    }
+    ++unacknowledged;
+  },
+});
+const timeline = new Timeline((message) => connection.send(message));
+
+// Once for every picture of the display.
+function loop(now) {
+  if (latest) {
+    shown = latest;
+    latest = null;
+    if (scene) scene.show(shown);
+    showPicture(shown);
+  }
+  if (scene) scene.draw(now);
+  for (; unacknowledged > 0; --unacknowledged) connection.acknowledge();
+  if (now - (loop.slowAt || 0) > 100) {
+    loop.slowAt = now;
+    plots.draw(theme());
+    if (shown) showHands(shown.states);
+    meter.show(status && status.live, performance.now());
+    notice(problem());
+  }
+  requestAnimationFrame(loop);
+}
+
+function showPicture(frame) {
+  picture.explain(state.picture, frame);
+  picture.show(frame, !state.raw, state.view === "camera");
+  if (scene) scene.setPicture(state.view === "camera" && frame.picture ? picture.plain : null);
+}
+
+// What the user must know, most important first; "": all is well.
+function problem() {
+  if (!open) return "No connection to Barehand. Is it still running? The page connects again by itself.";
+  if (status && status.trouble) return `${status.trouble}\nIs the sensor plugged in, or the recording at its end?`;
+  if (sceneProblem) return sceneProblem;
+  if (state.freeze) return "";
+  const paused = status && status.log && !status.log.playing;
+  if (!shown || (performance.now() - frameAt > kSlowFrameMs && !paused)) return "Waiting for frames.";
+  if (shown.states.some((s) => s.has_pose)) return "";
+  const lost = shown.states.some((s) => s.status === 3);
+  return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
+}
+
+function theme() { return document.documentElement.dataset.theme; }
+function applyTheme() {
+  if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim());
+  if (timeline.active) timeline.show(timeline.log);
+}
+function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  applyTheme();
+}
+
+function applyState() {
+  const press = (selector, name, value) => document.querySelectorAll(selector).forEach((button) =>
+    button.setAttribute("aria-pressed", String(value(button.dataset[name]))));
+  press("[data-view]", "view", (view) => view === state.view);
+  press("[data-toggle]", "toggle", (name) => state[name]);
+  press("[data-cloud]", "cloud", (kind) => kind === state.cloud);
+  press("[data-picture]", "picture", (kind) => kind === state.picture);
+  press("[data-plot]", "plot", (kind) => kind === state.plot);
+  byId("frozen").hidden = !state.freeze;
+  plots.kind = state.plot;
+  connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
+  if (!scene) return;
+  if (scene.view !== state.view) scene.setView(state.view);
+  scene.options = {smoothed: !state.raw, ellipsoids: state.ellipsoids};
+  if (!shown) return;
+  showPicture(shown);
+  scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
+}
+function set(change) { Object.assign(state, change); applyState(); }
+const next = (kinds, kind) => kinds[(kinds.indexOf(kind) + 1) % kinds.length];
+const toggle = (name) => set({[name]: !state[name]});
+
+async function saveScreenshot() {
+  if (!scene) return;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await scene.screenshot());
+  link.download = `barehand-${shown ? shown.header.number : "view"}.png`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+function onKey(event) {
+  if (event.ctrlKey || event.altKey || event.metaKey || event.target.tagName === "SELECT") return;
+  if (event.key === " " && event.target.tagName === "BUTTON") return;  // presses it
+  const keys = {
+    "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
+    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), f: () => toggle("freeze"),
+    p: () => set({picture: next(kPictures, state.picture)}),
+    h: () => { plots.side = 1 - plots.side; },
+    s: saveScreenshot, t: () => setTheme(theme() === "dark" ? "light" : "dark"),
+    "?": () => byId("shortcuts").showModal(),
+    " ": () => timeline.active ? timeline.toggle() : toggle("freeze"),
+    ArrowLeft: () => timeline.active && (event.shiftKey ? timeline.lost(-1) : timeline.step(-1)),
+    ArrowRight: () => timeline.active && (event.shiftKey ? timeline.lost(1) : timeline.step(1)),
+  };
+  const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  if (!action) return;
+  event.preventDefault();
+  action();
+}
+
+document.querySelectorAll("[data-view]").forEach((b) => { b.onclick = () => set({view: b.dataset.view}); });
+document.querySelectorAll("[data-toggle]").forEach((b) => { b.onclick = () => toggle(b.dataset.toggle); });
+document.querySelectorAll("[data-cloud]").forEach((b) => { b.onclick = () => set({cloud: b.dataset.cloud}); });
+document.querySelectorAll("[data-picture]").forEach((b) => { b.onclick = () => set({picture: b.dataset.picture}); });
+document.querySelectorAll("[data-plot]").forEach((b) => { b.onclick = () => set({plot: b.dataset.plot}); });
+byId("screenshot").onclick = saveScreenshot;
+byId("theme").onclick = () => setTheme(theme() === "dark" ? "light" : "dark");
+byId("help").onclick = () => byId("shortcuts").showModal();
+window.addEventListener("keydown", onKey);
+
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+applyState();
+startScene();
+requestAnimationFrame(loop);

@@ -1,0 +1,85 @@
+// What is said in words and figures: the hands, the pipeline, and notices that lie over the view.
+import {kSideNames, kStatusNames} from "./lcm.js";
+
+const byId = (id) => document.getElementById(id);
+const kChip = {searching: "warn", tracking: "good", holding: "warn", lost: "lost"};
+
+function element(tag, text, attributes = {}) {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}
+
+export function showHands(states) {
+  const box = byId("hands");
+  if (states.length === 0) return;
+  box.replaceChildren(...states.map((state) => {
+    const status = kStatusNames[state.status] || "?", side = kSideNames[state.handedness];
+    const row = element("div", "", {class: "hand"});
+    row.append(element("b", `${side[0].toUpperCase()}${side.slice(1)} hand`),
+               element("span", status, {class: "chip", "data-state": kChip[status]}), element("span", ""));
+    const mean = state.segments.reduce((sum, s) => sum + s.confidence, 0) / 16;
+    const seen = state.segments.filter((s) => s.seen).length;
+    row.append(element("span", state.has_pose
+      ? `${seen} of 16 segments seen, mean confidence ${mean.toFixed(2)}, mismatch ${(state.score * 1e3).toFixed(1)} mm`
+      : "No pose.", {class: "numbers"}));
+    return row;
+  }));
+}
+
+function table(head, rows) {
+  const made = document.createElement("table"), top = document.createElement("tr");
+  head.forEach((text) => top.append(element("th", text)));
+  made.append(top);
+  for (const row of rows) {
+    const line = document.createElement("tr");
+    row.forEach((cell) => line.append(element("td", cell.text ?? cell, cell.warn ? {class: "warn"} : {})));
+    made.append(line);
+  }
+  return made;
+}
+
+const ms = (seconds) => seconds === null ? "–" : (seconds * 1e3).toFixed(1);
+
+export function showHealth(status) {
+  const health = status.health;
+  if (!health) { byId("health").textContent = "Not known."; return; }
+  const warn = (count) => ({text: String(count), warn: count > 0});
+  const rows = health.stages.map((stage) => [stage.name, ms(stage.time.p50), ms(stage.time.p99), warn(stage.failed)]);
+  if (health.latency.count > 0) rows.push(["latency", ms(health.latency.p50), ms(health.latency.p99), ""]);
+  byId("health").replaceChildren(
+    table(["frames", "captured", "published", "dropped"], [["", health.captured, health.published, warn(health.dropped)].map(String2)]),
+    table(["time", "median ms", "p99 ms", "failed"], rows),
+    table(["queue", "waiting", "holds", "dropped"],
+          health.queues.map((q) => [q.name, String(q.depth), String(q.capacity), q.name === "view" ? String(q.dropped) : warn(q.dropped)])));
+}
+function String2(cell) { return typeof cell === "object" ? cell : String(cell); }
+
+// One plain sentence over the view; "": none.
+export function notice(text) {
+  byId("notice").hidden = text === "";
+  byId("notice").textContent = text;
+}
+
+export function showConnection(state, text) {
+  byId("connection").dataset.state = state;
+  byId("connection").textContent = text;
+}
+
+// Frames a second and latency, as measured here.
+export class Meter {
+  constructor() { this.arrivals = []; }
+  add(header, live, now) {
+    this.arrivals.push(now);
+    while (this.arrivals.length > 1 && now - this.arrivals[0] > 2000) this.arrivals.shift();
+    if (live && header.sent > header.utime) this.latency = (header.sent - header.utime) / 1000;
+  }
+  show(live, now) {
+    while (this.arrivals.length > 0 && now - this.arrivals[0] > 2000) this.arrivals.shift();
+    byId("rate").textContent = (this.arrivals.length / 2).toFixed(0);
+    const known = live && this.latency !== undefined && this.latency < 10000;
+    byId("latency").parentElement.hidden = !known;
+    if (known) byId("latency").textContent = this.latency.toFixed(0);
+  }
+}

@@ -1,0 +1,51 @@
+// The time line of a log that is played: where it stands, where the hand was lost.
+const byId = (id) => document.getElementById(id);
+
+export class Timeline {
+  // send({type, value}) goes to the program.
+  constructor(send) {
+    this.send = send;
+    this.log = null;
+    byId("play").onclick = () => this.toggle();
+    byId("step_back").onclick = () => this.step(-1);
+    byId("step_on").onclick = () => this.step(1);
+    byId("lost_before").onclick = () => this.lost(-1);
+    byId("lost_next").onclick = () => this.lost(1);
+    byId("speed").onchange = () => send({type: "speed", value: Number(byId("speed").value)});
+    byId("position").oninput = () => send({type: "seek", value: Number(byId("position").value)});
+  }
+
+  get active() { return this.log !== null; }
+  toggle() { this.send({type: this.log && this.log.playing ? "pause" : "play"}); }
+  step(frames) { this.send({type: "step", value: frames}); }
+  lost(direction) { this.send({type: "lost", value: direction}); }
+
+  show(log) {
+    this.log = log;
+    byId("timeline").hidden = log === null;
+    if (!log) return;
+    byId("position").max = Math.max(0, log.frames - 1);
+    if (document.activeElement !== byId("position") || log.playing) byId("position").value = log.position;
+    byId("play").textContent = log.playing ? "❚❚" : "▶";
+    byId("speed").value = String(log.speed);
+    const lost = log.lost.reduce((sum, [first, last]) => sum + last - first + 1, 0);
+    byId("log_time").textContent = `frame ${log.position + 1} of ${log.frames}, ${log.at.toFixed(2)} s of ` +
+      `${log.seconds.toFixed(2)} s; ${lost === 0 ? "a hand in every frame" : `${lost} frames without a hand`}`;
+    this.mark(log);
+  }
+
+  mark(log) {
+    const canvas = byId("lost_marks"), draw = canvas.getContext("2d");
+    canvas.width = canvas.clientWidth;
+    canvas.height = 10;
+    const style = getComputedStyle(document.documentElement);
+    const x = (frame) => canvas.width * frame / Math.max(1, log.frames);
+    draw.fillStyle = style.getPropertyValue("--good");
+    draw.fillRect(0, 3, canvas.width, 4);
+    draw.fillStyle = style.getPropertyValue("--bad");
+    for (const [first, last] of log.lost) {
+      draw.clearRect(x(first), 0, Math.max(2, x(last + 1) - x(first)), 10);
+      draw.fillRect(x(first), 1, Math.max(2, x(last + 1) - x(first)), 8);
+    }
+  }
+}
