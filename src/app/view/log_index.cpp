@@ -14,7 +14,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     const auto files = find_logs(path);
     if (!files) return tl::unexpected(files.error());
-    for (const std::string& file : *files) {
+    for (const std::string& file : files->files) {
       auto log = LcmLogReader::open(file);
       if (!log) return tl::unexpected(log.error());
       index.logs_.push_back(std::move(*log));
