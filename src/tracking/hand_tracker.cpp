@@ -220,6 +220,7 @@ bool HandTracker::doubtful(double score) {
 void HandTracker::remember(const HandObservation& observation, const Fit& fit) {
   if (!fit.prediction) {
     if (!motion_.has_pose()) greet_new_hand();
+    if (fit.size != 1) doubt_size(fit.size);
     motion_.restart(fit.refined.pose, observation.frame->utime);
     return;
   }
@@ -242,20 +243,24 @@ void HandTracker::greet_new_hand() {
 }
 
 void HandTracker::check_size(const HandObservation& observation, const RefinedPose& refined) {
+  if (doubts_size()) return;
   const auto size = size_check_->look(observation, refined.pose, refined.score);
   if (!size) return;
-  if (!person_) {
-    size_in_view_ = *size;
-    return log_->warn("{}", other_size(*size, *model_->profile));
-  }
+  if (!person_) return doubt_size(*size);
   log_->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
   forget_person();
+}
+
+void HandTracker::doubt_size(double size) {
+  size_in_view_ = size;
+  if (!std::exchange(said_size_, true)) log_->warn("{}", other_size(size, *model_->profile));
 }
 
 void HandTracker::meet_person() {
   person_.reset();
   size_check_.reset();
   size_in_view_ = 1;
+  said_size_ = false;
   if (!given_->scanned_skin)
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params_.refinement, params_.shape_fit, params_.skin_cell},
                                          given_, workers_);

@@ -30,6 +30,7 @@ class HandTracker {
   struct Fit {
     RefinedPose refined;
     double joint_gap = 0;
+    double size = 1;  ///< of the hand in view relative to the profile, where the search showed another one
     std::optional<Prediction> prediction;                       ///< none: found by a search
     std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance by the sampler alone, without refinement
   };
@@ -63,6 +64,9 @@ class HandTracker {
   bool unconfirmed() const { return unconfirmed_; }
   /// The next observation, if it shows a hand, is tracked from this pose (T_camera_segment).
   void start_at(const HandPose& pose) { requested_start_ = pose; }
+  /// The hand in view has `size` times the profile's size: said once, and no pose is certain from now on.
+  void doubt_size(double size);
+  bool doubts_size() const { return size_in_view_ != 1; }
   /// Goes on with other parameters: the same hand from its last pose, as fitted to the person so far. What fits it
   /// stays as it is (`shape_fit`).
   void change(const TrackerParams& params);
@@ -122,6 +126,7 @@ class HandTracker {
   std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before
   std::optional<SizeCheck> size_check_;  // of a hand that is not fitted, or no longer
   double size_in_view_ = 1;              ///< of the hand by that of its profile, as far as that is known
+  bool said_size_ = false;
   MotionModel motion_;
   LossDetector loss_;
   PoseUncertainty uncertainty_;

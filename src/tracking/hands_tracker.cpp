@@ -71,7 +71,10 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   });
 
   // Search the others.
-  for (const int k : tracked) judge_trial(k, *out[k]);
+  for (const int k : tracked) {
+    judge_trial(k, *out[k]);
+    judge_size(k, *observations[k], *out[k]);
+  }
   if (tracked.empty())
     search_both(observations, out);
   else
@@ -102,6 +105,21 @@ void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
   if (other) other->start_at(check.mirrored_pose());
 }
 
+void HandsTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
+  if (estimate.status != TrackStatus::tracking || hands_[k]->doubts_size()) return;
+  if (const auto size = checks_[k]->other_size_in_view(observation, estimate.score)) hands_[k]->doubt_size(*size);
+}
+
+bool HandsTracker::judge_size(int k, const HandObservation& observation, std::optional<Fit>& found) {
+  if (!found) return false;
+  checks_[k]->expect_any_size();
+  const auto size = checks_[k]->other_size_in_view(observation, found->refined.score);
+  if (!size) return false;
+  hands_[k]->doubt_size(*size);  // said even if no track starts
+  found->size = *size;
+  return true;
+}
+
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileCheck& check = *checks_[0];
@@ -110,6 +128,7 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   if (hand.status() != TrackStatus::searching || hand.start_is_given()) {
     HandEstimatePtr estimate = track(0, observation);
     judge_trial(0, *estimate);
+    judge_size(0, observation, *estimate);
     return estimate;
   }
 
@@ -118,12 +137,16 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   const int attempts = hand.attempts(effort);
   std::optional<Fit> found = hand.look(observation, effort, attempts);
 
-  // Report a wrong size, or refuse a hand of the other side.
+  // Report a wrong size, or refuse a hand of the other side. A side that the detection sees needs no comparison with a
+  // mirrored hand, which has the wrong size, too.
   const double score = found ? found->refined.score : INFINITY;
-  if (score > params_.loss.lost_score)
-    check.nothing_found(observation, score);
-  else if (check.is_other_side(observation, effort, attempts, score))
-    found.reset();
+  const bool other_size = judge_size(0, observation, found);
+  if (score > params_.loss.lost_score) {
+    if (!other_size) check.nothing_found(observation, score);
+  } else {
+    const bool own_side_seen = other_size && observation.detected->side() == hand.profile().handedness;
+    if (!own_side_seen && check.is_other_side(observation, effort, attempts, score)) found.reset();
+  }
   return hand.process(observation, std::move(found));
 }
 
@@ -151,6 +174,7 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
   const Effort effort = hands_[k]->effort();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
     found = hands_[k]->look(*observations[k], effort, hands_[k]->attempts(effort));
+  judge_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
@@ -198,6 +222,7 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   // Start the tracks. A single start is on trial against the other side.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
+    if (j >= 0) judge_size(k, *observations[j], found[k][j]);
     if (j >= 0 && owned[1 - k] < 0) checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
                    : hands_[k]->process(*observations[j], std::move(found[k][j]));
