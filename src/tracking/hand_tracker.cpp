@@ -149,6 +149,7 @@ void HandTracker::commit(const HandObservation& observation, const Hypothesis& b
   // A pose that was found anew starts a track, or takes it up.
   if (!best.prediction) {
     if (!track_.motion.has_pose()) start_track();
+    if (best.size != 1) person_.doubt_size(best.size);
     track_.motion.restart(best.refined.pose, observation.frame->utime);
     return;
   }
@@ -173,6 +174,8 @@ void HandTracker::apply(const TrackRequest& request) {
   } else if (const auto* other = std::get_if<UseProfile>(&request)) {
     start_anew();
     person_.use(other->profile);
+  } else if (const auto* doubt = std::get_if<DoubtSize>(&request)) {
+    person_.doubt_size(doubt->size);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
     std::shared_ptr<Observer> observer = context_.observer;
     if (!same_observer(context_.params.segment_tracker, changed->params.segment_tracker))
@@ -197,6 +200,7 @@ TrackView HandTracker::view() const {
   const HandPose* const last = track_.motion.has_pose() ? &track_.motion.pose() : nullptr;
   return {.status = track_.state.status(),
           .tentative = track_.tentative(),
+          .doubts_size = person_.size_in_view() != 1,
           .start_is_given = given_start_.has_value(),
           .whereabouts = given_start_ ? &*given_start_ : last,
           .profile = person_.shared_profile(),

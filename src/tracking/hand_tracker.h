@@ -24,12 +24,16 @@ struct UseProfile {
 struct UseParams {
   TrackerParams params;  ///< the same hand goes on from its last pose, as fitted to the person so far
 };
-using TrackRequest = std::variant<StartAt, StartAnew, UseProfile, UseParams>;
+struct DoubtSize {
+  double size;  ///< of the hand in view relative to its profile; said once, and no pose is certain from now on
+};
+using TrackRequest = std::variant<StartAt, StartAnew, UseProfile, UseParams, DoubtSize>;
 
 /// What others may know of a track between two frames.
 struct TrackView {
   TrackStatus status;                          ///< as of the last observation
   bool tentative;                              ///< a lost hand may have been found; the next frame must confirm it
+  bool doubts_size;                            ///< the hand in view seems to be of another size than the profile's
   bool start_is_given;                         ///< a pose from outside waits for the next observation
   const HandPose* whereabouts;                 ///< where the next observation should show the hand; null: anywhere
   std::shared_ptr<const HandProfile> profile;  ///< as fitted to the person so far

@@ -68,7 +68,10 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   });
 
   // Search the others.
-  for (const int k : tracked) judge_trial(k, *out[k]);
+  for (const int k : tracked) {
+    judge_trial(k, *out[k]);
+    judge_size(k, *observations[k], *out[k]);
+  }
   if (tracked.empty())
     search_both(observations, out);
   else
@@ -99,6 +102,22 @@ void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
   if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
+void HandsTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
+  if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().doubts_size) return;
+  const auto size = checks_[k]->other_size_in_view(observation, estimate.score);
+  if (size) hands_[k]->apply(DoubtSize{*size});
+}
+
+bool HandsTracker::judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
+  if (!params_.size_check || !found) return false;
+  checks_[k]->expect_any_size();
+  const auto size = checks_[k]->other_size_in_view(observation, found->score());
+  if (!size) return false;
+  hands_[k]->apply(DoubtSize{*size});  // reported even if no track starts
+  found->size = *size;
+  return true;
+}
+
 HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileCheck& check = *checks_[0];
@@ -108,6 +127,7 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = track(0, observation);
     judge_trial(0, *estimate);
+    judge_size(0, observation, *estimate);
     return estimate;
   }
 
@@ -115,12 +135,15 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
-  // Report a wrong size, or refuse a hand of the other side.
+  // Report a wrong size, or refuse a hand of the other side. A side that the detection sees needs no comparison with a
+  // mirrored hand, which has the wrong size, too.
   const double score = found ? found->score() : INFINITY;
+  const bool other_size = judge_size(0, observation, found);
   if (score > params_.loss.lost_score) {
-    if (params_.size_check) check.nothing_found(observation, score);
-  } else if (params_.side_check && check.is_other_side(observation, before.effort, attempts, score)) {
-    found.reset();
+    if (!other_size && params_.size_check) check.nothing_found(observation, score);
+  } else if (params_.side_check) {
+    const bool own_side_seen = other_size && observation.detected->side() == before.profile->handedness;
+    if (!own_side_seen && check.is_other_side(observation, before.effort, attempts, score)) found.reset();
   }
   return hand.process(observation, std::move(found));
 }
@@ -148,6 +171,7 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
   const TrackView track = hands_[k]->view();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
     found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
+  judge_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
@@ -196,6 +220,7 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   // Start the tracks. A single start is on trial against the other side.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
+    if (j >= 0) judge_size(k, *observations[j], found[k][j]);
     if (params_.side_check && j >= 0 && owned[1 - k] < 0)
       checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)

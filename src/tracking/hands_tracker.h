@@ -40,6 +40,10 @@ class HandsTracker {
   HandEstimatePtr track(int k, const HandObservation& observation);
   // Gives up a hand that its trial shows to be of the other side.
   void judge_trial(int k, const HandEstimate& estimate);
+  // Doubts the size of a tracked hand if the detected joints show another one.
+  void judge_size(int k, const HandObservation& observation, const HandEstimate& estimate);
+  // The same for what a search found. Returns whether the size is doubted.
+  bool judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
   // Processes a whole frame if there is only one hand.
   HandEstimatePtr process_only(const HandObservation& observation);
   // The observations in the order of the hands.

@@ -25,6 +25,7 @@ struct Hypothesis {
   Origin origin = Origin::followed;
   RefinedPose refined;                   ///< T_camera_segment, its global score [m] and what it shows of each segment
   double joint_gap = 0;                  ///< HandEstimate::joint_gap [m]
+  double size = 1;                       ///< of the hand in view by its profile's, where a search showed another one
   std::optional<Prediction> prediction;  ///< that it continues; none: it was found anew
   std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< the sampler's covariance, if it was not refined
 

@@ -17,6 +17,7 @@ void PersonModel::start_learning() {
   fit_.reset();
   size_check_.reset();
   size_in_view_ = 1;
+  said_size_ = false;
   const TrackerParams& params = context_.params;
   if (!given_->scanned_skin)
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
@@ -65,14 +66,17 @@ void PersonModel::learn(const HandObservation& observation, const RefinedPose& r
 }
 
 void PersonModel::check_size(const HandObservation& observation, const RefinedPose& refined) {
+  if (size_in_view_ != 1) return;
   const auto size = size_check_->look(observation, refined.pose, refined.score);
   if (!size) return;
-  if (!fit_) {
-    size_in_view_ = *size;
-    return context_.log->warn("{}", other_size(*size, *model_->profile));
-  }
+  if (!fit_) return doubt_size(*size);
   context_.log->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
   reset();
+}
+
+void PersonModel::doubt_size(double size) {
+  size_in_view_ = size;
+  if (!std::exchange(said_size_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
 }
 
 void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {

@@ -26,6 +26,8 @@ class PersonModel {
   /// Size of the hand in view relative to its profile, as far as that is known; 1: nothing speaks against it.
   double size_in_view() const { return size_in_view_; }
 
+  /// The hand in view has `size` times the profile's size: reported once, and no pose is certain from now on.
+  void doubt_size(double size);
   /// A track begins; it may be another person's.
   void start_track();
   /// Learns from a tracked frame. `good`: it is explained well enough to learn from.
@@ -54,6 +56,7 @@ class PersonModel {
   std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before
   std::optional<SizeCheck> size_check_;  // of a hand that is not fitted, or no longer
   double size_in_view_ = 1;
+  bool said_size_ = false;
 };
 
 }  // namespace barehand

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "stages/search/inverse_kinematics.h"
 #include "tracking/size_check.h"
 
 namespace barehand {
@@ -13,6 +14,14 @@ constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};  // a s
 // Failed searches between two tries of another size. What stays in view without being found is most likely no hand, so
 // tries become rare.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
+
+// The size that detected joints show deviates by 4 % from frame to frame, and people differ little in proportions. What
+// deviates by more than kOtherSize (logarithm) is verified, which costs a search: the first kVerified times, then
+// seldom.
+constexpr double kAnySize = 0.4, kOtherSize = 0.1, kSameSize = 0.2;
+constexpr int kSizeLooks = 10, kVerified = 3, kVerifiedEvery = 30;
+// Far from the size of any hand, the networks see about two thirds of the deviation (of the logarithm).
+constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
 // Attempts for the mirrored profile if the profile's own score is not convincing. A hand of the other side is found by
 // the first or second attempt in most cases; a hand of the own side must not be taken for one of the other by the luck
@@ -104,6 +113,38 @@ bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
   suspected_ = kSuspected;
   say_side();
   return true;
+}
+
+std::optional<double> ProfileCheck::other_size_in_view(const HandObservation& observation, double score) {
+  // The detected joints show the size of the hand; a mean hand is fitted to the person instead.
+  if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_looks_ >= kSizeLooks) return std::nullopt;
+  ++size_looks_;
+  const bool own_side = observation.detected->side() == profile_.handedness;
+  const auto seen =
+      fit_size_to_joints(own_side ? profile_ : mirrored(profile_), observation.detected->joints, kAnySize);
+  if (!seen || std::abs(std::log(seen->scale)) < kOtherSize) return std::nullopt;
+  if (confirmed_size_ && std::abs(std::log(seen->scale / *confirmed_size_)) < kSameSize) return confirmed_size_;
+  return verified_size(observation, score, std::log(seen->scale));
+}
+
+std::optional<double> ProfileCheck::verified_size(const HandObservation& observation, double score, double log_size) {
+  if (++size_refuted_ > kVerified && size_refuted_ % kVerifiedEvery != 0) return std::nullopt;
+
+  // A copy of this size, or of the size that it may stand for, must explain the observation clearly better.
+  std::vector<double> log_sizes = {log_size};
+  if (std::abs(log_size) > kFarSize) log_sizes.push_back(kUnderstated * log_size);
+  std::optional<double> best;
+  for (const double log_other : log_sizes) {
+    const double size = std::exp(log_other);
+    const auto found = tracker_of(scaled(profile_, size))->search(observation, Effort::quick, 1);
+    if (!found || !clearly_better(found->score(), score)) continue;
+    score = found->score();
+    best = size;
+  }
+  if (!best) return std::nullopt;
+  size_refuted_ = 0;
+  confirmed_size_ = best;
+  return best;
 }
 
 void ProfileCheck::nothing_found(const HandObservation& observation, double score) {

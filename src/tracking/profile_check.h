@@ -35,6 +35,13 @@ class ProfileCheck {
   /// Pose of the hand of the other side when the trial ended (T_camera_segment).
   const HandPose& mirrored_pose() const { return *mirrored_->view().whereabouts; }
 
+  /// Call with an observation in which a pose of the profile was found or tracked with `score`. Returns the size of the
+  /// hand in view relative to a profile that is not fitted while tracking, if the detected joints show another size
+  /// and a copy of that size explains the observation clearly better. Of a track only the first frames are looked at.
+  std::optional<double> other_size_in_view(const HandObservation& observation, double score);
+  /// Call before that when a new track starts.
+  void expect_any_size() { size_looks_ = 0; }
+
   /// Call when a search found no hand in a region that looks like one. `score`: that of the best pose; infinite if
   /// there was none. Now and then another size is tried.
   void nothing_found(const HandObservation& observation, double score);
@@ -42,6 +49,8 @@ class ProfileCheck {
  private:
   std::unique_ptr<HandTracker> tracker_of(const HandProfile& profile) const;
   HandTracker& other_side();
+  // The size (its logarithm is about `log_size`) of a copy that explains the observation clearly better than `score`.
+  std::optional<double> verified_size(const HandObservation& observation, double score, double log_size);
   // Reports a hand of the other side, once.
   void say_side();
 
@@ -53,6 +62,9 @@ class ProfileCheck {
   std::unique_ptr<HandTracker> mirrored_;
   bool said_side_ = false, said_size_ = false;
   int failures_ = 0, tries_ = 0;
+  int size_looks_ = 0;    // at detected joints of this track
+  int size_refuted_ = 0;  // sizes that detected joints showed since the last one that was confirmed
+  std::optional<double> confirmed_size_;
 
   struct Trial {
     int frames = 0, compared = 0;          // compared: frames in which both were tracked

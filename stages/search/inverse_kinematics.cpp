@@ -22,7 +22,6 @@ constexpr double kLimitDeviation = 4 * kDegree;  // of angles beyond their limit
 constexpr double kLimitWidening = 10 * kDegree;
 constexpr double kRestFlexion = 20 * kDegree;  // where nothing else is known
 constexpr double kRestDeviation = 50 * kDegree;
-constexpr double kScaleDeviation = 0.12;  // of the logarithm of a hand's size among adults and youths
 constexpr double kLongestTurn = 30 * kDegree, kLongestStep = 0.05;  // m, of one iteration
 
 /// What a landmark is a point of: the proximal or the distal end of a segment.
@@ -186,6 +185,22 @@ HandPose in_own_size(const HandProfile& profile, const HandPose& pose, double sc
   return forward_kinematics(profile, T_camera_palm, angles);
 }
 
+std::optional<KinematicFit> fit(const HandProfile& profile, const DetectedJoints& joints, bool with_scale,
+                                double scale_deviation) {
+  const auto T_camera_palm = palm_pose(profile, joints);
+  if (!T_camera_palm) return std::nullopt;
+  const auto limits = widened_limits(profile, kLimitWidening);
+  HandPose pose = posed_by_bones(profile, limits, joints, *T_camera_palm);
+
+  double scale = 1;
+  for (int i = 0; i < kIterations; ++i) {
+    KinematicEquations equations = kinematic_equations(profile, limits, joints, pose, scale, scale_deviation);
+    if (!step(with_scale, equations, pose, scale)) return std::nullopt;
+  }
+  return KinematicFit{in_own_size(profile, pose, scale), scale,
+                      kinematic_equations(profile, limits, joints, pose, scale, scale_deviation).cost};
+}
+
 }  // namespace
 
 double mean_distance(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints) {
@@ -199,14 +214,15 @@ double mean_distance(const HandProfile& profile, const HandPose& pose, const Det
 }
 
 KinematicEquations kinematic_equations(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
-                                       const DetectedJoints& joints, const HandPose& pose, double scale) {
+                                       const DetectedJoints& joints, const HandPose& pose, double scale,
+                                       double scale_deviation) {
   KinematicEquations equations;
   equations.tree.set_zero();
   equations.coupling.fill(Vector6d::Zero());
   add_landmarks(profile, joints, pose, scale, equations);
   add_joints(profile, limits, pose, scale, equations);
 
-  const double log_scale = std::log(scale), information = 1 / square(kScaleDeviation);
+  const double log_scale = std::log(scale), information = 1 / square(scale_deviation);
   equations.scale_information += information;
   equations.scale_gradient -= information * log_scale;
   equations.energy += information * square(log_scale);
@@ -214,19 +230,12 @@ KinematicEquations kinematic_equations(const HandProfile& profile, const std::ar
 }
 
 std::optional<KinematicFit> fit_to_joints(const HandProfile& profile, const DetectedJoints& joints) {
-  const auto T_camera_palm = palm_pose(profile, joints);
-  if (!T_camera_palm) return std::nullopt;
-  const auto limits = widened_limits(profile, kLimitWidening);
-  HandPose pose = posed_by_bones(profile, limits, joints, *T_camera_palm);
+  return fit(profile, joints, profile.origin != ProfileOrigin::measured, kScaleDeviation);
+}
 
-  double scale = 1;
-  const bool with_scale = profile.origin != ProfileOrigin::measured;
-  for (int i = 0; i < kIterations; ++i) {
-    KinematicEquations equations = kinematic_equations(profile, limits, joints, pose, scale);
-    if (!step(with_scale, equations, pose, scale)) return std::nullopt;
-  }
-  return KinematicFit{in_own_size(profile, pose, scale), scale,
-                      kinematic_equations(profile, limits, joints, pose, scale).cost};
+std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const DetectedJoints& joints,
+                                               double deviation) {
+  return fit(profile, joints, true, deviation);
 }
 
 }  // namespace barehand

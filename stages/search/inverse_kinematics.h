@@ -23,9 +23,16 @@ struct KinematicFit {
 /// and a weak pull towards slightly bent fingers. Unless the profile was measured, one scale of the whole hand is
 /// fitted, too. None: the joints lie in a way that defines no pose.
 std::optional<KinematicFit> fit_to_joints(const HandProfile& profile, const DetectedJoints& joints);
+/// The same with the scale fitted to any profile. `deviation`: by how much the logarithm of the scale is expected to
+/// differ from 0.
+std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const DetectedJoints& joints,
+                                               double deviation);
 
 /// Mean distance of the joints of a pose from detected ones [m].
 double mean_distance(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints);
+
+/// Of the logarithm of a hand's size among adults and youths.
+inline constexpr double kScaleDeviation = 0.12;
 
 /// Negative log posterior (times two) of a pose and a scale, and its normal equations.
 struct KinematicEquations {
@@ -36,6 +43,7 @@ struct KinematicEquations {
   double scale_information = 0, scale_gradient = 0;  ///< H and right-hand side of the logarithm of the scale
 };
 KinematicEquations kinematic_equations(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
-                                       const DetectedJoints& joints, const HandPose& pose, double scale);
+                                       const DetectedJoints& joints, const HandPose& pose, double scale,
+                                       double scale_deviation = kScaleDeviation);
 
 }  // namespace barehand

@@ -112,6 +112,19 @@ TEST_F(InverseKinematicsTest, JointsWithTheDetectionsNoiseGiveAPoseThatIsBetterT
   EXPECT_LT(sum, 0.009);
 }
 
+TEST_F(InverseKinematicsTest, TheDetectedSizeOfAMeasuredHandIsFittedWhereItIsAskedFor) {
+  HandProfile measured = *profile_;
+  measured.origin = ProfileOrigin::measured;
+  for (const double size : {0.5, 0.8, 1.0, 1.25, 2.0}) {
+    const HandProfile seen = scaled(measured, size);
+    DetectedJoints joints = joints_of(seen, random_pose(seen), 0);
+    for (DetectedJoint& joint : joints) joint.covariance = square(0.005) * Eigen::Matrix3d::Identity();
+    const auto fit = fit_size_to_joints(measured, joints, 0.4);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->scale, size, 0.04 * size);
+  }
+}
+
 TEST_F(InverseKinematicsTest, AMeanHandIsGivenTheDetectedSize) {
   const HandProfile child = scaled(*profile_, 0.8);
   const HandPose truth = random_pose(child);

@@ -6,6 +6,7 @@
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
+#include "support/rendered_person.h"
 #include "support/text_logger.h"
 #include "tracking/quick_tracker.h"
 
@@ -213,6 +214,77 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
   EXPECT_EQ(text.find("% larger") != std::string::npos, size < 1) << text;
   EXPECT_EQ(text.find("% smaller") != std::string::npos, size > 1) << text;
   EXPECT_EQ(confidence_ < 0.3, size != 1) << confidence_ << ": the scale may be wrong instead";
+}
+
+/// A hand whose joints are detected.
+class StartOfDetectedHand : public HandsTrackerTest {
+ protected:
+  static HandObservationPtr detected(const HandProfile& profile, double flexion) {
+    const HandPose pose = test::facing_pose(profile, 0.5, flexion);
+    const auto observation = test::observe_skin(make_blended_skin(profile, 0.004), pose);
+    DetectedHand hand;
+    const auto joints = test::landmarks(profile, pose);
+    for (int k = 0; k < kLandmarkCount; ++k) hand.joints[k] = {joints[k], 0.005 * 0.005 * Eigen::Matrix3d::Identity()};
+    hand.right_log_odds = 3;
+    observation->detected = std::make_shared<const DetectedHand>(hand);
+    return observation;
+  }
+  static TrackerParams params() {
+    TrackerParams params = test::quick_tracker();
+    params.loss.lost_score = params.loss.recovered_score = 0.02;  // tracked however badly it is explained
+    return params;
+  }
+};
+
+/// It has `size` times the profile's size, as a depth unit that is wrong shows it.
+struct SizeOfStart {
+  double size;
+  ProfileOrigin origin;
+  bool doubted;
+  friend std::ostream& operator<<(std::ostream& out, const SizeOfStart& start) {
+    return out << start.size << (start.origin == ProfileOrigin::mean ? "_of_a_mean_hand" : "_of_a_measured_hand");
+  }
+};
+
+class DetectedSizeOfStart : public StartOfDetectedHand, public ::testing::WithParamInterface<SizeOfStart> {};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, DetectedSizeOfStart,
+                         ::testing::Values(SizeOfStart{0.5, ProfileOrigin::measured, true},
+                                           SizeOfStart{0.71, ProfileOrigin::measured, true},
+                                           SizeOfStart{0.8, ProfileOrigin::measured, true},
+                                           SizeOfStart{1.0, ProfileOrigin::measured, false},
+                                           SizeOfStart{1.25, ProfileOrigin::measured, true},
+                                           SizeOfStart{0.75, ProfileOrigin::mean, false},  // a child
+                                           SizeOfStart{1.0, ProfileOrigin::mean, false}));
+
+TEST_P(DetectedSizeOfStart, IsDoubtedAtOnceUnlessItIsTheProfilesOrFitted) {
+  for (const double flexion : {0.15, 0.6}) {
+    auto profile = std::make_shared<HandProfile>(*right_);
+    profile->origin = GetParam().origin;
+    std::ostringstream out;
+    HandsTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
+    const HandObservationPtr hand = detected(scaled(*right_, GetParam().size), flexion);
+    for (int frame = 0; frame < 3; ++frame) {
+      const HandEstimates estimates = next(tracker, hand);
+      ASSERT_EQ(estimates[0]->status, TrackStatus::tracking);
+      if (GetParam().doubted) {
+        EXPECT_LT(estimates[0]->segments[kPalm].confidence, 0.3) << flexion;
+      }
+    }
+    EXPECT_EQ(out.str().find("profile") != std::string::npos, GetParam().doubted) << flexion << ": " << out.str();
+  }
+}
+
+TEST_F(StartOfDetectedHand, KeepsItsSizeWhereNoCopyExplainsItBetter) {
+  auto profile = std::make_shared<HandProfile>(*right_);
+  profile->origin = ProfileOrigin::measured;
+  auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15));
+  const auto wrong = detected(scaled(*right_, 0.8), 0.15);
+  hand->detected = wrong->detected;
+  std::ostringstream out;
+  HandsTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
+  for (int frame = 0; frame < 3; ++frame) next(tracker, hand);
+  EXPECT_EQ(out.str(), "");
 }
 
 }  // namespace
