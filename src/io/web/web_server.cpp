@@ -4,7 +4,8 @@
 
 #include <atomic>
 #include <charconv>
-#include <mutex>
+#include <chrono>
+#include <future>
 
 #include "io/web/own_origin.h"
 
@@ -44,12 +45,13 @@ class WebServer::Impl {
  public:
   explicit Impl(Options options) : options_(std::move(options)) {}
   ~Impl() {
-    if (context_) mg_stop(context_);
+    if (context_) stop();
   }
 
   Result<int> start();
 
  private:
+  void stop();
   /// An HTTP request.
   int answer(mg_connection* connection) const;
   static void send_error(mg_connection* connection, int status, const char* text);
@@ -104,6 +106,19 @@ Result<int> WebServer::Impl::start() {
   mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
   mg_server_port ports[1] = {};
   return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
+}
+
+/// civetweb looks only every other second whether it is to stop, unless somebody connects.
+void WebServer::Impl::stop() {
+  constexpr auto kPatience = std::chrono::milliseconds(20);
+  mg_server_port port{};
+  mg_get_server_ports(context_, 1, &port);
+  auto stopped = std::async(std::launch::async, [this] { mg_stop(context_); });
+  const std::string host = options_.address == "0.0.0.0" ? "127.0.0.1" : options_.address;
+  while (stopped.wait_for(kPatience) != std::future_status::ready) {
+    char ignored[1];
+    if (mg_connection* knock = mg_connect_client(host.c_str(), port.port, 0, ignored, 0)) mg_close_connection(knock);
+  }
 }
 
 bool WebServer::Impl::is_allowed(const mg_connection* connection) const {

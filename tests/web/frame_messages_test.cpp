@@ -1,0 +1,86 @@
+#include "app/view/frame_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "app/view/log_index.h"
+#include "drivers/lcm/wire.h"
+#include "io/lcm/lcm_log_writer.h"
+#include "publish/published_hand.h"
+#include "stages/publish/hand_messages.h"
+#include "support/temp_folder.h"
+
+namespace barehand {
+namespace {
+
+ShownHands mean_hands() {
+  return ShownHands({test::adult_hand(Handedness::left), test::adult_hand(Handedness::right)});
+}
+
+HandMessages messages_at(std::int64_t utime, TrackStatus status = TrackStatus::tracking, double size = 1) {
+  const HandProfile hand = scaled(*test::adult_hand(), size);
+  return HandMessageMaker({}).process(estimate_of(hand, {}, utime, status));
+}
+
+TEST(FrameMessages, BecomeAFrame) {
+  const HandMessages made = messages_at(4'000'000);
+  const std::vector<LcmMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
+  ShownHands hands = mean_hands();
+  const auto content = frame_content(messages, hands, {});
+  EXPECT_EQ(content.utime, 4'000'000);
+  ASSERT_EQ(content.messages.size(), 2u);
+  EXPECT_STREQ(content.messages[0].channel, "HAND_STATE");
+  EXPECT_FALSE(content.skins[0]);
+  ASSERT_TRUE(content.skins[1]);
+  EXPECT_EQ(frame_content(messages, hands, {}).skins[1], content.skins[1]) << "the same hand has the same skin";
+}
+
+TEST(FrameMessages, AreLeftOutWhereDamaged) {
+  auto bytes = encode_message(messages_at(4'000'000).state);
+  bytes.resize(bytes.size() / 2);
+  ShownHands hands = mean_hands();
+  EXPECT_TRUE(frame_content(std::vector<LcmMessage>{{"A", bytes}}, hands, {}).messages.empty());
+}
+
+TEST(ShownHands, AreAsLargeAsTheTrackedHand) {
+  ShownHands hands = mean_hands();
+  const ViewSkinPtr skin = hands.skin_of(messages_at(1, TrackStatus::tracking, 1.2).state);
+  ASSERT_TRUE(skin);
+  EXPECT_NEAR(skin->profile()->hand_length(), 1.2 * test::adult_hand()->hand_length(), 1e-3);
+}
+
+TEST(LogIndex, PutsStatesInOrderAndFindsLostOnes) {
+  const test::TempFolder folder;
+  const std::string path = folder / "states.lcmlog";
+  auto log = LcmLogWriter::create(path, false);
+  ASSERT_TRUE(log);
+  for (int i = 0; i < 6; ++i) {
+    const auto status = i == 2 || i == 3 ? TrackStatus::lost : TrackStatus::tracking;
+    const HandMessages made = messages_at(1'000'000 + 100'000 * i, status);
+    ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(made.state), made.state.utime));
+    ASSERT_TRUE((*log)->send("GLOVE_STATE", encode_message(made.glove), made.state.utime));
+  }
+  ASSERT_TRUE((*log)->finish());
+  auto index = LogIndex::open({path});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 6);
+  EXPECT_NEAR(index->seconds(5), 0.5, 1e-9);
+  ASSERT_EQ(index->lost().size(), 1u);
+  EXPECT_EQ(index->lost()[0].first, 2);
+  EXPECT_EQ(index->lost()[0].last, 3);
+  EXPECT_EQ(index->messages(4).size(), 2u);
+}
+
+TEST(LogIndex, RefusesALogWithNothingToShow) {
+  const test::TempFolder folder;
+  const std::string path = folder / "other.lcmlog";
+  auto log = LcmLogWriter::create(path, false);
+  ASSERT_TRUE(log);
+  ASSERT_TRUE((*log)->send("X", std::vector<std::uint8_t>(40, 7), 1));
+  ASSERT_TRUE((*log)->finish());
+  const auto index = LogIndex::open({path});
+  ASSERT_FALSE(index);
+  EXPECT_NE(index.error().message().find("--states-log"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,46 @@
+#include "io/web/own_origin.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <vector>
+
+namespace barehand {
+namespace {
+
+TEST(OwnHost, IsLocalhostANumberOrTheMachinesName) {
+  for (const char* host : {"localhost", "localhost:8765", "LOCALHOST:1", "127.0.0.1:8765", "192.168.7.3", "[::1]:8765",
+                           "[fe80::1]", "view.localhost"})
+    EXPECT_TRUE(is_own_host(host)) << host;
+  char name[256] = "";
+  ASSERT_EQ(gethostname(name, sizeof name - 1), 0);
+  EXPECT_TRUE(is_own_host(name));
+  EXPECT_TRUE(is_own_host(std::string(name) + ".local:8765"));
+}
+
+TEST(OwnHost, IsNoNameThatSomebodyElseMayOwn) {
+  for (const char* host : {"", ":8765", "evil.org", "evil.org:8765", "localhost.evil.org", "127.0.0.1.evil.org",
+                           "evil-localhost", "[evil.org]", "["})
+    EXPECT_FALSE(is_own_host(host)) << host;
+}
+
+TEST(Welcome, IsThePageThatWasServedHereAndWhoSendsNoOrigin) {
+  EXPECT_TRUE(is_welcome("", "localhost:8765", {}));
+  EXPECT_TRUE(is_welcome("http://localhost:8765", "localhost:8765", {}));
+  EXPECT_TRUE(is_welcome("http://LOCALHOST:8765", "localhost:8765", {}));
+}
+
+TEST(Welcome, IsNoOtherPage) {
+  for (const char* origin : {"http://evil.org", "null", "file://", "http://localhost", "http://localhost:9999",
+                             "https://localhost:8765", "http://localhost:8765.evil.org", "http://127.0.0.1:8765"})
+    EXPECT_FALSE(is_welcome(origin, "localhost:8765", {})) << origin;
+}
+
+TEST(Welcome, IsWhoIsInvited) {
+  const std::vector<std::string> invited = {"https://example.org"};
+  EXPECT_TRUE(is_welcome("https://example.org", "localhost:8765", invited));
+  EXPECT_FALSE(is_welcome("https://example.org.evil.org", "localhost:8765", invited));
+}
+
+}  // namespace
+}  // namespace barehand

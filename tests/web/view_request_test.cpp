@@ -1,0 +1,51 @@
+#include "io/web/view_request.h"
+
+#include <gtest/gtest.h>
+
+namespace barehand {
+namespace {
+
+TEST(ViewRequest, SaysWhatIsWantedOfEveryFrame) {
+  const auto demand = parse_view_demand(
+      R"({"type": "want", "cloud": "hand", "picture": "depth", "large": true, "rate": 15.5, "window": 2})");
+  ASSERT_TRUE(demand) << demand.error().message();
+  const auto& wish = std::get<ViewWish>(*demand);
+  EXPECT_EQ(wish.cloud, ViewCloud::hand);
+  EXPECT_EQ(wish.picture, ViewPicture::depth);
+  EXPECT_TRUE(wish.large);
+  EXPECT_EQ(wish.rate, 15.5);
+  EXPECT_EQ(wish.window, 2);
+}
+
+TEST(ViewRequest, WantsStatesAloneUnlessItSaysMore) {
+  const auto demand = parse_view_demand(R"({"type": "want"})");
+  ASSERT_TRUE(demand);
+  const auto& wish = std::get<ViewWish>(*demand);
+  EXPECT_EQ(wish.cloud, ViewCloud::none);
+  EXPECT_EQ(wish.picture, ViewPicture::none);
+  EXPECT_EQ(wish.window, 0);
+}
+
+TEST(ViewRequest, CommandsThePlayer) {
+  const auto demand = parse_view_demand(R"({"type": "step", "value": -3})");
+  ASSERT_TRUE(demand);
+  const auto& command = std::get<PlayerCommand>(*demand);
+  EXPECT_EQ(command.kind, PlayerCommand::Kind::step);
+  EXPECT_EQ(command.value, -3);
+  EXPECT_TRUE(std::holds_alternative<ViewAcknowledge>(parse_view_demand(R"({"type": "ack"})").value()));
+}
+
+TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
+  for (const char* text :
+       {"", "{", "[]", "7", "null", "\"want\"", "{}", R"({"type": 7})", R"({"type": "fly"})", "\xff\xfe",
+        R"({"type": "want", "cloud": true})", R"({"type": "want", "picture": "infrared"})",
+        R"({"type": "want", "rate": 0})", R"({"type": "want", "rate": 1e400})", R"({"type": "want", "rate": "fast"})",
+        R"({"type": "want", "window": -1})", R"({"type": "want", "window": 101})",
+        R"({"type": "seek", "value": 1e30})"})
+    EXPECT_FALSE(parse_view_demand(text)) << text;
+}
+
+TEST(ViewRequest, SurvivesDeepNesting) { EXPECT_FALSE(parse_view_demand(std::string(60000, '['))); }
+
+}  // namespace
+}  // namespace barehand

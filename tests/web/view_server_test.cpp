@@ -1,0 +1,141 @@
+#include "io/web/view_server.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "web/web_client.h"
+
+namespace barehand {
+namespace {
+
+using test::chunks_of;
+using test::SocketClient;
+
+class ViewServerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ViewServer::Options options;
+    options.address.port = 0;
+    options.on_command = [this](const PlayerCommand& command) { commands_.push_back(command); };
+    auto server = ViewServer::start(std::move(options), clock_);
+    ASSERT_TRUE(server) << server.error().message();
+    server_ = std::move(*server);
+  }
+  int port() const { return std::stoi(server_->url().substr(server_->url().rfind(':') + 1)); }
+  void show(std::int64_t number) {
+    ViewFrame::Content content;
+    content.number = number;
+    server_->show(std::make_shared<const ViewFrame>(std::move(content)));
+  }
+  /// Number of the next frame that a client hears of.
+  static std::int64_t next_number(SocketClient& client) {
+    const auto message = client.binary();
+    return message ? chunks_of(*message).at(0).at<std::int64_t>(8) : -1;
+  }
+  /// The server answers in order: what was sent before has been heard.
+  static void wait_until_heard(SocketClient& client) {
+    client.send("?");
+    while (true) {
+      const auto text = client.text();
+      ASSERT_TRUE(text);
+      if (nlohmann::json::parse(*text)["type"] == "error") return;
+    }
+  }
+
+  SystemClock clock_;
+  std::vector<PlayerCommand> commands_;
+  std::unique_ptr<ViewServer> server_;
+};
+
+TEST_F(ViewServerTest, SendsNoFrameBeforeItIsAsked) {
+  SocketClient client(port());
+  wait_until_heard(client);
+  show(1);
+  show(2);
+  EXPECT_EQ(server_->health().popped, 0);
+  client.send(R"({"type": "want"})");
+  EXPECT_EQ(next_number(client), 2) << "the newest one";
+}
+
+TEST_F(ViewServerTest, SendsTheNewestFrameToAClientThatIsSlow) {
+  SocketClient client(port());
+  client.send(R"({"type": "want", "window": 1, "rate": 1000})");
+  wait_until_heard(client);
+  show(1);
+  EXPECT_EQ(next_number(client), 1);
+  for (int number = 2; number <= 50; ++number) show(number);
+  const QueueHealth stuck = server_->health();
+  EXPECT_EQ(stuck.pushed, 50);
+  EXPECT_EQ(stuck.popped, 1) << "it has not acknowledged the first";
+  EXPECT_EQ(stuck.dropped, 48);
+  EXPECT_EQ(stuck.depth, 1u);
+  client.send(R"({"type": "ack"})");
+  EXPECT_EQ(next_number(client), 50);
+}
+
+TEST_F(ViewServerTest, WaitsForNoClientThatDoesNotRead) {
+  test::RawClient stuck(port());
+  stuck.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n") + "\r\n");
+  ASSERT_EQ(test::status_of(stuck.read(false)), 101);
+  // {"type":"want"}, with a mask of zeros.
+  stuck.send(std::string("\x81\x8f\0\0\0\0", 6) + R"({"type":"want"})");
+  SocketClient quick(port());
+  quick.send(R"({"type": "want", "window": 1, "rate": 1000})");
+  wait_until_heard(quick);
+
+  // Far more than the buffers of the operating system hold.
+  ViewFrame::Content content;
+  content.messages.push_back({"HAND_STATE", {}});
+  content.messages[0].bytes.resize(1 << 20);
+  for (int number = 1; number <= 40; ++number) {
+    content.number = number;
+    server_->show(std::make_shared<const ViewFrame>(content));
+    EXPECT_EQ(next_number(quick), number);
+    quick.send(R"({"type": "ack"})");
+  }
+  const QueueHealth health = server_->health();
+  EXPECT_GT(health.dropped, 0) << "those for the client that is stuck";
+  EXPECT_EQ(health.pushed, health.popped + health.dropped + static_cast<std::int64_t>(health.depth));
+}
+
+TEST_F(ViewServerTest, CountsClientsThatHaveGone) {
+  {
+    SocketClient client(port());
+    client.send(R"({"type": "want", "window": 1})");
+    wait_until_heard(client);
+    for (int number = 1; number <= 3; ++number) show(number);
+    EXPECT_EQ(server_->clients(), 1);
+  }
+  while (server_->clients() > 0) std::this_thread::yield();
+  const QueueHealth health = server_->health();
+  EXPECT_EQ(health.pushed, 3);
+  EXPECT_EQ(health.depth, 0u);
+  EXPECT_EQ(health.popped + health.dropped, 3);
+  EXPECT_EQ(health.capacity, 0u);
+}
+
+TEST_F(ViewServerTest, TellsTheStatusToThoseWhoComeLater) {
+  server_->show_status(R"({"type": "status", "source": "here"})");
+  SocketClient client(port());
+  EXPECT_EQ(nlohmann::json::parse(client.text().value())["source"], "here");
+}
+
+TEST_F(ViewServerTest, HandsCommandsOn) {
+  SocketClient client(port());
+  client.send(R"({"type": "seek", "value": 12})");
+  wait_until_heard(client);
+  ASSERT_EQ(commands_.size(), 1u);
+  EXPECT_EQ(commands_[0].kind, PlayerCommand::Kind::seek);
+  EXPECT_EQ(commands_[0].value, 12);
+}
+
+TEST_F(ViewServerTest, AnswersWhatItDoesNotUnderstand) {
+  SocketClient client(port());
+  client.send("\xff\xfe no JSON");
+  const auto answer = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(answer["type"], "error");
+}
+
+}  // namespace
+}  // namespace barehand

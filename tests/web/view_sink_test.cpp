@@ -1,0 +1,73 @@
+#include "pipeline/sinks/view_sink.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "drivers/lcm/wire.h"
+#include "publish/published_hand.h"
+#include "web/web_client.h"
+
+namespace barehand {
+namespace {
+
+using test::chunks_of;
+using test::SocketClient;
+
+TrackedFrame tracked(std::int64_t utime) {
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->utime = utime;
+  frame->number = utime / 1000;
+  frame->camera = {64, 48, 50, 50, 32, 24};
+  frame->depth.reset(64, 48, 500);
+  TrackedFrame out{frame, {}, {}};
+  out.estimates.push_back(std::make_shared<const HandEstimate>(estimate_of(*test::adult_hand(), {}, utime)));
+  return out;
+}
+
+TEST(ViewSink, SendsWhatTheBusGets) {
+  SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const PublishParams params;
+  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }}, clock);
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send(R"({"type": "want", "cloud": "hand"})");
+  client.send("?");
+  ASSERT_TRUE(client.text());
+
+  const TrackedFrame frame = tracked(3'000'000);
+  ASSERT_TRUE(sink.consume(frame));
+  const auto chunks = chunks_of(client.binary().value());
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLD");
+  const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
+  const auto state = encode_message(messages.state), glove = encode_message(messages.glove);
+  EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
+  EXPECT_EQ(chunks[3].payload, "\x0bGLOVE_STATE" + std::string(glove.begin(), glove.end()));
+
+  ASSERT_TRUE(sink.consume(tracked(3'033'000)));
+  EXPECT_EQ(test::kinds_of(chunks_of(client.binary().value())).find('S'), std::string::npos) << "the skin comes once";
+}
+
+TEST(ViewSink, SaysThatNoFramesCome) {
+  SystemClock clock;
+  ManualClock time(1'000'000);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server);
+  ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }}, time);
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send("?");
+  ASSERT_TRUE(client.text());
+  time.advance(5'000'000);
+  ASSERT_TRUE(sink.idle());
+  const auto status = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(status["type"], "status");
+  EXPECT_NE(status["trouble"].get<std::string>().find("5 s"), std::string::npos);
+  EXPECT_EQ(status["health"]["queues"].back()["name"], "view");
+  EXPECT_TRUE(status["health"]["latency"]["mean"].is_number());
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,159 @@
+#include "io/web/web_server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "web/web_client.h"
+
+namespace barehand {
+namespace {
+
+using test::answer_of;
+using test::RawClient;
+using test::SocketClient;
+using test::status_of;
+using test::upgrade;
+
+/// Says "hello", and then what it hears.
+class Echo : public WebPeer {
+ public:
+  explicit Echo(WebSocket socket) : socket_(socket) {}
+  void start() override { socket_.send_text("hello"); }
+  bool hear(std::string_view text) override {
+    socket_.send_text(text);
+    return text != "go";
+  }
+
+ private:
+  WebSocket socket_;
+};
+
+std::unique_ptr<WebServer> serve(int port = 0) {
+  WebServer::Options options;
+  options.port = port;
+  options.files = {{"/index.html", {"text/html", "<p>page</p>"}}, {"/empty.js", {"text/javascript", ""}}};
+  options.invited = {"https://example.org"};
+  options.connect = [](WebSocket socket) { return std::make_unique<Echo>(socket); };
+  auto server = WebServer::start(std::move(options));
+  EXPECT_TRUE(server) << server.error().message();
+  return server ? std::move(*server) : nullptr;
+}
+
+TEST(WebServer, ServesItsFiles) {
+  const auto server = serve();
+  for (const char* path : {"/", "/index.html", "/index.html?a=b"}) {
+    const std::string answer = answer_of(server->port(), path);
+    EXPECT_EQ(status_of(answer), 200) << path;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\n<p>page</p>")) << answer;
+    EXPECT_NE(answer.find("Content-Type: text/html"), std::string::npos);
+  }
+  EXPECT_EQ(status_of(answer_of(server->port(), "/empty.js")), 200);
+}
+
+TEST(WebServer, ServesNothingElse) {
+  const auto server = serve();
+  for (const char* path : {"/other", "/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd",
+                           "/index.html/", "/INDEX.HTML"})
+    EXPECT_EQ(status_of(answer_of(server->port(), path)) / 100, 4) << path;
+}
+
+TEST(WebServer, RefusesForeignHostsAndOrigins) {
+  const auto server = serve();
+  for (const char* headers : {"Host: evil.org\r\n", "Host: localhost\r\nOrigin: http://evil.org\r\n", ""}) {
+    EXPECT_EQ(status_of(answer_of(server->port(), "/", headers)), 403) << headers;
+    const std::string answer = answer_of(server->port(), "/live", upgrade(headers));
+    EXPECT_NE(status_of(answer), 101) << headers;
+  }
+}
+
+TEST(WebServer, LetsInvitedPagesConnect) {
+  const auto server = serve();
+  RawClient client(server->port());
+  client.send("GET /live HTTP/1.1\r\n" + upgrade("Host: localhost\r\nOrigin: https://example.org\r\n") + "\r\n");
+  EXPECT_EQ(status_of(client.read(false)), 101);
+}
+
+TEST(WebServer, SurvivesDamagedRequests) {
+  const auto server = serve();
+  for (const std::string& request :
+       {std::string("\r\n\r\n"), std::string("GET\r\n\r\n"), std::string("GET / HTTP/9.9\r\n\r\n"),
+        std::string("DELETE /index.html HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+        "GET / HTTP/1.1\r\nHost: " + std::string(60000, 'a') + "\r\n\r\n",
+        std::string("\x16\x03\x01\x02\x00\x01\xff\r\n\r\n", 11),
+        "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999999999999\r\n\r\n" + std::string(10, 'x')}) {
+    RawClient client(server->port());
+    client.send(request);
+    EXPECT_NE(status_of(client.read(false)), 200) << request.substr(0, 30);
+  }
+  EXPECT_EQ(status_of(answer_of(server->port(), "/")), 200) << "it goes on";
+}
+
+TEST(WebServer, TalksOverWebSockets) {
+  const auto server = serve();
+  SocketClient client(server->port());
+  EXPECT_EQ(client.text(), "hello");
+  client.send("one");
+  EXPECT_EQ(client.text(), "one");
+}
+
+TEST(WebServer, LetsGoOfWhoeverIsToGo) {
+  const auto server = serve();
+  SocketClient client(server->port());
+  client.send("go");
+  EXPECT_TRUE(client.is_let_go());
+}
+
+TEST(WebServer, LetsGoOfClientsThatSendTooMuch) {
+  const auto server = serve();
+  SocketClient client(server->port());
+  client.send(std::string(100'000, 'x'));
+  EXPECT_TRUE(client.is_let_go());
+}
+
+TEST(WebServer, SurvivesDamagedFrames) {
+  const auto server = serve();
+  // Lengths that are not there, no mask, control frames that are too long, reserved opcodes.
+  for (const std::string& frame :
+       {std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10), std::string("\x81\x05hello", 7),
+        std::string("\x89\xfe\xff\xff", 4), std::string("\x8f\x80\0\0\0\0", 6), std::string("\0", 1)}) {
+    RawClient client(server->port());
+    client.send("GET /live HTTP/1.1\r\n" + upgrade("Host: localhost\r\n") + "\r\n");
+    ASSERT_EQ(status_of(client.read(false)), 101);
+    client.send(frame);
+  }
+  SocketClient next(server->port());
+  EXPECT_EQ(next.text(), "hello");
+}
+
+TEST(WebServer, TakesSoManyClientsAndNoMore) {
+  const auto server = serve();
+  std::vector<std::unique_ptr<SocketClient>> clients;
+  for (int i = 0; i < WebServer::kMaxClients; ++i) {
+    clients.push_back(std::make_unique<SocketClient>(server->port()));
+    ASSERT_EQ(clients.back()->text(), "hello");
+  }
+  for (int i = 0; i < 70; ++i)
+    EXPECT_NE(status_of(answer_of(server->port(), "/live", upgrade("Host: localhost\r\n"))), 101);
+  EXPECT_EQ(status_of(answer_of(server->port(), "/")), 200) << "files are served to more";
+}
+
+TEST(WebServer, SaysThatThePortIsTaken) {
+  const auto server = serve();
+  WebServer::Options options;
+  options.port = server->port();
+  const auto second = WebServer::start(std::move(options));
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message().find(std::to_string(server->port())), std::string::npos);
+}
+
+TEST(WebAddress, IsAPortOrAnAddressAndAPort) {
+  EXPECT_EQ(parse_web_address("80")->port, 80);
+  EXPECT_EQ(parse_web_address("80")->address, "127.0.0.1");
+  EXPECT_EQ(parse_web_address("0.0.0.0:8765")->address, "0.0.0.0");
+  for (const char* text : {"", "x", "70000", "-1", "8765x", ":8765", "localhost"})
+    EXPECT_FALSE(parse_web_address(text)) << text;
+}
+
+}  // namespace
+}  // namespace barehand
