@@ -145,10 +145,10 @@ TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
 
   params.segment_tracker.samples += 1;
   params.doubt += 0.01;
-  tracker.change(params);
+  tracker.apply(UseParams{params});
   EXPECT_EQ(text.str(), opened);
   params.segment_tracker.pixel_distance_cap += 0.001;
-  tracker.change(params);
+  tracker.apply(UseParams{params});
   EXPECT_GT(text.str().size(), opened.size());
 }
 
