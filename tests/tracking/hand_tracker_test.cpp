@@ -144,7 +144,7 @@ TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
   EXPECT_THAT(opened, HasSubstr("amples"));  // on a device, or why not
 
   params.segment_tracker.samples += 1;
-  params.doubt += 0.01;
+  params.choice.doubt += 0.01;
   tracker.apply(UseParams{params});
   EXPECT_EQ(text.str(), opened);
   params.segment_tracker.pixel_distance_cap += 0.001;
