@@ -25,7 +25,7 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));
   EXPECT_THAT(changes.for_restart, IsEmpty());
-  EXPECT_EQ(news.tracker.take()->doubt, 0.5);
+  EXPECT_EQ(news.tracker.take()->choice.doubt, 0.5);
   EXPECT_FALSE(news.preprocess.take());
   EXPECT_FALSE(news.bus.take());
 }
