@@ -14,6 +14,7 @@ const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, fre
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // that came before the view was there
 let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
+let decoding = Promise.resolve();  // pictures, one after the other
 
 // three.js may be missing, and a browser may lack WebGL: the rest of the page works all the same.
 async function startScene() {
@@ -50,7 +51,8 @@ const connection = new Connection({
     meter.add(frame.header, status && status.live, frameAt);
     if (!state.freeze) {
       plots.add(frame);
-      await picture.decode(frame);  // so that hand and picture are those of one frame
+      await (decoding = decoding.then(() => picture.decode(frame)));  // hand and picture are those of one frame
+      if (latest) picture.release(latest);  // it was never shown
       latest = frame;
     }
     ++unacknowledged;
@@ -61,6 +63,7 @@ const timeline = new Timeline((message) => connection.send(message));
 // Once for every picture of the display.
 function loop(now) {
   if (latest) {
+    if (shown) picture.release(shown);
     shown = latest;
     latest = null;
     if (scene) scene.show(shown);
@@ -87,12 +90,13 @@ function showPicture(frame) {
 // What the user must know, most important first; "": all is well.
 function problem() {
   if (!open) return "No connection to Barehand. Is it still running? The page connects again by itself.";
-  if (status && status.trouble) return `${status.trouble}\nIs the sensor plugged in, or the recording at its end?`;
+  if (status && status.trouble) return status.trouble;
   if (sceneProblem) return sceneProblem;
   if (state.freeze) return "";
   const paused = status && status.log && !status.log.playing;
   if (!shown || (performance.now() - frameAt > kSlowFrameMs && !paused)) return "Waiting for frames.";
   if (shown.states.some((s) => s.has_pose)) return "";
+  if (status && status.log) return "No hand in this frame of the log.";
   const lost = shown.states.some((s) => s.status === 3);
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
 }

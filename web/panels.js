@@ -46,15 +46,15 @@ export function showHealth(status) {
   const health = status.health;
   if (!health) { byId("health").textContent = "Not known."; return; }
   const warn = (count) => ({text: String(count), warn: count > 0});
+  const counts = [String(health.captured), String(health.published), warn(health.dropped), warn(health.failed)];
   const rows = health.stages.map((stage) => [stage.name, ms(stage.time.p50), ms(stage.time.p99), warn(stage.failed)]);
   if (health.latency.count > 0) rows.push(["latency", ms(health.latency.p50), ms(health.latency.p99), ""]);
   byId("health").replaceChildren(
-    table(["frames", "captured", "published", "dropped"], [["", health.captured, health.published, warn(health.dropped)].map(String2)]),
+    table(["frames", "captured", "published", "dropped", "failed"], [["", ...counts]]),
     table(["time", "median ms", "p99 ms", "failed"], rows),
     table(["queue", "waiting", "holds", "dropped"],
           health.queues.map((q) => [q.name, String(q.depth), String(q.capacity), q.name === "view" ? String(q.dropped) : warn(q.dropped)])));
 }
-function String2(cell) { return typeof cell === "object" ? cell : String(cell); }
 
 // One plain sentence over the view; "": none.
 export function notice(text) {

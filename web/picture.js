@@ -13,6 +13,11 @@ export class Picture {
     if (frame.picture) frame.picture.image = await createImageBitmap(frame.picture.jpeg).catch(() => null);
   }
 
+  // The frame will not be shown again.
+  release(frame) {
+    if (frame.picture && frame.picture.image) frame.picture.image.close();
+  }
+
   // `plain`: also without the skeleton.
   show(frame, smoothed, plain) {
     const image = frame.picture && frame.picture.image;

@@ -6,7 +6,7 @@
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "stages/refinement/pose_uncertainty.h"
-#include "tracking/hypothesis.h"
+#include "tracking/hypotheses/hypothesis.h"
 #include "tracking/person_model.h"
 
 namespace barehand {

@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "tracking/estimate_builder.h"
-#include "tracking/follower.h"
+#include "tracking/hypotheses/follower.h"
+#include "tracking/hypotheses/proposers.h"
 #include "tracking/person_model.h"
-#include "tracking/proposers.h"
 #include "tracking/track.h"
 
 namespace barehand {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/format.h"
-#include "tracking/choice.h"
+#include "tracking/hypotheses/choice.h"
 
 namespace barehand {
 namespace {

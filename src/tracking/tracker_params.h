@@ -10,7 +10,7 @@
 #include "stages/refinement/refinement.h"
 #include "stages/search/initialiser.h"
 #include "stages/segment_tracker/segment_tracker_params.h"
-#include "tracking/choice.h"
+#include "tracking/hypotheses/choice.h"
 #include "tracking/track_state.h"
 
 namespace barehand {

@@ -107,6 +107,18 @@ TEST_F(TrackRun, PlaysTheFramesThatWereAskedFor) {
   EXPECT_EQ(logged_frames(), 3u);  // 8, 5, 2
 }
 
+TEST_F(TrackRun, GoesOnWithoutThePageWhereItsPortIsTaken) {
+  repeat(5);
+  ChildProcess first({BAREHAND_PROGRAM, "track", "--source", "lcm", "--lcm-url", "memq://", "--view=0"});
+  const std::string page = "open http://localhost:";
+  ASSERT_TRUE(first.wait_for(" in a browser")) << first.output();
+  const std::string port = std::to_string(std::stoi(first.output().substr(first.output().find(page) + page.size())));
+  ChildProcess second(track({"--view=" + port}));
+  EXPECT_EQ(second.finish(), 0) << second.output();
+  EXPECT_THAT(second.output(),
+              AllOf(HasSubstr(port), HasSubstr("tracking goes on without the page"), HasSubstr("5 published")));
+}
+
 TEST_F(TrackRun, SkipsACorruptImageAndCountsIt) {
   repeat(5);
   std::ofstream(folder_ + "/depth/bad.png") << "no image";

@@ -1,4 +1,4 @@
-#include "tracking/sample_budget.h"
+#include "tracking/hypotheses/sample_budget.h"
 
 #include <gmock/gmock.h>
 

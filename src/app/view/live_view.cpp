@@ -90,8 +90,10 @@ void LiveView::show_status() {
   status_us_ = clock_.steady_us();
   ViewState state{name_, true, "", server_.clients(), health_, {}};
   if (status_us_ - frame_us_ >= kNoFramesUs)
-    state.trouble = formatted("No tracker has sent states on %s*HAND_STATE for %lld s.", prefix_.c_str(),
-                              static_cast<long long>((status_us_ - frame_us_) / 1'000'000));
+    state.trouble = formatted(
+        "No tracker has sent states on %s*HAND_STATE for %lld s. Does one run, with this prefix and on this LCM "
+        "network?",
+        prefix_.c_str(), static_cast<long long>((status_us_ - frame_us_) / 1'000'000));
   server_.show_status(status_json(state));
 }
 

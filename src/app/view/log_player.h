@@ -1,11 +1,9 @@
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
-#include <stop_token>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
-#include "app/view/log_index.h"
-#include "core/clock.h"
 #include "io/web/view_request.h"
 #include "io/web/view_status.h"
 

@@ -1,16 +1,18 @@
 #include "app/view/view_run.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
-#include <thread>
 
 #include "app/shared/exit_code.h"
 #include "app/shared/interrupt.h"
 #include "app/shared/run_inputs.h"
 #include "app/view/live_view.h"
+#include "app/view/log_index.h"
 #include "app/view/log_player.h"
 #include "io/web/view_server.h"
 

@@ -1,4 +1,4 @@
-#include "tracking/relaxed_pose.h"
+#include "tracking/hypotheses/relaxed_pose.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tracking/found_poses.h"
+#include "tracking/hypotheses/found_poses.h"
 
 #include <algorithm>
 

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "tracking/choice.h"
 #include "tracking/hand_model.h"
-#include "tracking/hypothesis.h"
-#include "tracking/sample_budget.h"
+#include "tracking/hypotheses/choice.h"
+#include "tracking/hypotheses/hypothesis.h"
+#include "tracking/hypotheses/sample_budget.h"
 #include "tracking/tracker_context.h"
 
 namespace barehand {

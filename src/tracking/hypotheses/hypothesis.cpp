@@ -1,4 +1,4 @@
-#include "tracking/hypothesis.h"
+#include "tracking/hypotheses/hypothesis.h"
 
 #include "hand/joint_angles.h"
 

@@ -5,7 +5,7 @@
 
 #include "hand/decision.h"
 #include "observe/observation.h"
-#include "tracking/hypothesis.h"
+#include "tracking/hypotheses/hypothesis.h"
 
 namespace barehand {
 

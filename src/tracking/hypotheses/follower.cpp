@@ -1,4 +1,4 @@
-#include "tracking/follower.h"
+#include "tracking/hypotheses/follower.h"
 
 #include <algorithm>
 #include <utility>

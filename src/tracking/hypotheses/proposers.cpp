@@ -1,12 +1,12 @@
-#include "tracking/proposers.h"
+#include "tracking/hypotheses/proposers.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "stages/pose_prior/crossed_fingers.h"
 #include "stages/search/inverse_kinematics.h"
-#include "tracking/found_poses.h"
-#include "tracking/relaxed_pose.h"
+#include "tracking/hypotheses/found_poses.h"
+#include "tracking/hypotheses/relaxed_pose.h"
 
 namespace barehand {
 namespace {

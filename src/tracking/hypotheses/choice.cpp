@@ -1,4 +1,4 @@
-#include "tracking/choice.h"
+#include "tracking/hypotheses/choice.h"
 
 #include "stages/search/inverse_kinematics.h"
 

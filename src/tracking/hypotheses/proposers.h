@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "tracking/choice.h"
 #include "tracking/hand_model.h"
-#include "tracking/hypothesis.h"
+#include "tracking/hypotheses/choice.h"
+#include "tracking/hypotheses/hypothesis.h"
 #include "tracking/track.h"
 #include "tracking/tracker_context.h"
 

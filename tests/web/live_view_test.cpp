@@ -1,0 +1,60 @@
+#include "app/view/live_view.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "drivers/lcm/wire.h"
+#include "publish/published_hand.h"
+#include "stages/publish/hand_messages.h"
+#include "web/web_client.h"
+
+namespace barehand {
+namespace {
+
+TEST(LiveView, ShowsWhatATrackerSends) {
+  const SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const std::string url = (*server)->url();
+  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send(R"({"type": "want"})");
+  client.send("?");
+  ASSERT_TRUE(client.text());
+
+  auto opened = LcmBus::open("memq://");
+  ASSERT_TRUE(opened) << opened.error().message();
+  const std::shared_ptr<LcmBus> bus = std::move(*opened);
+  ShownHands hands({test::adult_hand(Handedness::left), test::adult_hand(Handedness::right)});
+  LiveView live(bus, "DESK_", std::move(hands), **server, clock);
+  HandMessages made = HandMessageMaker({}).process(estimate_of(*test::adult_hand(), {}, 7'000'000));
+  ASSERT_TRUE(bus->send("OTHER_HAND_STATE", encode_message(made.state), 1));
+  made.state.frame_number = 42;
+  ASSERT_TRUE(bus->send("DESK_HAND_STATE", encode_message(made.state), 1));
+  ASSERT_TRUE(bus->send("DESK_GLOVE_STATE", encode_message(made.glove), 1));
+
+  while ((*server)->health().pushed == 0) live.step(std::chrono::milliseconds(20));
+  const auto chunks = test::chunks_of(client.binary().value());
+  ASSERT_EQ(test::kinds_of(chunks), "SFLL");
+  EXPECT_EQ(chunks[1].at<std::int64_t>(0), 7'000'000);
+  EXPECT_EQ(chunks[1].at<std::int64_t>(8), 42);
+}
+
+TEST(LiveView, SaysThatNobodySends) {
+  const SystemClock clock;
+  ManualClock time(1'000'000);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server);
+  const std::string url = (*server)->url();
+  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  auto bus = LcmBus::open("memq://");
+  ASSERT_TRUE(bus);
+  LiveView live(std::move(*bus), "DESK_", ShownHands({}), **server, time);
+  time.advance(9'000'000);
+  live.step(std::chrono::milliseconds(0));
+  const auto status = nlohmann::json::parse(client.text().value());
+  EXPECT_NE(status["trouble"].get<std::string>().find("DESK_"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace barehand
