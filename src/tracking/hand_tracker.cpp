@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "stages/pose_prior/hidden_fingers.h"
 #include "stages/segment_tracker/make_observer.h"
 #include "tracking/hypotheses/found_poses.h"
 
@@ -146,23 +145,12 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
 }
 
 void HandTracker::commit(const HandObservation& observation, const Hypothesis& best) {
-  // A pose that was found anew starts a track, or takes it up.
-  if (!best.prediction) {
-    if (!track_.motion.has_pose()) start_track();
-    if (best.size != 1) person_.doubt_size(best.size);
-    track_.motion.restart(best.refined.pose, observation.frame->utime);
-    return;
-  }
+  if (best.prediction) return track_.continue_with(best, person_.profile(), context_.params);
 
-  // Fingers that are not seen follow their neighbours into the next prediction.
-  const TrackerParams& params = context_.params;
-  std::array<bool, kSegmentCount> seen;
-  for (int s = 0; s < kSegmentCount; ++s) seen[s] = best.refined.matched[s] >= params.seen_fraction;
-  HandPose pose = best.refined.pose;
-  if (params.hidden_follow)
-    pose = with_hidden_following(person_.profile(), track_.motion.pose(), pose, best.prediction->dt, seen,
-                                 best.refined.matched, params.initialiser.widening);
-  track_.motion.update(pose, seen, *best.prediction);
+  // A pose that was found anew starts a track, or takes it up.
+  if (!track_.motion.has_pose()) start_track();
+  if (best.size != 1) person_.doubt_size(best.size);
+  track_.motion.restart(best.refined.pose, observation.frame->utime);
 }
 
 void HandTracker::apply(const TrackRequest& request) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "stages/prediction/motion_prediction.h"
 #include "stages/search/initialiser.h"
 #include "tracking/baseline_score.h"
+#include "tracking/hypotheses/hypothesis.h"
 #include "tracking/tracker_params.h"
 
 namespace barehand {
@@ -54,23 +54,12 @@ struct Track {
     return effort == Effort::full && !was_followed() ? search_attempts : 1;
   }
 
+  /// The pose of a frame that continues the track; fingers that are not seen follow their neighbours.
+  void continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params);
   /// Continues with other parameters: a hand that was followed is followed on.
-  void change(const TrackerParams& params) {
-    MotionModel next(params.prediction, params.icp);
-    if (motion.has_pose()) next.restart(motion.pose(), motion.utime());
-    motion = std::move(next);
-    const bool followed = state.phase() == TrackPhase::tracking || state.phase() == TrackPhase::holding;
-    state = TrackState(params.loss);
-    if (followed) state.start_tracking();
-  }
+  void change(const TrackerParams& params);
   /// No hand is known any more.
-  void forget() {
-    state.reset();
-    motion.forget();
-    last_good.reset();
-    search_frames = 0;
-    baseline.reset();
-  }
+  void forget();
 };
 
 }  // namespace barehand
