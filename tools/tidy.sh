@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Runs clang-tidy over the source files that differ from a branch or commit, with the flags of a configured and built tree.
-#   tools/tidy.sh [BASE=main] [BUILD=build/release]
+# Runs clang-tidy over the source files that differ from a branch or commit. A forgotten include shows here, too.
+#   tools/tidy.sh [BASE=main]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-base=${1:-main} build=${2:-build/release}
 
-# clang cannot read the precompiled headers of g++, but includes what they were made from.
-changed=$(git diff --name-only --diff-filter=d "$(git merge-base "$base" HEAD)" -- '*.cpp')
-[ -n "$changed" ] || { echo "no source file differs from $base"; exit 0; }
-nice run-clang-tidy -quiet -p "$build" -j "$(nproc)" $changed
+changed=$(git diff --name-only --diff-filter=d "$(git merge-base "${1:-main}" HEAD)" -- '*.cpp')
+[ -n "$changed" ] || { echo "no source file differs from ${1:-main}"; exit 0; }
+
+# A tree of its own, because clang cannot read the precompiled headers of g++. It takes the compiler's flags from there.
+cmake --preset release -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
+cmake --build build/tidy --target barehand_lcmtypes_headers >/dev/null
+nice run-clang-tidy -quiet -p build/tidy -j "$(nproc)" $changed
