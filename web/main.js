@@ -8,7 +8,7 @@ import {Timeline} from "./timeline.js";
 
 const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
-const kSlowFrameMs = 1500;  // after so long without a frame the page says so
+const kSlowFrameMs = 3000;  // after so long without a frame the page says so
 
 const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
@@ -38,6 +38,7 @@ const connection = new Connection({
     latest = null;
     unacknowledged = 0;
     showConnection("lost", "no connection");
+    showHands([]);
   },
   onStatus(message) {
     status = message;
@@ -74,7 +75,7 @@ function loop(now) {
   if (now - (loop.slowAt || 0) > 100) {
     loop.slowAt = now;
     plots.draw(theme());
-    if (shown) showHands(shown.states);
+    if (shown && open) showHands(shown.states);
     meter.show(status && status.live, performance.now());
     notice(problem());
   }

@@ -13,7 +13,7 @@ function element(tag, text, attributes = {}) {
 
 export function showHands(states) {
   const box = byId("hands");
-  if (states.length === 0) return;
+  if (states.length === 0) { box.textContent = "Not known."; return; }
   box.replaceChildren(...states.map((state) => {
     const status = kStatusNames[state.status] || "?", side = kSideNames[state.handedness];
     const row = element("div", "", {class: "hand"});

@@ -7,7 +7,7 @@ import {Ellipsoids} from "./ellipsoids.js";
 import {HandMesh} from "./hand_mesh.js";
 
 const kFieldOfView = 45;  // degrees, of the free views
-const kFirstOffset = new THREE.Vector3(0.16, 0.16, 0.42);  // m, from the hand to the eye
+const kFirstOffset = new THREE.Vector3(0.1, 0.12, 0.38);  // m, from the hand to the eye
 const kSlowMs = 40;  // where a picture takes longer than this, fewer pixels are drawn
 const kFewestPixels = 0.5;
 

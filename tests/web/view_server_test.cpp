@@ -74,6 +74,16 @@ TEST_F(ViewServerTest, SendsTheNewestFrameToAClientThatIsSlow) {
   EXPECT_EQ(next_number(client), 50);
 }
 
+TEST_F(ViewServerTest, SendsTheFrameAgainWhereTheWishChanges) {
+  SocketClient client(port());
+  client.send(R"({"type": "want", "window": 1})");
+  wait_until_heard(client);
+  show(7);
+  EXPECT_EQ(next_number(client), 7);
+  client.send(R"({"type": "want", "window": 1, "cloud": "scene"})");
+  EXPECT_EQ(next_number(client), 7);
+}
+
 TEST_F(ViewServerTest, WaitsForNoClientThatDoesNotRead) {
   test::RawClient stuck(port());
   stuck.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n") + "\r\n");

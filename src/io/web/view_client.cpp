@@ -41,6 +41,12 @@ bool ViewClient::hear(std::string_view text) {
     asked_ = true;
     under_way_ = 0;
     next_at_us_ = 0;
+
+    // A log that stands still brings no further frame to show the wish with.
+    if (!next_.frame && sent_) {
+      next_.frame = sent_;
+      ++pushed_;
+    }
   } else if (std::holds_alternative<ViewAcknowledge>(*demand) && under_way_ > 0) {
     --under_way_;
   }
@@ -109,7 +115,7 @@ bool ViewClient::wait(Due& due) {
 
   // A frame waits on where the window is closed or its time has not come.
   if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
-    due.frame = std::exchange(next_.frame, nullptr);
+    due.frame = sent_ = std::exchange(next_.frame, nullptr);
     ++popped_;
     if (next_.wish.window > 0) ++under_way_;
     next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.wish.rate * 0.9);

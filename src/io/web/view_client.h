@@ -58,6 +58,7 @@ class ViewClient : public WebPeer {
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
   Due next_;
+  ViewFramePtr sent_;            // the last one
   int under_way_ = 0;            // sent and not acknowledged
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
   std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;

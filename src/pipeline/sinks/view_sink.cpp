@@ -81,8 +81,8 @@ void ViewSink::show_status() {
   state.health->queues.push_back(server_.health());
   if (const std::int64_t silent_us = status_us_ - frame_us_; silent_us >= kNoFramesUs)
     state.trouble =
-        formatted(any_frame_ ? "No frame has come from the source for %lld s. Is the sensor still plugged in?"
-                             : "No frame has come from the source yet, for %lld s. Is the sensor plugged in?",
+        formatted(any_frame_ ? "No frame has been tracked for %lld s. Is the sensor plugged in, and the processor free?"
+                             : "No frame has been tracked yet, for %lld s. Is the sensor plugged in?",
                   static_cast<long long>(silent_us / 1'000'000));
   server_.show_status(status_json(state));
 }
