@@ -6,7 +6,8 @@ Result<std::unique_ptr<FolderSource>> FolderSource::open(const std::string& dire
   auto recording = open_recording(directory);
   if (!recording) return tl::unexpected(recording.error());
   const auto count = static_cast<std::int64_t>(recording->entries.size());
-  if (range.step == 0) return fail("a step of 0 plays one frame for ever", "--step", "choose 1, 2 ... or -1, -2 ...");
+  if (range.step == 0)
+    return fail("a step of 0 would repeat one frame without end", "--step", "choose 1, 2 ... or -1, -2 ...");
   const std::int64_t start = range.start.value_or(range.step > 0 ? 0 : count - 1);
   if (start < 0 || start >= count)
     return fail("frame " + std::to_string(start) + " is not in the recording", directory,

@@ -18,7 +18,7 @@ Result<HandPose> pose_of(const command_t& message) {
     pose[s].t = Eigen::Vector3d(p[0], p[1], p[2]);
     const bool near = pose[s].t.cwiseAbs().maxCoeff() <= kFarthest && pose[s].t.allFinite();
     if (!near || !std::isfinite(turn.norm()) || turn.norm() <= 1e-6)
-      return fail("the pose of " + std::string(kSegmentNames[s]) + " is no rigid motion within " +
+      return fail("the pose of " + std::string(kSegmentNames[s]) + " is not a rigid transform within " +
                       std::to_string(static_cast<int>(kFarthest)) + " m",
                   "command");
     pose[s].R = turn.normalized().toRotationMatrix();

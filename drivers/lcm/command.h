@@ -25,8 +25,8 @@ struct Command {
 /// Longest hand profile that a command may carry [bytes]; a real one has a few thousand.
 inline constexpr std::size_t kLongestProfile = 1u << 20;
 
-/// The command in an encoded command_t. An unknown kind, a pose that is no rigid motion within 100 m and a profile that
-/// is empty or too long are errors.
+/// The command in an encoded command_t. An unknown kind, a pose that is not a rigid transform within 100 m and a
+/// profile that is empty or too long are errors.
 Result<Command> decode_command(WireBytes message);
 
 /// Collects the commands that arrive on a bus until they are taken. At most `kCapacity` wait; then the oldest go, as

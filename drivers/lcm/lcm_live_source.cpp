@@ -8,8 +8,8 @@ namespace barehand {
 
 Result<std::unique_ptr<LcmLiveSource>> LcmLiveSource::open(const std::string& url, const LcmLiveOptions& options) {
   if (!is_utf8(options.channel))
-    return fail("LCM cannot listen to a channel whose name is no UTF-8", in_quotes(as_utf8(options.channel)),
-                "rename it where it is sent");
+    return fail("LCM cannot listen to a channel whose name is not UTF-8", in_quotes(as_utf8(options.channel)),
+                "rename it in the program that sends on it");
   auto bus = LcmBus::open(url);
   if (!bus) return tl::unexpected(bus.error());
   return std::make_unique<LcmLiveSource>(std::move(*bus), options);
@@ -62,8 +62,8 @@ SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
     }
     if (to_tell()) {
       told_of_other_ = true;
-      return SourceNotice{{"frames come on other channels, too, " + other_ + " among them; they are left out",
-                           name_of(chosen_), "choose the channel if it is the wrong one"}};
+      return SourceNotice{{"frames also arrive on other channels, among them " + other_ + "; they are ignored",
+                           name_of(chosen_), "name the channel if this is the wrong one"}};
     }
     letter = std::move(letters_.front());
     letters_.pop_front();

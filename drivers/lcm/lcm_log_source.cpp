@@ -31,7 +31,8 @@ std::string names(const std::set<std::string>& channels) {
 }  // namespace
 
 Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path, const LcmLogOptions& options) {
-  if (options.step == 0) return fail("a step of 0 plays nothing", path, "use 1, or -1 to play backwards");
+  if (options.step == 0)
+    return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
   std::unique_ptr<LcmLogSource> source(new LcmLogSource(path, options));
   if (auto ready = source->open_files().and_then([&] { return source->choose(); }); !ready)
     return tl::unexpected(ready.error());
@@ -51,14 +52,14 @@ Result<void> LcmLogSource::open_files() {
   left_out_ = std::move(logs->left_out);
   for (const std::string& file : logs->files) {
     auto reader = LcmLogReader::open(file);
-    if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no whole event", file);
+    if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no complete event", file);
     if (!reader) {
       left_out_.push_back(reader.error());
       continue;
     }
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
     if (file != path_ && !finished_name(file).empty())
-      doubts_.push_back(file + ": was left by a killed recorder; every whole event is played");
+      doubts_.push_back(file + ": was left by a killed recorder; every complete event is played");
     reader->close();
     files_.push_back(std::move(*reader));
   }

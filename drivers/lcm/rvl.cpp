@@ -79,18 +79,19 @@ Result<void> rvl_decode(std::span<const std::uint8_t> code, std::span<std::uint1
   std::int32_t previous = 0;
   for (std::size_t i = 0; i < counts.size();) {
     std::uint32_t zeros = 0, measured = 0;
-    if (!in.number(zeros) || !in.number(measured)) return fail("depth code ends too early");
-    if (zeros + measured == 0 || zeros + measured > counts.size() - i) return fail("depth code with a senseless run");
+    if (!in.number(zeros) || !in.number(measured)) return fail("compressed depth ends too early");
+    if (zeros + measured == 0 || zeros + measured > counts.size() - i)
+      return fail("compressed depth with an invalid run length");
     for (std::uint32_t k = 0; k < zeros; ++k) counts[i++] = 0;
     for (std::uint32_t k = 0; k < measured; ++k) {
       std::uint32_t difference = 0;
-      if (!in.number(difference)) return fail("depth code ends too early");
+      if (!in.number(difference)) return fail("compressed depth ends too early");
       previous += unzigzag(difference);
-      if (previous <= 0 || previous > 0xFFFF) return fail("depth code leaves the range of 16 bits");
+      if (previous <= 0 || previous > 0xFFFF) return fail("compressed depth leaves the range of 16 bits");
       counts[i++] = static_cast<std::uint16_t>(previous);
     }
   }
-  if (!in.at_end()) return fail("depth code is longer than the image");
+  if (!in.at_end()) return fail("compressed depth is longer than the image");
   return {};
 }
 

@@ -61,10 +61,11 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
   // Nothing at all is plugged in.
   const auto plugged = usb_ ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
   std::string what = whom() + " yet" + others;
-  if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor shows what is seen");
+  if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor lists what is found");
 
   // Sensors that are plugged in without a driver or a permission are named, with what to do.
-  std::string remedy = "if OpenNI2 has no driver for it, put its maker's into OpenNI2/Drivers beside libOpenNI2.so.0";
+  std::string remedy =
+      "if OpenNI2 has no driver for it, copy the manufacturer's driver into OpenNI2/Drivers beside libOpenNI2.so.0";
   for (const UsbSensor& sensor : *plugged) {
     what += "; plugged in: " + to_text(sensor);
     if (!sensor.obstacle) continue;

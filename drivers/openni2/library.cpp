@@ -20,8 +20,8 @@ Result<std::unique_ptr<OpenNiLibrary>> OpenNiLibrary::load(Changed changed) {
   if (openni::OpenNI::initialize() != openni::STATUS_OK) {
     const std::string reason = openni_error();
     openni::OpenNI::shutdown();
-    return fail("OpenNI2 does not start: " + reason, "OpenNI2",
-                "its drivers belong into OpenNI2/Drivers beside libOpenNI2.so.0: sudo apt-get install libopenni2-0");
+    return fail("OpenNI2 cannot be initialised: " + reason, "OpenNI2",
+                "its drivers must lie in OpenNI2/Drivers beside libOpenNI2.so.0: sudo apt-get install libopenni2-0");
   }
   return std::unique_ptr<OpenNiLibrary>(
       new OpenNiLibrary(changed ? std::make_unique<Listener>(std::move(changed)) : nullptr));

@@ -114,7 +114,7 @@ void LiveReader::reset(const std::string& uri) {
   if (auto done = usb_->reset(*address); !done)
     output_.notice("not reset", done.error().message(), done.error().remedy);
   else
-    output_.notice("reset", "the sensor at " + uri + " opens and does not answer: its USB port was reset");
+    output_.notice("reset", "the sensor at " + uri + " can be opened but sends no frames: its USB port was reset");
 }
 
 void LiveReader::wait(std::chrono::milliseconds duration) {

@@ -18,7 +18,8 @@ constexpr int kDepthAlone = 5;                   // depth frames without colour;
 constexpr std::int64_t kSayAfter = 1'000'000;    // us, a single odd image is not reported
 constexpr std::int64_t kClockSet = 100'000;      // us, a larger change means that the clock was set
 
-constexpr const char* kReplug = "it is opened again; if this goes on, re-plug it, into a USB port of its own";
+constexpr const char* kReplug =
+    "it is reopened; if this continues, reconnect it to a USB port that no other device shares";
 
 /// Host time at the zero of the steady clock [us]. The process may be interrupted between the readings, so the
 /// quickest attempt counts.
@@ -108,13 +109,14 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
   // The sensor's clock.
   const auto mapped = device_clock_.map(depth.device_us, depth.arrival_us);
   if (mapped.jumped_by)
-    output_.notice("sensor clock", formatted("the sensor's clock was set by %+.3f s; frames are stamped by it anew",
-                                             1e-6 * static_cast<double>(*mapped.jumped_by)));
+    output_.notice("sensor clock",
+                   formatted("the sensor's clock jumped by %+.3f s; the time stamps are aligned with it again",
+                             1e-6 * static_cast<double>(*mapped.jumped_by)));
 
   // The host's clock.
   const std::int64_t epoch = host_epoch(clock_);
   if (epoch_us_ && std::abs(epoch - *epoch_us_) > kClockSet)
-    output_.notice("host clock", formatted("this machine's clock was set by %+.3f s, and the stamps with it",
+    output_.notice("host clock", formatted("this machine's clock was set by %+.3f s; the time stamps follow it",
                                            1e-6 * static_cast<double>(epoch - *epoch_us_)));
   epoch_us_ = epoch;
   frame.utime = epoch + mapped.host_us - static_cast<std::int64_t>(1e6 * params_.latency);
@@ -137,7 +139,8 @@ void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture
   if (!black) black_since_us_ = 0;
   if (black && black_since_us_ == 0) black_since_us_ = now_us_;
   if (black && now_us_ - black_since_us_ > kSayAfter)
-    output_.notice("black", "colour is black; depth goes on without it", "uncover the lens, put on the light");
+    output_.notice("black", "the colour image is black; tracking continues with depth alone",
+                   "uncover the lens or turn on the light");
 }
 
 void LiveSession::verify_step(bool matched) {
@@ -165,7 +168,9 @@ void LiveSession::give_up_step() {
   out_of_step_ = 0;
   pair_wanted_ = pairing_held_all_ = false;
   sensor_->pair_streams(false);
-  output_.notice("step", "depth and colour are not exposed in step, whatever the sensor says; they are paired by time");
+  output_.notice(
+      "step",
+      "depth and colour are not synchronised although the sensor reports that they are; they are paired by time stamp");
 }
 
 void LiveSession::judge(DepthFault fault) {
@@ -176,10 +181,10 @@ void LiveSession::judge(DepthFault fault) {
       break;
     case DepthFault::empty:  // valid but empty: tracking goes on, and a hand in it is lost
       if (now_us_ - fault_since_us_ > kSayAfter)
-        output_.notice("empty", "no depth is measured anywhere", "uncover the lens; is something within its range?");
+        output_.notice("empty", "no pixel has depth", "uncover the lens, and check that something is within its range");
       break;
     case DepthFault::repeated:
-      output_.skip("the depth image repeats the one before bit for bit", kReplug);
+      output_.skip("the depth image is identical to the previous one", kReplug);
       break;
     case DepthFault::senseless:
       output_.skip("the depth image is noise", kReplug);
@@ -202,11 +207,11 @@ void LiveSession::watch_colour() {
   if (missing && !colour_missing_) {
     colour_missing_ = true;
     pairing_held_all_ = false;
-    output_.notice("colour stopped", "colour stopped; depth goes on without it",
-                   "re-plug the sensor when it suits: by depth alone skin and things are harder to tell apart");
+    output_.notice("colour stopped", "no more colour images arrive; tracking continues with depth alone",
+                   "reconnect the sensor when convenient: without colour, skin is harder to distinguish from objects");
   } else if (!missing && colour_missing_) {
     colour_missing_ = false;
-    output_.notice("colour is back", "colour is back", "", false);
+    output_.notice("colour is back", "colour images arrive again", "", false);
     pair_again();
   }
 }

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{10'000};  // for the next image of a file on a slow disk
 constexpr std::string_view kMagic = "NI10";
-constexpr const char* kWhole = "give a whole .oni recording: one whose recorder was killed lacks its table";
+constexpr const char* kWhole =
+    "give a complete .oni recording: if the recorder was killed, the table of frames is missing";
 
 /// A path under which OpenNI2 does not know the file yet: it identifies a file by its name and continues where another
 /// reader of the same name stopped. The descriptor stays open, like the player's handles.
@@ -41,7 +42,7 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   // OpenNI2's player cannot handle files that are not recordings, so they are refused here.
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  if (std::string_view(head.data(), head.size()) != kMagic) return fail("is no OpenNI recording", path, kWhole);
+  if (std::string_view(head.data(), head.size()) != kMagic) return fail("is not an OpenNI recording", path, kWhole);
 
   // Open it. Unloading OpenNI2 would destroy the player's streams, which may crash: see OpenNiSensor.
   auto library = OpenNiLibrary::load();
@@ -50,7 +51,7 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
   if (!sensor) return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kWhole : sensor.error().remedy);
   std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
-  if (player->frames() <= 0) return fail("the recording holds no depth pictures", path, "record it again");
+  if (player->frames() <= 0) return fail("the recording holds no depth images", path, "record it again");
   return player;
 }
 
@@ -70,8 +71,8 @@ SourceEvent OpenNiFilePlayer::next() {
   const auto pair = next_pair();
   if (!pair)
     return SourceFailed{
-        error("ends after " + std::to_string(depth_read_) + " of " + std::to_string(depth_total_) + " depth pictures",
-              "the file is damaged or cut off; what came before is good")};
+        error("ends after " + std::to_string(depth_read_) + " of " + std::to_string(depth_total_) + " depth images",
+              "the file is damaged or truncated; the frames before are intact")};
   ++position_;
   return frame_of(*pair);
 }

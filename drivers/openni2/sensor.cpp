@@ -41,7 +41,7 @@ OpenNiSensor::~OpenNiSensor() {
 Result<void> OpenNiSensor::open_device() {
   if (device_.open(where_.c_str()) != openni::STATUS_OK)
     return fail("cannot be opened: " + openni_error(), where_,
-                unless_file("is another program using it? has this user the permission (deploy/udev)?"));
+                unless_file("does another program use it? does this user have permission to open it (deploy/udev)?"));
   playback_ = device_.getPlaybackControl();
   if (!playback_) return {};
   playback_->setRepeatEnabled(false);
@@ -62,7 +62,7 @@ Result<void> OpenNiSensor::create_depth() {
   if (!playback_) {
     const auto mode = choose_depth_mode(depth_.getSensorInfo(), params_);
     if (mode && depth_.setVideoMode(*mode) != openni::STATUS_OK)
-      shortfalls_.push_back("does not take the mode " + to_text(*mode) + " that it offers: " + openni_error());
+      shortfalls_.push_back("rejects the mode " + to_text(*mode) + " that it offers: " + openni_error());
     if (depth_.isCroppingSupported()) depth_.resetCropping();
   }
 
@@ -86,7 +86,7 @@ Result<void> OpenNiSensor::create_depth() {
 void OpenNiSensor::create_colour() {
   // A sensor may have no colour, or refuse it.
   if (!device_.hasSensor(openni::SENSOR_COLOR)) {
-    shortfalls_.push_back("has no colour: skin and things are told apart by depth alone");
+    shortfalls_.push_back("has no colour: skin and objects are distinguished by depth alone");
     return;
   }
   if (colour_.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) return drop_colour(openni_error());
@@ -95,7 +95,7 @@ void OpenNiSensor::create_colour() {
   // Choose a mode of the depth image's size.
   if (!playback_) {
     const auto mode = choose_colour_mode(colour_.getSensorInfo(), depth_mode_);
-    if (!mode) return drop_colour("it has none of the depth image's size");
+    if (!mode) return drop_colour("it has no mode of the depth image's size");
     if (colour_.setVideoMode(*mode) != openni::STATUS_OK) return drop_colour(openni_error());
     if (colour_.isCroppingSupported()) colour_.resetCropping();
   }
@@ -120,21 +120,22 @@ void OpenNiSensor::register_colour() {
   if (device_.isImageRegistrationModeSupported(kMode)) device_.setImageRegistrationMode(kMode);
   registered_ = device_.getImageRegistrationMode() == kMode;
   if (registered_) return;
-  if (params_.colour == "registered") return drop_colour("the sensor does not lay it over depth");
-  shortfalls_.push_back("does not confirm that colour lies over depth; used all the same (openni2.colour: always)");
+  if (params_.colour == "registered") return drop_colour("the sensor does not register it to depth");
+  shortfalls_.push_back(
+      "does not confirm that colour is registered to depth; it is used nevertheless (openni2.colour: always)");
 }
 
 void OpenNiSensor::drop_colour(const std::string& why) {
   has_colour_ = false;
   if (colour_.isValid() && !playback_) colour_.destroy();
-  shortfalls_.push_back("colour is left out: " + why);
+  shortfalls_.push_back("colour is not used: " + why);
 }
 
 void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const char* name) {
   if (!playback_ && stream.getMirroringEnabled()) stream.setMirroringEnabled(false);
   mirrored = stream.getMirroringEnabled();
   if (mirrored && !playback_)
-    shortfalls_.push_back(std::string("delivers ") + name + " mirrored only; it is turned round here");
+    shortfalls_.push_back(std::string("delivers ") + name + " only mirrored; it is mirrored back here");
 }
 
 Result<void> OpenNiSensor::choose_intrinsics() {
@@ -143,7 +144,7 @@ Result<void> OpenNiSensor::choose_intrinsics() {
   camera_ = params_.camera.of_size(width, height);
   if (params_.camera.any()) {
     if (plausible(camera_)) return {};
-    return fail("cannot have the fx, fy, cx and cy that are given", where_, "give them in pixels of its depth image");
+    return fail("does not match the given fx, fy, cx and cy", where_, "give them in pixels of its depth image");
   }
 
   // Otherwise they follow from the field of view. Registered depth is what the colour camera would measure.
@@ -154,21 +155,21 @@ Result<void> OpenNiSensor::choose_intrinsics() {
   camera_.cy = (height - 1) / 2.0;
 
   // Implausible values are refused or reported.
-  if (!plausible(camera_)) return fail("does not tell its field of view", where_, kGiveIntrinsics);
+  if (!plausible(camera_)) return fail("does not report its field of view", where_, kGiveIntrinsics);
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)
-    shortfalls_.push_back("states fields of view that make pixels oblong (fx " + std::to_string(camera_.fx) + ", fy " +
-                          std::to_string(camera_.fy) + "); " + kGiveIntrinsics);
+    shortfalls_.push_back("reports fields of view that imply non-square pixels (fx " + std::to_string(camera_.fx) +
+                          ", fy " + std::to_string(camera_.fy) + "); " + kGiveIntrinsics);
   return {};
 }
 
 Result<void> OpenNiSensor::start() {
   if (depth_.start() != openni::STATUS_OK)
-    return fail("depth does not start: " + openni_error(), where_,
-                unless_file("re-plug the sensor, into a port of its own"));
-  if (has_colour() && colour_.start() != openni::STATUS_OK) drop_colour("it does not start: " + openni_error());
+    return fail("the depth stream cannot be started: " + openni_error(), where_,
+                unless_file("reconnect the sensor to a port that no other device shares"));
+  if (has_colour() && colour_.start() != openni::STATUS_OK) drop_colour("it cannot be started: " + openni_error());
   // OpenNI2 pairs streams only when both run. A file is paired by its time stamps instead.
   if (has_colour() && !playback_ && !pair_streams(true))
-    shortfalls_.push_back("does not expose depth and colour in step; they are paired by time");
+    shortfalls_.push_back("does not synchronise depth and colour; they are paired by time stamp");
   return {};
 }
 
@@ -197,7 +198,7 @@ std::string OpenNiSensor::description() const {
   text += depth_unit(depth_mode_.getPixelFormat()) < 5e-4 ? ", 0.1 mm" : ", 1 mm";
   if (!has_colour()) return text + ", no colour";
   text += registered_ ? ", colour registered" : ", colour not registered";
-  return text + (paired() ? ", in step" : ", not in step");
+  return text + (paired() ? ", synchronised" : ", not synchronised");
 }
 
 }  // namespace barehand

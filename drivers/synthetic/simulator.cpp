@@ -21,7 +21,7 @@ Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const Simulat
   const Handedness wanted = params.hand == "left" ? Handedness::left : Handedness::right;
   if (!info.both_hands) return std::vector{wanted};
   if (wanted == Handedness::left)
-    return fail("shows a right and a left hand, there is none to choose", info.name, "leave out hand=left");
+    return fail("shows both hands, so that none can be chosen", info.name, "leave out hand=left");
   return std::vector{Handedness::right, Handedness::left};
 }
 

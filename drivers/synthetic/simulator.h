@@ -29,15 +29,17 @@ struct SimulatorParams {
 template <class V>
 void visit(V& v, SimulatorParams& p) {
   v("noise", p.noise, {"none", "kinect", "tof"}, "sensor whose noise is simulated");
-  v("seed", p.seed, 0, 1000000000, "of motion and noise");
-  v("fps", p.fps, 0.0, 1000.0, "frames per second, 0 = the sequence's own");
-  v("frames", p.frames, 0, 10000000, "end after this many, 0 = the whole sequence");
+  v("seed", p.seed, 0, 1000000000, "seed of motion and noise");
+  v("fps", p.fps, 0.0, 1000.0, "frames per second; 0: the sequence's own");
+  v("frames", p.frames, 0, 10000000, "number of frames; 0: the whole sequence");
   v("speed", p.speed, 0.05, 20.0, "factor on the speed of the motion");
-  v("hand", p.hand, {"right", "left"}, "which hand, where a sequence has one; a left one is seen in a mirror");
-  v("sleeve", p.sleeve, {"blue", "skin", "none"}, "what the forearm wears; none = no forearm");
-  v("width", p.width, 64, 4096, "pixels");
-  v("height", p.height, 48, 4096, "pixels");
-  v("focal", p.focal, 0.0, 10000.0, "focal length [px], 0 = 525 at 640 pixels width and in proportion");
+  v("hand", p.hand, {"right", "left"},
+    "which hand is shown, in sequences with one hand; a left hand is a mirror image");
+  v("sleeve", p.sleeve, {"blue", "skin", "none"},
+    "what the forearm wears: a blue sleeve, or nothing (skin); none: there is no forearm");
+  v("width", p.width, 64, 4096, "px, width of the images");
+  v("height", p.height, 48, 4096, "px, height of the images");
+  v("focal", p.focal, 0.0, 10000.0, "px, focal length; 0: 525 at a width of 640, and in proportion");
   visit(v, p.shape);
 }
 

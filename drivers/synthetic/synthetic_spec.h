@@ -17,9 +17,9 @@ struct SyntheticSpec {
 template <class V>
 void visit(V& v, SyntheticSpec& p) {
   visit(v, p.simulator);
-  v("live", p.live, "frames come at their rate by the clock, as from a sensor; what is late is left out");
-  v("loop", p.loop, "starts again at the end");
-  v("hands", p.hands, "folder with left.glb and right.glb, empty = where deploy/fetch_hand_mesh.sh puts them");
+  v("live", p.live, "deliver frames at their rate by the clock, as a sensor does; late frames are dropped");
+  v("loop", p.loop, "start again at the end");
+  v("hands", p.hands, "folder with left.glb and right.glb; empty: where deploy/fetch_hand_mesh.sh puts them");
 }
 
 /// Parses "NAME" or "NAME,key=value,key=value", for example "fist,noise=kinect,seed=3,fps=60". Errors name the key: an

@@ -91,7 +91,7 @@ Result<void> LibUsbBus::reset(const UsbAddress& address) {
                                       address.bus, address.number);
 
   // Reset it.
-  if (device == devices.end()) return fail("is not plugged in any more", where, "plug it in");
+  if (device == devices.end()) return fail("is no longer plugged in", where, "plug it in");
   const auto handle = open_usb(*device);
   if (!handle) return tl::unexpected(handle.error());
   const int status = libusb_reset_device(handle->get());

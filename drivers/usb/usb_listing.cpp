@@ -22,8 +22,8 @@ Result<UsbListing> UsbListing::take() {
   }
 
   if (status != LIBUSB_SUCCESS)
-    return fail(std::string("the bus cannot be looked at: ") + libusb_strerror(status), "USB",
-                "in a container, hand in /dev/bus/usb and /sys");
+    return fail(std::string("the devices on the bus cannot be listed: ") + libusb_strerror(status), "USB",
+                "in a container, pass in /dev/bus/usb and /sys");
   return listing;
 }
 
@@ -53,7 +53,7 @@ Result<UsbHandle> open_usb(libusb_device* device) {
                   "install deploy/udev/60-barehand-sensors.rules, add the user to the group plugdev (sudo adduser USER "
                   "plugdev), log in again and re-plug it");
     case LIBUSB_ERROR_NO_DEVICE:
-      return fail("it has no device file", file, "in a container, hand in /dev/bus/usb; else re-plug it");
+      return fail("it has no device file", file, "in a container, pass in /dev/bus/usb; else re-plug it");
     default:
       return fail(std::string("cannot be opened: ") + libusb_strerror(status), file, "re-plug it");
   }

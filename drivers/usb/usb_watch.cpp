@@ -25,7 +25,7 @@ Result<std::unique_ptr<UsbWatch>> UsbWatch::start(std::function<void()> changed)
   const int status = libusb_hotplug_register_callback(context, kEvents, 0, kAny, kAny, kAny, tell,
                                                       const_cast<std::function<void()>*>(&watch->changed_), nullptr);
   if (status != LIBUSB_SUCCESS)
-    return fail(std::string("plugs cannot be watched: ") + libusb_strerror(status), "USB", "");
+    return fail(std::string("changes on the bus cannot be watched: ") + libusb_strerror(status), "USB", "");
 
   watch->thread_ = std::thread([watch = watch.get()] { watch->run(); });
   return watch;

@@ -23,12 +23,12 @@ namespace barehand {
 
 int run_program(int argc, char** argv) {
   prepare_standard_streams();
-  CLI::App app("Tracks a bare hand that holds things and publishes glove-like hand states over LCM.", "barehand");
+  CLI::App app("Tracks a bare hand that handles objects, and publishes glove-like hand states over LCM.", "barehand");
   app.set_version_flag("--version", BAREHAND_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 failed while running or too few frames could be read, 2 wrong arguments, configuration or "
-      "files, 130 interrupted, 141 nobody reads what is printed.\n"
+      "files, 130 interrupted, 141 the reader of the output has gone.\n"
       "barehand COMMAND --help says more.");
   cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
   int exit_code = kExitOk;

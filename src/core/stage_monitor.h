@@ -41,7 +41,7 @@ class StageMonitor {
     } catch (const std::exception& e) {
       return fail(std::string("threw: ") + e.what(), name_);
     } catch (...) {
-      return fail("threw something that is no std::exception", name_);
+      return fail("threw an object that is not a std::exception", name_);
     }
   }
 

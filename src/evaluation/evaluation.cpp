@@ -151,7 +151,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
   // Tables that do not belong together are an error.
   if (collected.frame.empty() && !result.frames.empty())
     return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
-  if (evaluation.frames.empty()) return fail("the truth has none of the frames asked for", {}, "check start and step");
+  if (evaluation.frames.empty()) return fail("the truth has none of the requested frames", {}, "check start and step");
 
   // Summarise.
   collected.summarise_into(evaluation);

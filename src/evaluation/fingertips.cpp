@@ -44,7 +44,7 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
   std::string text;
   std::getline(file, text);
   if (text.rfind("frame,finger,u,v,visible", 0) != 0)
-    return fail("line 1 is no fingertip table's", path, "it must be \"frame,finger,u,v,visible\"");
+    return fail("line 1 is not the header of a fingertip table", path, "it must be \"frame,finger,u,v,visible\"");
 
   // Read line by line.
   std::vector<FingertipLabel> labels;

@@ -30,7 +30,7 @@ Result<std::string> read_pipe(const std::string& path) {
   for (char block[1 << 16]; file.read(block, sizeof block) || file.gcount() > 0;) {
     text.append(block, static_cast<std::size_t>(file.gcount()));
     if (static_cast<std::streamsize>(text.size()) > kMost)
-      return fail("brings more than 64 MiB", path, "give a file, or a pipe that ends");
+      return fail("delivers more than 64 MiB", path, "give a file, or a pipe that ends");
   }
   return text;
 }
@@ -82,7 +82,7 @@ Result<std::string> read_file(const std::string& path) {
 Result<std::string> read_text(const std::string& path) {
   auto text = read_file(path);
   if (!text) return text;
-  if (looks_like_utf16(*text)) return fail("is UTF-16, or no text at all", path, "save it as UTF-8");
+  if (looks_like_utf16(*text)) return fail("is UTF-16, or not a text file", path, "save it as UTF-8");
   if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);  // the byte order mark that Windows puts there
   return text->find('\r') == std::string::npos ? text : with_plain_line_ends(*text);
 }

@@ -50,7 +50,8 @@ Result<FileLock> FileLock::take(const std::string& path, std::chrono::millisecon
     const int descriptor = open_file(path);
     if (descriptor < 0 && (errno == ENOSPC || errno == EDQUOT)) return FileLock(path, -1);
     if (descriptor < 0)
-      return fail(std::string("cannot be made: ") + std::strerror(errno), path, "check the folder and its permissions");
+      return fail(std::string("cannot be created: ") + std::strerror(errno), path,
+                  "check the folder and its permissions");
 
     FileLock lock(path, descriptor);
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
@@ -67,7 +68,7 @@ Result<FileLock> FileLock::take(const std::string& path, std::chrono::millisecon
     lock.path_.clear();
     if (knows_no_locks(reason)) return FileLock(path, -1);
     if (reason != EWOULDBLOCK) return fail(std::string("cannot be locked: ") + std::strerror(reason), path);
-    if (Clock::now() >= end) return fail("is held by " + holder(descriptor), path, "stop that one first");
+    if (Clock::now() >= end) return fail("is held by " + holder(descriptor), path, "stop that process first");
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }

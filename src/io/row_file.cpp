@@ -51,14 +51,14 @@ Result<void> RowFile::write(std::string_view rows) {
   std::clearerr(file);
   if (reason == EPIPE) {
     unread_ = true;
-    return fail("nobody reads this pipe", path_, "the table begins anew when somebody does");
+    return fail("no program reads this pipe", path_, "the table starts again when one does");
   }
 
   // Cut the file back to what was whole.
   torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
-              torn_ ? "the table ends in a torn frame; readers leave it out"
-                    : "the frames before this one are kept; make room");
+              torn_ ? "the table ends in an incomplete frame, which readers ignore"
+                    : "the frames before this one are kept; free some space");
 }
 
 }  // namespace barehand

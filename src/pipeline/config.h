@@ -24,14 +24,14 @@ struct Config {
 };
 template <class V>
 void visit(V& v, Config& c) {
-  v("run", c.run, "the run as a whole");
-  v("detection", c.detection, "hands found by networks");
+  v("run", c.run, "settings of the run as a whole");
+  v("detection", c.detection, "detection of hands by neural networks");
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("publish", c.publish, "from estimates to LCM messages");
-  v("foreign_camera", c.foreign_camera, "for kinect.frame_msg_t and bot_core.images_t, which carry no intrinsics");
+  v("foreign_camera", c.foreign_camera, "intrinsics for kinect.frame_msg_t and bot_core.images_t, which carry none");
   v("openni2", c.openni2,
-    "what is wanted of an OpenNI2 sensor, and when it is opened again; fx, fy, cx and cy replace its own");
+    "wanted mode of an OpenNI2 sensor, and when it is reopened; fx, fy, cx and cy replace the sensor's own");
 
   // One key serves the tracker and what is published.
   c.publish.hold_time = c.tracker.loss.hold_time;

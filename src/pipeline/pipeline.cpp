@@ -204,7 +204,7 @@ void Pipeline::deliver(const Item& item) {
     const int missed = monitor.failures_in_a_row();
     const auto consumed = monitor.run([&] { return stages_.sinks[i]->consume(item.data); });
     if (consumed) {
-      if (missed > 0) log_.logger().info("{} works again; it misses {} frames", monitor.name(), missed);
+      if (missed > 0) log_.logger().info("{} works again; it missed {} frames", monitor.name(), missed);
       continue;
     }
     delivered = false;

@@ -19,20 +19,21 @@ struct RunParams {
 };
 template <class V>
 void visit(V& v, RunParams& p) {
-  v.user("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers: same seed, same results");
+  v.user("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(),
+         "seed of the random numbers: runs with the same seed give the same results");
   v("max_failures_in_a_row", p.max_failures_in_a_row, 1, 1000000,
-    "frames one stage may fail on before the run ends; outputs of a live run may fail for ever");
-  v.user("health_period", p.health_period, 0.05, 3600.0, "s between two health messages");
-  v.user("channel_prefix", p.channel_prefix,
-         "before the names of all LCM channels that are published; one for each sensor of a network");
+    "consecutive frames that one stage may fail on before the run ends; outputs of a live run may fail without limit");
+  v.user("health_period", p.health_period, 0.05, 3600.0, "s, interval between two health messages");
+  v.user(
+      "channel_prefix", p.channel_prefix,
+      "prefix of the names of all LCM channels that are published; several sensors on one network need different ones");
   v.user("frame_channel", p.frame_channel,
-         "LCM channels with frames (a pattern with * and ?); empty: live the first of *RGBD_FRAME that brings one, in "
-         "a log "
-         "the only one that has some");
+         "LCM channels with frames (a pattern with * and ?); empty: live the first channel matching *RGBD_FRAME that "
+         "brings a frame, in a log the only channel with frames");
   v.user("lcm_ttl", p.lcm_ttl, 0, 255,
-         "how far messages go: 0 this machine, 1 the local network, more through routers; a ttl in the LCM URL goes "
-         "before");
-  v.user("commands", p.commands, "follow whoever on the network sends commands (channel COMMAND)");
+         "how far messages travel: 0 this machine, 1 the local network, more through routers; a ttl in the LCM URL "
+         "takes precedence");
+  v.user("commands", p.commands, "execute the commands that anyone on the network sends (channel COMMAND)");
 }
 
 }  // namespace barehand

@@ -52,8 +52,7 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   const auto seen = Preprocessor(config.preprocess).process(render_frame(*model.skin, pose), hint(pose, profile));
   if (!seen) return tl::unexpected(seen.error());
   if (!seen->front()->hand_present)
-    return fail("the hand of the trial is not seen with these values", "preprocess",
-                "see barehand track --print-config");
+    return fail("the test hand is not found with these values", "preprocess", "see barehand track --print-config");
 
   // What the tracker would hand over; the poses stay valid while the model draws no others.
   const PreparedObservation& prepared = model.segment_tracker.prepare(*seen->front(), pose);

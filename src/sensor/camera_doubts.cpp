@@ -70,7 +70,7 @@ std::vector<std::string> camera_doubts(const Intrinsics& camera) {
     const std::string cause =
         size ? formatted("these look like the intrinsics of a %dx%d image", size->width, size->height)
         : std::abs(camera.cx) <= 1 && std::abs(camera.cy) <= 1
-            ? "these look like parts of the image's size, but they are in pixels"
+            ? "these look like fractions of the image size, but must be in pixels"
             : "are the intrinsics of this camera and image size?";
     doubts.push_back(
         formatted("the principal point (cx, cy) = (%.6g, %.6g) is far from the middle of the %dx%d image: ", camera.cx,

@@ -17,7 +17,8 @@ struct GivenIntrinsics {
 
 template <class V>
 void visit(V& v, GivenIntrinsics& p) {
-  v.user("fx", p.fx, 0.0, kLargestFocal, "px, focal length of the depth camera; all four are given, or all 0 = none");
+  v.user("fx", p.fx, 0.0, kLargestFocal,
+         "px, focal length of the depth camera; give all four, or leave all at 0 for none");
   v.user("fy", p.fy, 0.0, kLargestFocal, "px, vertical focal length");
   v.user("cx", p.cx, -kLargestFocal, kLargestFocal, "px, principal point");
   v.user("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");

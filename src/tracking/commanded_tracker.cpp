@@ -25,7 +25,7 @@ void CommandedTracker::collect(const std::string& sensor) {
       log_.warn("command", "ignored a command: " + command.error().message());
     } else if ((command->sensor.empty() || command->sensor == sensor) && !concerned(*command).empty()) {
       if (!make_room_for(*command))
-        log_.warn("commands", "commands come faster than they are followed; the newest of a kind counts");
+        log_.warn("commands", "commands arrive faster than they are executed; only the newest of each kind is");
       waiting_.push_back(std::move(*command));
     }
   }
@@ -60,7 +60,8 @@ void CommandedTracker::follow(const Command& command) {
     log_.logger().info("command: forget the hand and search again");
     for (const int k : hands) tracker_.hand(k).apply(StartAnew{});
   } else if (command.kind == Command::Kind::initialise) {
-    if (hands.size() > 1) return log_.warn("command", "ignored a pose: two hands are tracked, it must say whose it is");
+    if (hands.size() > 1)
+      return log_.warn("command", "ignored a pose: two hands are tracked, so the command must name one");
     log_.logger().info("command: track from the given pose");
     tracker_.hand(hands[0]).apply(StartAt{command.pose});
   } else {
@@ -77,7 +78,7 @@ void CommandedTracker::use(const std::vector<int>& hands, HandProfile profile) {
     log_.logger().info("command: use the given hand profile");
     return tracker_.use(k, std::make_shared<const HandProfile>(std::move(profile)));
   }
-  log_.warn("command", "ignored a hand profile: it is of the other side than the hand it is for");
+  log_.warn("command", "ignored a hand profile: its handedness differs from that of the hand it is meant for");
 }
 
 }  // namespace barehand

@@ -70,7 +70,7 @@ void PersonModel::check_size(const HandObservation& observation, const RefinedPo
   const auto size = size_check_->look(observation, refined.pose, refined.score);
   if (!size) return;
   if (!fit_) return doubt_size(*size);
-  context_.log->info("a hand of {:.2f} times the size of the last one is fitted anew", *size);
+  context_.log->info("the bone fit starts again with a hand of {:.2f} times the size of the last one", *size);
   reset();
 }
 
@@ -83,8 +83,9 @@ void PersonModel::fit_bones(const HandObservation& observation, const HandPose& 
   const PersonFit::Change change = fit_->look(observation, pose, model_->refinement, model_->skin);
   if (change == PersonFit::Change::large) {
     model_ = model_of(fit_->profile());
-    context_.log->info("hand fitted to the person after {} looks: {:.0f} mm long, the mean hand {:.0f} mm",
-                       fit_->fit().looks(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());
+    context_.log->info(
+        "hand fitted to the person after {} contributing frames: {:.0f} mm long, the mean hand {:.0f} mm",
+        fit_->fit().looks(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());
   } else if (change == PersonFit::Change::small) {
     model_ = std::make_unique<HandModel>(context_.params, fit_->profile(), fit_->skin(), model_->initialiser,
                                          context_.workers, context_.observer);

@@ -52,8 +52,8 @@ void ProfileCheck::say_side() {
   if (said_side_) return;
   said_side_ = true;
   const auto seen = to_string(mirrored_->view().profile->handedness);
-  log_->warn("what is seen looks like a {} hand, the profile is of a {} one: give --hand {} for that one, or both",
-             seen, to_string(profile_.handedness), seen);
+  log_->warn("the data looks like a {} hand, but the profile is of a {} one: give --hand {}, or --hand both", seen,
+             to_string(profile_.handedness), seen);
 }
 
 HandTracker& ProfileCheck::other_side() {

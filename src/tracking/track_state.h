@@ -9,29 +9,31 @@ namespace barehand {
 
 /// When a hand counts as tracked. The global score is the mean mismatch of model and data [m].
 struct LossParams {
-  double lost_score = 0.005;       ///< above it a frame is bad; for a hand of kReferenceHandLength and no noise
-  double recovered_score = 0.004;  ///< below it a frame is good; between the two, nothing changes (hysteresis)
-  double noise_factor = 1.0;       ///< sensor noise added in quadrature to both thresholds, in standard deviations
-  int bad_frames = 4;              ///< consecutive bad frames until the hand is lost
-  int good_frames = 1;             ///< consecutive good frames until a searched hand is tracked
-  int min_hand_pixels = 200;       ///< fewer are no data: the pose is held
-  double hold_time = 0.5;          ///< [s] without data until the held hand is lost
-  double forget_time = 3.0;        ///< [s] after the loss until the last pose is no longer a start
+  double lost_score = 0.005;
+  double recovered_score = 0.004;
+  double noise_factor = 1.0;
+  int bad_frames = 4;
+  int good_frames = 1;
+  int min_hand_pixels = 200;  ///< fewer are no data: the pose is held
+  double hold_time = 0.5;
+  double forget_time = 3.0;
   bool operator==(const LossParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, LossParams& p) {
-  v.user("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame whose global score is above is bad (hand of 190 mm)");
-  v("recovered_score", p.recovered_score, 1e-4, 0.1, "m, a frame whose global score is below is good");
-  v("noise_factor", p.noise_factor, 0.0, 10.0, "standard deviations of sensor noise added in quadrature");
-  v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames until the hand is lost");
-  v("good_frames", p.good_frames, 1, 1000, "consecutive good frames until a hand that was searched for is tracked");
+  v.user("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame with a higher global score is bad (for a hand of 190 mm)");
+  v("recovered_score", p.recovered_score, 1e-4, 0.1, "m, a frame with a lower global score is good; between the two thresholds nothing changes");
+  v("noise_factor", p.noise_factor, 0.0, 10.0,
+    "standard deviations of the sensor noise that are added to both thresholds in quadrature");
+  v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames after which the hand is lost");
+  v("good_frames", p.good_frames, 1, 1000,
+    "consecutive good frames after which a hand that was searched for is tracked");
   v("min_hand_pixels", p.min_hand_pixels, 1, 1000000,
-    "with fewer hand pixels the pose is held, and no start is proposed");
-  v.user("hold_time", p.hold_time, 0.0, 60.0,
-         "s, how long the last pose of a hand without data is held until the hand is lost");
-  v.user("forget_time", p.forget_time, 0.0, 3600.0, "s after the loss until the last pose is forgotten");
+    "with fewer hand pixels the pose is held, and the search proposes no start pose");
+  v.user("hold_time", p.hold_time, 0.0, 60.0, "s, how long the last pose is held without data before the hand is lost");
+  v.user("forget_time", p.forget_time, 0.0, 3600.0,
+         "s after the loss during which the last pose is one of the starts of the search");
 }
 
 /// What one frame says about the tracked hand.

@@ -52,38 +52,41 @@ template <class V>
 void visit(V& v, TrackerParams& p) {
   v("skin", p.skin, {"blended", "cylinders"},
     "skin of the local trackers: smooth, or the paper's cylinders (Sec. 3.1)");
-  v("skin_points", p.skin_points, 10, 5000, "skin points per segment for the local trackers");
+  v("skin_points", p.skin_points, 10, 5000, "number of skin points per segment for the local trackers");
   v("skin_cell", p.skin_cell, 0.001, 0.02, "m, size of the smooth skin's triangles");
   v("sampling", p.sampling, "draw samples and fuse them by belief propagation (Sec. 4); false: refinement alone");
   v("sampling_distinct", p.sampling_distinct, 0.0, 1.0,
-    "m, a sampled pose is refined if what is seen lies farther than this from the refined prediction");
-  v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, the frame rate at which the search ranges hold");
-  v("seen_fraction", p.seen_fraction, 0.0, 1.0, "a segment counts as seen if so much of its skin agrees with data");
-  v("hidden_follow", p.hidden_follow, "fingers that are not seen bend with their neighbours");
-  v("relax", p.relax, "hidden joints of a pose that a search found are set to neutral angles");
+    "m, a sampled pose is refined only if its seen segments lie farther than this from the refined prediction");
+  v("nominal_rate", p.nominal_rate, 1.0, 1000.0, "Hz, frame rate for which the ranges of the local trackers are set");
+  v("seen_fraction", p.seen_fraction, 0.0, 1.0,
+    "a segment counts as seen if at least this fraction of its skin matches the data");
+  v("hidden_follow", p.hidden_follow, "fingers that are not seen bend with the neighbouring fingers");
+  v("relax", p.relax, "set the hidden joints of a pose that a search found to neutral angles");
   v("side_check", p.side_check,
-    "compare the hand with one of the other side while it is searched and in its first frames");
-  v("size_check", p.size_check, "compare the hand with smaller and larger ones");
+    "test whether the mirrored hand explains the data better, while searching and in the first tracked frames");
+  v("size_check", p.size_check, "test whether a smaller or larger hand explains the data better");
   visit(v, p.choice);
-  v("search_refined", p.search_refined, 1, 100, "start poses that are refined while searching");
-  v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of them");
-  v("full_search_every", p.full_search_every, 1, 10000, "frames between full searches; quick ones in between");
+  v("search_refined", p.search_refined, 1, 100, "number of start poses that a search refines");
+  v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of these start poses");
+  v("full_search_every", p.full_search_every, 1, 10000,
+    "every n-th frame without a hand is searched with full effort, the others quickly");
   v("search_attempts", p.search_attempts, 1, 100,
-    "full searches of one frame until one settles it, three agree or, of eight or more, all but one are alike or none "
-    "explains it, while no hand was tracked before");
+    "maximum number of full searches of one frame while no hand has been tracked yet; they end early once one result "
+    "is good enough, three agree or, from eight on, all but one agree or none explains the frame");
   v("doubt_every", p.doubt_every, 1, 100000,
-    "of so many doubtful frames the middle one is searched anew, at first thoroughly");
+    "of every n consecutive ambiguous frames the middle one is searched from templates, the first time with full "
+    "effort");
   v("doubt_near_every", p.doubt_near_every, 1, 100000,
-    "of so many doubtful frames one is searched near the followed pose, if not anew");
+    "of every n consecutive ambiguous frames one is searched near the followed pose");
   v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
   v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");
   v("refinement", p.refinement, "continuous refinement of the best hypothesis");
-  v("uncertainty", p.uncertainty, "how far the refined pose may be from the truth");
+  v("uncertainty", p.uncertainty, "stated uncertainty of the refined pose");
   v("prediction", p.prediction, "motion from frame to frame (Sec. 4.4)");
-  v("icp", p.icp, "global motion (Sec. 4.4)");
-  v("loss", p.loss, "when a hand counts as tracked");
-  v("initialiser", p.initialiser, "start and restart from one observation");
+  v("icp", p.icp, "global motion of the hand by ICP (Sec. 4.4)");
+  v("loss", p.loss, "when a hand counts as tracked, and when as lost");
+  v("initialiser", p.initialiser, "search for start poses in one observation");
   v("shape_fit", p.shape_fit, "learning the hand of the person in view");
 
   // One key serves every unit that needs the value.

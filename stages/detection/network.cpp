@@ -58,7 +58,7 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
     net->net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     net->net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
   } catch (const std::exception&) {
-    return fail("is no network that OpenCV can read", name, kRemedy);
+    return fail("is not a network that OpenCV can read", name, kRemedy);
   }
   Network network(std::move(net), name, shape);
 
@@ -79,7 +79,7 @@ Result<NetworkOutput> Network::run(const NetworkInput& input) {
     net_->net.setInput(net_->input);
     net_->net.forward(net_->outputs, net_->names);
   } catch (const std::exception&) {
-    return fail("is a network of another shape", name_, kRemedy);
+    return fail("is a network with other inputs or outputs", name_, kRemedy);
   }
 
   const cv::Mat &map = net_->outputs[0], &label = net_->outputs[1], &side = net_->outputs[2];
@@ -87,7 +87,7 @@ Result<NetworkOutput> Network::run(const NetworkInput& input) {
                        shape_.width / 2, shape_.height / 2, label.ptr<float>(), 0};
   if (!has_shape(map, result.maps, result.map_height, result.map_width) ||
       !has_shape(label, kSurfaceLabelCount, result.label_height, result.label_width) || side.total() != 1)
-    return fail("is a network of another shape", name_, kRemedy);
+    return fail("is a network with other inputs or outputs", name_, kRemedy);
   if (!all_finite(map) || !all_finite(label) || !all_finite(side))
     return fail("gives values that are not finite", name_, kRemedy);
   result.side = *side.ptr<float>();

@@ -16,13 +16,13 @@ struct DetectionParams {
 
 template <class V>
 void visit(V& v, DetectionParams& p) {
-  v.user("enabled", p.enabled, "find hands by networks that were trained on depth images");
+  v.user("enabled", p.enabled, "detect hands by neural networks that were trained on depth images");
   v.user("networks", p.networks,
          "folder with nets.json and the networks; a bare name is a folder of the shipped configs/");
-  v("every", p.every, 1, 1000, "frames between two detections in the whole image while a hand is searched for");
+  v("every", p.every, 1, 1000, "every n-th frame is searched as a whole while a hand is missing");
   v("every_tracked", p.every_tracked, 1, 1000,
-    "frames between two detections around each tracked hand where there is no colour");
-  v("least_palm", p.least_palm, 0.01, 0.99, "a palm is followed up if the network holds it for at least so probable");
+    "every n-th frame is searched around each tracked hand where there is no colour");
+  v("least_palm", p.least_palm, 0.01, 0.99, "minimum probability with which the network must report a palm");
 }
 
 }  // namespace barehand

@@ -10,10 +10,10 @@ namespace barehand {
 namespace {
 
 constexpr const char* kInterface = "1";  // of the networks: what goes in and comes out (docs/nets.md)
-constexpr const char* kRemedy = "install Barehand again, or give nets.json the checksum of the file that is meant";
+constexpr const char* kRemedy = "install Barehand again, or correct the checksum in nets.json";
 
 Result<std::string> checked_file(const std::string& folder, const json_fields::Object& manifest, const char* key) {
-  if (!manifest.has(key)) return fail("says nothing of \"" + std::string(key) + "\"", manifest.where, kRemedy);
+  if (!manifest.has(key)) return fail("has no entry for \"" + std::string(key) + "\"", manifest.where, kRemedy);
   const json_fields::Object entry{manifest.json[key], manifest.where + ": " + key};
   const auto file = entry.text("file"), checksum = entry.text("crc32");
   if (!file) return tl::unexpected(file.error());
@@ -26,7 +26,7 @@ Result<std::string> checked_file(const std::string& folder, const json_fields::O
   if (!bytes) return bytes;
   const auto* data = reinterpret_cast<const Bytef*>(bytes->data());
   const std::string found = formatted("%08lx", crc32_z(0, data, bytes->size()));
-  if (found != *checksum) return fail("has checksum " + found + ", nets.json says " + *checksum, path, kRemedy);
+  if (found != *checksum) return fail("has checksum " + found + ", nets.json states " + *checksum, path, kRemedy);
   return bytes;
 }
 
@@ -36,13 +36,13 @@ Result<DetectionWeights> load_weights(const std::string& folder) {
   const std::string where = folder + "/nets.json";
   const auto json = json_fields::read_json(where);
   if (!json) return tl::unexpected(json.error());
-  if (!json->is_object()) return fail("is no JSON object", where, kRemedy);
+  if (!json->is_object()) return fail("is not a JSON object", where, kRemedy);
   const json_fields::Object manifest{*json, where};
   const auto version = manifest.text("version"), interface = manifest.text("interface");
   if (!version) return tl::unexpected(version.error());
   if (!interface) return tl::unexpected(interface.error());
   if (*interface != kInterface)
-    return fail("is of interface " + *interface + ", this program knows " + kInterface, where,
+    return fail("has interface " + *interface + ", this program supports " + kInterface, where,
                 "use the networks that came with this version of Barehand");
 
   auto full = checked_file(folder, manifest, "full"), crop = checked_file(folder, manifest, "crop");

@@ -15,29 +15,30 @@ namespace barehand {
 /// relative to it. Deviation: segments that were not seen hold relative to the global motion at sensor rate, where
 /// their velocity is noise that feeds itself.
 struct PredictionParams {
-  bool velocity = true;              ///< constant velocity per segment
-  double damping = 0.7;              ///< fraction of a seen segment's relative velocity that is kept
-  double unseen_damping = 0.0;       ///< the same for unseen segments at sensor rate
-  double slow_unseen_damping = 0.5;  ///< and for unseen segments below `slow_rate`
-  double slow_rate = 10;             ///< [Hz] frame rate below which unseen segments keep some velocity
-  double smoothing = 0.0;            ///< weight of the velocity before in the new one: 0 = last difference
-  double max_speed = 2.0;            ///< [m/s] bound of the relative velocity
-  double max_angular_speed = 20;     ///< [rad/s]
-  double max_interval = 0.5;         ///< [s] after a longer gap velocities are forgotten
+  bool velocity = true;
+  double damping = 0.7;
+  double unseen_damping = 0.0;
+  double slow_unseen_damping = 0.5;
+  double slow_rate = 10;
+  double smoothing = 0.0;
+  double max_speed = 2.0;
+  double max_angular_speed = 20;
+  double max_interval = 0.5;
   bool operator==(const PredictionParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, PredictionParams& p) {
-  v("velocity", p.velocity, "constant velocity per segment, relative to the global motion (Sec. 4.4)");
+  v("velocity", p.velocity, "predict each segment with constant velocity relative to the global motion (Sec. 4.4)");
   v("damping", p.damping, 0.0, 1.0, "fraction of a seen segment's relative velocity that is kept");
   v("unseen_damping", p.unseen_damping, 0.0, 1.0, "the same for unseen segments at sensor rate");
   v("slow_unseen_damping", p.slow_unseen_damping, 0.0, 1.0, "the same for unseen segments below slow_rate");
   v("slow_rate", p.slow_rate, 0.0, 1000.0, "Hz, frame rate below which unseen segments keep some velocity");
-  v("smoothing", p.smoothing, 0.0, 0.99, "weight of the velocity before in the new one");
-  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, bound of the relative velocity");
-  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, bound of the relative velocity");
-  v("max_interval", p.max_interval, 1e-3, 60.0, "s, after a longer gap velocities are forgotten");
+  v("smoothing", p.smoothing, 0.0, 0.99,
+    "weight of the previous velocity in the new one; 0: the last difference alone");
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, limit of the relative velocity");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, limit of the relative angular velocity");
+  v("max_interval", p.max_interval, 1e-3, 60.0, "s, after a longer gap between frames velocities are discarded");
 }
 
 /// A pose the next frame may start from. The tracker lets candidates compete by their global score.

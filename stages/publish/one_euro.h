@@ -8,19 +8,19 @@ namespace barehand {
 /// at rest does not tremble and a fast one does not lag.
 struct OneEuroParams {
   bool enabled = true;
-  double min_cutoff = 3.0;     ///< Hz at rest
-  double beta = 30.0;          ///< Hz per m/s
-  double beta_rotation = 3.0;  ///< Hz per rad/s
-  double speed_cutoff = 2.0;   ///< Hz, of the low pass on the speed
+  double min_cutoff = 3.0;
+  double beta = 30.0;
+  double beta_rotation = 3.0;
+  double speed_cutoff = 2.0;
   bool operator==(const OneEuroParams&) const = default;
 };
 template <class V>
 void visit(V& v, OneEuroParams& p) {
-  v.user("enabled", p.enabled, "off: the smoothed pose is the raw one");
-  v.user("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off at rest (lower: calmer, more lag)");
-  v.user("beta", p.beta, 0.0, 10000.0, "Hz per m/s, how fast the cut-off rises with speed (higher: less lag)");
+  v.user("enabled", p.enabled, "smooth the published pose; false: the smoothed pose is the raw one");
+  v.user("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off frequency at rest (lower: smoother, more lag)");
+  v.user("beta", p.beta, 0.0, 10000.0, "Hz per m/s, increase of the cut-off frequency with speed (higher: less lag)");
   v("beta_rotation", p.beta_rotation, 0.0, 10000.0, "Hz per rad/s, the same for rotation");
-  v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off of the speed itself");
+  v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off frequency of the low pass on the speed");
 }
 
 /// One filtered rigid motion; translation and rotation have a cut-off each.

@@ -6,16 +6,17 @@ namespace barehand {
 
 struct PublishParams {
   OneEuroParams smoothing;
-  double hold_time = 0.5;             ///< s the last pose of a lost hand is held; the key is tracker.loss.hold_time
-  double hold_growth = 0.1;           ///< m/s at which the 1-sigma position of a held hand grows
-  double hold_growth_rotation = 1.0;  ///< rad/s at which its 1-sigma orientation grows
+  double hold_time = 0.5;  ///< s the last pose of a lost hand is held; the key is tracker.loss.hold_time
+  double hold_growth = 0.1;
+  double hold_growth_rotation = 1.0;
   bool operator==(const PublishParams&) const = default;
 };
 template <class V>
 void visit(V& v, PublishParams& p) {
   v("smoothing", p.smoothing, "output filter; the raw pose is published beside the smoothed one");
   v.retired("hold_time", "tracker.loss.hold_time");
-  v("hold_growth", p.hold_growth, 0.0, 10.0, "m/s, growth of the 1-sigma position while a pose is held");
+  v("hold_growth", p.hold_growth, 0.0, 10.0,
+    "m/s, growth of the standard deviation of the position while a pose is held");
   v("hold_growth_rotation", p.hold_growth_rotation, 0.0, 100.0, "rad/s, the same for the orientation");
 }
 

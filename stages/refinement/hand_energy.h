@@ -13,43 +13,47 @@ class ShapeMoments;
 /// Weights of the continuous energy that refinement minimises: the negative logarithm of the paper's likelihood
 /// (Eq. 3) and constraints (Eq. 4-6), made robust and summed over all segments at once.
 struct EnergyParams {
-  double sigma_depth = 0.002;        ///< m, standard deviation of a surface distance
-  double robust_scale = 0.004;       ///< m, Geman-McClure scale of surface distances
-  double gate = 0.015;               ///< m, larger surface distances are ignored
-  double silhouette_scale = 0.008;   ///< m, Geman-McClure scale of silhouette distances
-  double silhouette_gate = 0.040;    ///< m, larger silhouette distances are ignored
-  double weight_outside = 0.5;       ///< of model pixels where the data shows no hand
-  double weight_unexplained = 1.0;   ///< of hand data that no model pixel explains
-  double palm_trust = 0.1;           ///< information of skin on palm and thumb root, relative to a phalanx's
-  double sigma_gap = 0.0005;         ///< m, joint gap (Eq. 5)
-  double sigma_angle_deg = 2.0;      ///< angles beyond the limits, and twist (Eq. 6)
+  double sigma_depth = 0.002;
+  double robust_scale = 0.004;
+  double gate = 0.015;
+  double silhouette_scale = 0.008;
+  double silhouette_gate = 0.040;
+  double weight_outside = 0.5;
+  double weight_unexplained = 1.0;
+  double palm_trust = 0.1;
+  double sigma_gap = 0.0005;
+  double sigma_angle_deg = 2.0;
   double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (Sec. 4.3)
-  double sigma_overlap = 0.001;      ///< m, of segments that pass through one another
-  double prior_translation = 0.05;   ///< m, pull of the palm to its prediction
-  double prior_rotation_deg = 30.0;  ///< pull of the palm and of seen joints to their prediction
-  double prior_unseen_deg = 4.0;     ///< pull of unseen joints to their prediction
+  double sigma_overlap = 0.001;
+  double prior_translation = 0.05;
+  double prior_rotation_deg = 30.0;
+  double prior_unseen_deg = 4.0;
   bool operator==(const EnergyParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, EnergyParams& p) {
-  v("sigma_depth", p.sigma_depth, 1e-4, 0.05, "m, of a surface distance");
+  v("sigma_depth", p.sigma_depth, 1e-4, 0.05, "m, standard deviation of a surface distance");
   v("robust_scale", p.robust_scale, 5e-4, 0.1, "m, Geman-McClure scale of surface distances");
   v("gate", p.gate, 1e-3, 0.2, "m, larger surface distances are ignored");
   v("silhouette_scale", p.silhouette_scale, 5e-4, 0.1, "m, Geman-McClure scale of silhouette distances");
   v("silhouette_gate", p.silhouette_gate, 1e-3, 0.5, "m, larger silhouette distances are ignored");
-  v("weight_outside", p.weight_outside, 0.0, 10.0, "of model pixels where the data shows no hand");
-  v("weight_unexplained", p.weight_unexplained, 0.0, 10.0, "of hand data that no model pixel explains");
+  v("weight_outside", p.weight_outside, 0.0, 10.0, "weight of model pixels where the data shows no hand");
+  v("weight_unexplained", p.weight_unexplained, 0.0, 10.0, "weight of hand data that no model pixel explains");
   v("palm_trust", p.palm_trust, 0.0, 1.0,
-    "information of skin on palm and thumb root relative to a phalanx's: its shape differs most between people");
-  v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, joint gap (Eq. 5)");
-  v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0, "degrees, angles beyond the limits and twist (Eq. 6)");
+    "weight of the skin on the palm and the thumb's root relative to a phalanx's: its shape differs most between "
+    "people");
+  v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, standard deviation of the gap at a joint (Eq. 5)");
+  v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0,
+    "degrees, standard deviation of the twist and of angles beyond the limits (Eq. 6)");
   v.retired("limit_widening_deg", "tracker.fusion.limit_widening_deg");
-  v("sigma_overlap", p.sigma_overlap, 1e-5, 10.0, "m, of segments that pass through one another");
-  v("prior_translation", p.prior_translation, 1e-4, 10.0, "m, pull of the palm to its prediction");
+  v("sigma_overlap", p.sigma_overlap, 1e-5, 10.0, "m, standard deviation of the overlap of two segments");
+  v("prior_translation", p.prior_translation, 1e-4, 10.0,
+    "m, standard deviation of the palm's position about its prediction");
   v("prior_rotation_deg", p.prior_rotation_deg, 0.1, 3600.0,
-    "degrees, pull of the palm and seen joints to their prediction");
-  v("prior_unseen_deg", p.prior_unseen_deg, 0.1, 3600.0, "degrees, pull of unseen joints to their prediction");
+    "degrees, standard deviation of the palm and of seen joints about their prediction");
+  v("prior_unseen_deg", p.prior_unseen_deg, 0.1, 3600.0,
+    "degrees, standard deviation of unseen joints about their prediction");
 }
 
 /// How the data term is weighted in one Gauss-Newton step.

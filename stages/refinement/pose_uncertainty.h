@@ -7,28 +7,34 @@ namespace barehand {
 /// Why an estimated pose differs from the true one although the energy is at its minimum: errors of the model and
 /// joints that were not seen. Standard deviations and factors of these.
 struct UncertaintyParams {
-  double skin_deviation = 0.0007;   ///< m, of the person's skin from the model's, common to a patch
-  double skin_patch = 0.010;        ///< m, side of such a patch: more pixels within it say no more
-  double joint_deviation = 0.0005;  ///< m, per axis, of a joint's place within the skin, which no picture shows
-  double mean_hand_factor = 3;      ///< on both, where the profile is a mean hand, fitted or not
-  double scanned_factor = 0.85;     ///< on both, where the skin was scanned
-  double range_share = 0.4;         ///< deviation of a joint that was not seen for long, of that of its whole range
-  double just_hidden_deg = 4;       ///< deviation of a joint when it vanishes
-  double growth_deg = 30;           ///< growth of it in a second; with the square root of the time
+  double skin_deviation = 0.0007;
+  double skin_patch = 0.010;
+  double joint_deviation = 0.0005;
+  double mean_hand_factor = 3;
+  double scanned_factor = 0.85;
+  double range_share = 0.4;
+  double just_hidden_deg = 4;
+  double growth_deg = 30;
   bool operator==(const UncertaintyParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, UncertaintyParams& p) {
-  v("skin_deviation", p.skin_deviation, 1e-5, 0.1, "m, of the person's skin from the model's, common to a patch");
-  v("skin_patch", p.skin_patch, 1e-3, 0.1, "m, side of such a patch: more pixels within it say no more");
-  v("joint_deviation", p.joint_deviation, 0.0, 0.1, "m, per axis, of a joint's place within the skin");
-  v("mean_hand_factor", p.mean_hand_factor, 1.0, 100.0, "on both, where the profile is a mean hand, fitted or not");
-  v("scanned_factor", p.scanned_factor, 0.01, 1.0, "on both, where the skin was scanned");
+  v("skin_deviation", p.skin_deviation, 1e-5, 0.1,
+    "m, standard deviation of the person's skin from the model's, common to a patch of skin");
+  v("skin_patch", p.skin_patch, 1e-3, 0.1,
+    "m, side length of such a patch; further pixels within it add no information");
+  v("joint_deviation", p.joint_deviation, 0.0, 0.1,
+    "m, standard deviation per axis of a joint's position within the skin, which no image shows");
+  v("mean_hand_factor", p.mean_hand_factor, 1.0, 100.0,
+    "factor on both deviations if the profile is a mean hand, fitted or not");
+  v("scanned_factor", p.scanned_factor, 0.01, 1.0, "factor on both deviations if the skin was scanned");
   v("range_share", p.range_share, 0.01, 10.0,
-    "deviation of a joint that was not seen for long, relative to that of its whole range");
-  v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0, "degrees, deviation of a joint when it vanishes");
-  v("growth_deg", p.growth_deg, 0.1, 3600.0, "degrees after a second, growth of it with the square root of the time");
+    "standard deviation of a joint that has been hidden for long, relative to that of its whole range");
+  v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0,
+    "degrees, standard deviation of a joint that has just become hidden");
+  v("growth_deg", p.growth_deg, 0.1, 3600.0,
+    "degrees, growth of that deviation in one second; it grows with the square root of the time");
 }
 
 /// Estimates the covariance of every segment of a refined pose, as marginals of a Gaussian on the hand's tree. The

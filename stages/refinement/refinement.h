@@ -13,11 +13,11 @@ namespace barehand {
 // Settings of the continuous refinement.
 struct RefinementParams {
   bool enabled = true;
-  int iterations = 5;             ///< Gauss-Newton steps from the best start
-  double damping = 1e-3;          ///< Levenberg-Marquardt damping, relative to the diagonal
-  double first_widening = 2;      ///< gates and robust scales start this many times as wide and shrink to 1
-  double max_translation = 0.02;  ///< m, longest translation of a segment in one step
-  double max_rotation_deg = 25;   ///< largest rotation of a segment in one step
+  int iterations = 5;
+  double damping = 1e-3;
+  double first_widening = 2;
+  double max_translation = 0.02;
+  double max_rotation_deg = 25;
   ComparisonParams comparison;
   EnergyParams energy;
   bool operator==(const RefinementParams&) const = default;
@@ -25,13 +25,14 @@ struct RefinementParams {
 
 template <class V>
 void visit(V& v, RefinementParams& p) {
-  v.user("enabled", p.enabled, "continuous refinement after the last level; false is the paper's method");
+  v.user("enabled", p.enabled, "refine the pose continuously after the last level; false: the paper's method");
   v.user("iterations", p.iterations, 0, 100, "Gauss-Newton steps from the best hypothesis");
-  v("damping", p.damping, 0.0, 1.0, "relative Levenberg damping");
-  v("first_widening", p.first_widening, 1.0, 10.0, "gates and robust scales start this much wider and shrink to 1");
-  v("max_translation", p.max_translation, 1e-3, 1.0, "m, longest step of a segment");
-  v("max_rotation_deg", p.max_rotation_deg, 1.0, 180.0, "degrees, largest turn of a segment in one step");
-  v("comparison", p.comparison, "model against data, pixel by pixel");
+  v("damping", p.damping, 0.0, 1.0, "Levenberg-Marquardt damping relative to the diagonal");
+  v("first_widening", p.first_widening, 1.0, 10.0,
+    "factor on the gates and robust scales in the first step; it shrinks to 1");
+  v("max_translation", p.max_translation, 1e-3, 1.0, "m, longest translation of a segment in one step");
+  v("max_rotation_deg", p.max_rotation_deg, 1.0, 180.0, "degrees, largest rotation of a segment in one step");
+  v("comparison", p.comparison, "comparison of model and data, pixel by pixel");
   v("energy", p.energy, "weights of the energy");
 }
 

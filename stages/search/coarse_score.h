@@ -11,25 +11,25 @@ namespace barehand {
 
 /// Weights of the quick score of a whole pose; each is the cost of one cell.
 struct CoarseScoreParams {
-  double depth_cap = 0.05;     ///< [m] depth differences and image distances count up to this
-  double background = 1.2;     ///< model where the background is seen, at the cap
-  double unknown = 0.4;        ///< model where nothing is measured and no hand is near
-  double hidden = 0.03;        ///< model behind an object: allowed, but seen hands are better
-  double outside = 0.4;        ///< model outside the image
-  double unexplained = 1.0;    ///< hand cells without model
-  double no_forearm = 0.6;     ///< forearm where the background is seen
-  double sleeve_depth = 0.03;  ///< [m] a surface this close to the forearm counts as its sleeve
+  double depth_cap = 0.05;
+  double background = 1.2;
+  double unknown = 0.4;
+  double hidden = 0.03;
+  double outside = 0.4;
+  double unexplained = 1.0;
+  double no_forearm = 0.6;
+  double sleeve_depth = 0.03;
   bool operator==(const CoarseScoreParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, CoarseScoreParams& p) {
-  v("depth_cap", p.depth_cap, 1e-3, 1.0, "m, depth differences and image distances count up to this");
+  v("depth_cap", p.depth_cap, 1e-3, 1.0, "m, upper limit of depth differences and image distances");
   v("background", p.background, 0.0, 100.0, "cost of a model cell where the background is seen");
   v("unknown", p.unknown, 0.0, 100.0, "cost of a model cell where nothing is measured and no hand is near");
   v("hidden", p.hidden, 0.0, 100.0, "cost of a model cell behind an object");
   v("outside", p.outside, 0.0, 100.0, "cost of a model cell outside the image");
-  v("unexplained", p.unexplained, 0.0, 100.0, "cost of a hand cell without model");
+  v("unexplained", p.unexplained, 0.0, 100.0, "cost of a hand cell that the model does not cover");
   v("no_forearm", p.no_forearm, 0.0, 100.0, "cost of a forearm cell where the background is seen");
   v("sleeve_depth", p.sleeve_depth, 0.0, 1.0, "m, a surface this close to the forearm counts as its sleeve");
 }

@@ -12,43 +12,45 @@ namespace barehand {
 
 /// How much is searched: templates are scored on a coarse grid, the best are improved in two rounds.
 struct SearchEffort {
-  int in_plane = 16;             ///< in-plane rotations of every template
-  int rolls = 8;                 ///< rotations about the finger axis, among them palm and back to the camera
-  int pitches = 3;               ///< leanings of the fingers towards the camera and away
-  int shapes = 6;                ///< number of shape templates, from open to fist
-  int first_survivors = 72;      ///< templates improved on the coarse grid
-  int first_evaluations = 120;   ///< trials for each
-  int second_survivors = 24;     ///< of these, improved by ICP and on the fine grid
-  int second_evaluations = 400;  ///< trials for each
-  double elsewhere = 0.34;       ///< part of what is kept each time that lies elsewhere than the rest
+  int in_plane = 16;
+  int rolls = 8;
+  int pitches = 3;
+  int shapes = 6;
+  int first_survivors = 72;
+  int first_evaluations = 120;
+  int second_survivors = 24;
+  int second_evaluations = 400;
+  double elsewhere = 0.34;
   bool operator==(const SearchEffort&) const = default;
 };
 
 template <class V>
 void visit(V& v, SearchEffort& p) {
-  v("in_plane", p.in_plane, 1, 360, "in-plane rotations of every template");
-  v("rolls", p.rolls, 1, 360, "rotations about the finger axis, among them palm and back to the camera");
-  v("pitches", p.pitches, 1, 90, "leanings of the fingers towards the camera and away");
+  v("in_plane", p.in_plane, 1, 360, "number of in-plane rotations of every template");
+  v("rolls", p.rolls, 1, 360, "number of rotations about the finger axis, among them palm and back to the camera");
+  v("pitches", p.pitches, 1, 90, "number of tilts of the fingers towards the camera and away from it");
   v("shapes", p.shapes, 1, 6, "number of shape templates, from open to fist");
-  v("first_survivors", p.first_survivors, 1, 10000, "templates improved on the coarse grid");
-  v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of them");
-  v("second_survivors", p.second_survivors, 1, 10000, "of these, improved by ICP and on the fine grid");
-  v("second_evaluations", p.second_evaluations, 0, 100000, "trials for each of them");
-  v("elsewhere", p.elsewhere, 0.0, 1.0, "part of what is kept each time that lies elsewhere than the rest, by `apart`");
+  v("first_survivors", p.first_survivors, 1, 10000, "number of templates that are improved on the coarse grid");
+  v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of these templates");
+  v("second_survivors", p.second_survivors, 1, 10000,
+    "number of these that are improved further, by ICP and on the fine grid");
+  v("second_evaluations", p.second_evaluations, 0, 100000, "further trials for each of them");
+  v("elsewhere", p.elsewhere, 0.0, 1.0,
+    "fraction of the poses kept each time that must differ from the rest by `apart`");
 }
 
 struct InitialiserParams {
-  double coarse_cell = 0.008;  ///< [m] cells while templates are scored
-  double fine_cell = 0.005;    ///< [m] cells of the second round
-  double widening = 0.17;      ///< [rad] added to the profile's joint limits
-  int min_hand_pixels = 200;   ///< fewer: no start is proposed
-  int results = 12;            ///< start poses returned at most
-  double distinct = 0.012;     ///< [m] results differ by more than this (mean over the segment ends)
-  double apart = 0.06;         ///< [m] what lies elsewhere differs from the rest by more than this
-  int near_survivors = 2;      ///< near a followed pose: templates improved on the fine grid
-  int near_evaluations = 60;   ///< trials for each
+  double coarse_cell = 0.008;
+  double fine_cell = 0.005;
+  double widening = 0.17;
+  int min_hand_pixels = 200;  ///< fewer: no start is proposed
+  int results = 12;
+  double distinct = 0.012;
+  double apart = 0.06;
+  int near_survivors = 2;
+  int near_evaluations = 60;
   SearchEffort full;
-  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200, 0};  ///< for every frame while the hand is lost
+  SearchEffort quick{8, 4, 3, 3, 8, 60, 3, 200, 0};
   CoarseScoreParams score;
   PoseSearchParams search;
   RegistrationParams icp;
@@ -57,19 +59,20 @@ struct InitialiserParams {
 
 template <class V>
 void visit(V& v, InitialiserParams& p) {
-  v("coarse_cell", p.coarse_cell, 1e-3, 0.1, "m, cells while templates are scored");
-  v("fine_cell", p.fine_cell, 1e-3, 0.1, "m, cells of the second round");
-  v("widening", p.widening, 0.0, 1.0, "rad, added to the profile's joint limits");
+  v("coarse_cell", p.coarse_cell, 1e-3, 0.1, "m, cell size while templates are scored");
+  v("fine_cell", p.fine_cell, 1e-3, 0.1, "m, cell size of the second round");
+  v("widening", p.widening, 0.0, 1.0, "rad by which the profile's joint limits are widened");
   v.retired("min_hand_pixels", "tracker.loss.min_hand_pixels");
-  v("results", p.results, 1, 1000, "start poses returned at most");
-  v("distinct", p.distinct, 0.0, 1.0, "m, results differ by more than this (mean over the segment ends)");
-  v("apart", p.apart, 0.0, 1.0, "m, what lies elsewhere differs from the rest by more than this");
-  v("near_survivors", p.near_survivors, 1, 10000, "near a followed pose: changed fingers improved on the fine grid");
-  v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of them");
+  v("results", p.results, 1, 1000, "maximum number of start poses that are returned");
+  v("distinct", p.distinct, 0.0, 1.0, "m, minimum distance between two results (mean over the segment ends)");
+  v("apart", p.apart, 0.0, 1.0, "m, minimum distance between poses that count as being in different places");
+  v("near_survivors", p.near_survivors, 1, 10000,
+    "search near a followed pose: number of poses with changed fingers that are improved on the fine grid");
+  v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of these poses");
   v("full", p.full, "effort of a full search");
-  v("quick", p.quick, "effort of the search made in every frame while the hand is lost");
-  v("score", p.score, "quick score of a whole pose");
-  v("search", p.search, "local search");
+  v("quick", p.quick, "effort of the search in every frame while the hand is lost");
+  v("score", p.score, "coarse score of a whole pose");
+  v("search", p.search, "random local search");
   v("icp", p.icp, "rigid alignment of the survivors");
 }
 

@@ -9,23 +9,24 @@ namespace barehand {
 /// Random local search over palm pose and joint angles with shrinking steps: improves a template until its
 /// silhouette and depth fit. Only better poses are kept.
 struct PoseSearchParams {
-  double translation = 0.012;  ///< [m] standard deviation of a step at the start
-  double rotation = 0.2;       ///< [rad]
-  double flexion = 0.45;       ///< [rad]
-  double abduction = 0.12;     ///< [rad]
-  double final_step = 0.2;     ///< the last steps are this fraction of the first
-  double shape_prior = 0.02;   ///< cost of neighbouring fingers that differ by a radian in flexion (mean square)
+  double translation = 0.012;
+  double rotation = 0.2;
+  double flexion = 0.45;
+  double abduction = 0.12;
+  double final_step = 0.2;
+  double shape_prior = 0.02;
   bool operator==(const PoseSearchParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, PoseSearchParams& p) {
-  v("translation", p.translation, 1e-4, 0.5, "m, standard deviation of a step at the start");
-  v("rotation", p.rotation, 1e-3, 3.0, "rad, standard deviation of a step at the start");
-  v("flexion", p.flexion, 1e-3, 3.0, "rad, standard deviation of a step at the start");
-  v("abduction", p.abduction, 1e-3, 3.0, "rad, standard deviation of a step at the start");
-  v("final_step", p.final_step, 1e-3, 1.0, "the last steps are this fraction of the first");
-  v("shape_prior", p.shape_prior, 0.0, 10.0, "cost of neighbouring fingers that differ by a radian in flexion");
+  v("translation", p.translation, 1e-4, 0.5, "m, standard deviation of the first steps of the position");
+  v("rotation", p.rotation, 1e-3, 3.0, "rad, standard deviation of the first steps of the orientation");
+  v("flexion", p.flexion, 1e-3, 3.0, "rad, standard deviation of the first steps of the flexion angles");
+  v("abduction", p.abduction, 1e-3, 3.0, "rad, standard deviation of the first steps of the abduction angles");
+  v("final_step", p.final_step, 1e-3, 1.0, "size of the last steps as a fraction of the first");
+  v("shape_prior", p.shape_prior, 0.0, 10.0,
+    "cost of a difference of one radian between the flexion of neighbouring fingers (mean square)");
 }
 
 struct ScoredPose {

@@ -16,7 +16,7 @@ std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Work
   const bool by_name = params.observer == "egl";
   auto device = EglObserver::open(cap, by_name ? DeviceChoice::any : DeviceChoice::hardware);
   if (!device) {
-    log->log(by_name ? spdlog::level::warn : spdlog::level::debug, "the CPU compares samples, not a GPU: {}",
+    log->log(by_name ? spdlog::level::warn : spdlog::level::debug, "samples are compared on the CPU, not on a GPU: {}",
              device.error().message());
     return cpu;
   }

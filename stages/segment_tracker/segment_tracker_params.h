@@ -24,31 +24,32 @@ struct SegmentTrackerParams {
 
 template <class V>
 void visit(V& v, SegmentTrackerParams& p) {
-  v.user("samples", p.samples, 1, 10000, "S: samples per segment and level (Sec. 4)");
+  v.user("samples", p.samples, 1, 10000, "S: number of samples per segment and level (Sec. 4)");
   v("samples_on_device", p.samples_on_device, 0, 10000,
-    "S at most where a GPU compares the samples, as far as level_budget_ms allows; never less than samples");
+    "maximum S where a GPU compares the samples, as far as level_budget_ms allows; S never falls below samples");
   v("level_budget_ms", p.level_budget_ms, 0.0, 1000.0,
-    "ms, a level with more samples than on the CPU may take so long: drawing, comparing and fusing them");
-  v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, accuracy of the depth at the first level (Eq. 2)");
+    "ms, time limit of a level with more samples than on the CPU: drawing, comparing and fusing them");
+  v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, standard deviation of the depth at the first level (Eq. 2)");
   v("sigma_obs_end", p.sigma_obs_end, 1e-5, 0.1,
-    "m, the same at the last level, geometric in between; paper: constant");
+    "m, the same at the last level, with a geometric progression in between; the paper keeps it constant");
   v("pixel_distance_cap", p.pixel_distance_cap, 0.0, 1.0,
-    "m, largest distance one pixel can have (Eq. 1); 0: uncapped (paper)");
+    "m, upper limit of one pixel's distance (Eq. 1); 0: no limit (paper)");
   v("missing_depth", p.missing_depth, {"unknown", "background"},
-    "a pixel without depth is left out (unknown), or is not hand (background, paper)");
+    "a pixel without depth is ignored (unknown), or counts as not hand (background, paper)");
   v("self_occlusion", p.self_occlusion, {"data", "model", "both", "off"},
-    "hidden by the hand where the data is in front of the predicted segment (data, paper Sec. 4.2), where the "
-    "predicted "
-    "skin of another segment is (model), or either");
-  v("self_occlusion_threshold", p.self_occlusion_threshold, 0.0, 0.1, "m, how far in front (Sec. 4.2)");
-  v("patch_margin", p.patch_margin, 0.0, 0.1, "m, self-occlusion is labelled so far around the predicted segment");
+    "which pixels are hidden by the hand itself: those with data in front of the predicted segment (data, paper Sec. "
+    "4.2), those with another segment's predicted skin in front of it (model), either, or none");
+  v("self_occlusion_threshold", p.self_occlusion_threshold, 0.0, 0.1,
+    "m, minimum distance in front of the segment (Sec. 4.2)");
+  v("patch_margin", p.patch_margin, 0.0, 0.1,
+    "m, margin around the predicted segment within which self-occlusion is computed");
   v("min_counted", p.min_counted, 0.0, 1.0,
-    "a sample with a smaller visible part than this has no evidence: it gets its siblings' mean distance");
-  v("observe_palm", p.observe_palm, "compare the palm with the data, too; the paper does not (Sec. 4.1)");
+    "a sample with a smaller visible fraction than this has no evidence and gets the mean distance of its segment's "
+    "other samples");
+  v("observe_palm", p.observe_palm, "also compare the palm with the data, which the paper does not (Sec. 4.1)");
   v.user("observer", p.observer, {"auto", "cpu", "egl"},
-         "what compares samples with the data: the CPU or a GPU, whichever is measured to be faster (auto), the CPU "
-         "(cpu), "
-         "or whatever runs OpenGL ES, software included (egl)");
+         "where samples are compared with the data: on the CPU or a GPU, whichever is measured to be faster (auto), on "
+         "the CPU (cpu), or on whatever runs OpenGL ES, including software (egl)");
 }
 
 }  // namespace barehand

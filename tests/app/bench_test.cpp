@@ -134,7 +134,7 @@ TEST(BenchReport, SaysWhichObserverIsFaster) {
             "default.yaml, 640 samples compared, 2 threads, Card 9: a call takes 0.30 ms on the CPU and 0.10 ms on the "
             "device, which is 3.0 times as fast\n");
   row.device.software = true;
-  EXPECT_THAT(bench_text(row), HasSubstr("Card 9 (software, which observer: auto never takes): "));
+  EXPECT_THAT(bench_text(row), HasSubstr("Card 9 (software, which observer: auto never uses): "));
 }
 
 TEST(BenchReport, WillNotDrawSomethingElse) {
@@ -143,7 +143,7 @@ TEST(BenchReport, WillNotDrawSomethingElse) {
   ASSERT_TRUE(json_fields::write_json(path, {{"cases", {{{"a", 1}}}}}).has_value());
   const auto drawn = draw_bench(path, folder / "no_plots");
   ASSERT_FALSE(drawn.has_value());
-  EXPECT_THAT(drawn.error().message(), HasSubstr("no report of barehand bench"));
+  EXPECT_THAT(drawn.error().message(), HasSubstr("not a report of barehand bench"));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST_F(Calibrate, MakesAProfileAndSaysWhatWasNotShown) {
   EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
   EXPECT_NE(hand->hand_length(), test::adult_hand()->hand_length());
   EXPECT_FALSE(hand->scanned_skin);
-  EXPECT_THAT(child.output(), HasSubstr("too short a scan for a skin of its own"));
+  EXPECT_THAT(child.output(), HasSubstr("the scan was too short to measure the skin"));
 }
 
 TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
@@ -67,7 +67,7 @@ TEST_F(Calibrate, AMeasuredHandKeepsItsJointsAndGetsASkinOfWhatWasShown) {
   arguments.insert(arguments.end(), {"--hand", given});
   ChildProcess child(arguments);
   ASSERT_EQ(child.finish(), 0) << child.output();
-  EXPECT_THAT(child.output(), HasSubstr("not seen enough, kept near the hand it started from"));
+  EXPECT_THAT(child.output(), HasSubstr("not seen well enough, so close to the initial hand"));
 
   // The joints are unchanged.
   const auto hand = load_profile(profile_);
@@ -113,7 +113,7 @@ TEST_F(Calibrate, AProfileIsReplacedOnlyIfAllowed) {
 TEST_F(Calibrate, RefusesWhatCannotBecomeAProfileBeforeItStarts) {
   // Each wrong option, and the reason that is given.
   for (const auto& [option, value, reason] :
-       {std::tuple("--hand", std::string("both"), "is not one hand"),
+       {std::tuple("--hand", std::string("both"), "names two hands"),
         {"--hand", folder_ / "nobody.json", "nobody.json"},
         {"--out", folder_ / "nowhere/mine.json", "No such file or directory"},
         {"--out", folder_.path(), "is a folder"},

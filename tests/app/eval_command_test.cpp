@@ -133,7 +133,7 @@ TEST_F(EvalCommand, RefusesStatesWhoseUncertaintyIsNoNumber) {
   ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), 0));
   log->reset();
   EXPECT_EQ(run("eval --truth %/truth.csv --states %/states.lcmlog"), 2);
-  EXPECT_THAT(err_, HasSubstr("frame 0 has a pose without sensible numbers"));
+  EXPECT_THAT(err_, HasSubstr("frame 0 has a pose with invalid numbers"));
 }
 
 TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {

@@ -109,7 +109,7 @@ TEST_F(ExperimentRun, OverwritesNothing) {
     const auto report = run_experiment(plan_, options_);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().exit_code, kExitUsage);
-    EXPECT_THAT(report.error().error.message(), HasSubstr("is there already")) << "and no experiment made it";
+    EXPECT_THAT(report.error().error.message(), HasSubstr("exists already")) << "and no experiment made it";
   }
 }
 

@@ -133,7 +133,7 @@ TEST_F(Outputs, WhatExistsIsReplacedOnlyIfAllowed) {
   EXPECT_EQ(complaint({}, folder_ / "set/notes.csv"), "");
   EXPECT_EQ(complaint({}, folder_ / "set", Kind::pictures, false), "") << "there are no pictures in it";
   test::write_text(folder_ / "set/000012.jpg", "x");
-  EXPECT_THAT(complaint({}, folder_ / "set", Kind::pictures, false), HasSubstr("holds pictures"));
+  EXPECT_THAT(complaint({}, folder_ / "set", Kind::pictures, false), HasSubstr("contains images"));
   EXPECT_EQ(complaint({}, folder_ / "set", Kind::pictures), "");
 }
 

@@ -166,7 +166,7 @@ TEST_F(ConfigFile, AllProblemsAreToldAtOnceInOrderOfLines) {
 
 TEST_F(ConfigFile, UnreadableFilesAreErrors) {
   EXPECT_THAT(load_config<Outer>("/nonexistent/a.yaml").error().message(), HasSubstr("/nonexistent/a.yaml"));
-  EXPECT_THAT(error_of("levels: [1\nmode"), HasSubstr("not YAML"));
+  EXPECT_THAT(error_of("levels: [1\nmode"), HasSubstr("not valid YAML"));
   EXPECT_THAT(error_of(""), HasSubstr("no keys"));
   EXPECT_THAT(error_of("just text"), HasSubstr("no keys"));
 }

@@ -41,7 +41,7 @@ TEST_F(FileBytes, Utf16IsSaid) {
   for (const std::string& bytes : {"\xff\xfe"
                                    "a\0"s,
                                    "\xfe\xff\0a"s, "a\0b\0"s, "\0a\0b"s, "\xff\xfe\0\0a\0\0\0"s})
-    EXPECT_THAT(text_of(bytes), HasSubstr("is UTF-16, or no text at all (save it as UTF-8)"));
+    EXPECT_THAT(text_of(bytes), HasSubstr("is UTF-16, or not a text file (save it as UTF-8)"));
 }
 
 TEST_F(FileBytes, APipeIsReadOnceAndKept) {
@@ -57,7 +57,7 @@ TEST_F(FileBytes, APipeIsReadOnceAndKept) {
 }
 
 TEST_F(FileBytes, AnEndlessDeviceIsAnError) {
-  EXPECT_THAT(read_file("/dev/zero").error().message(), HasSubstr("brings more than 64 MiB"));
+  EXPECT_THAT(read_file("/dev/zero").error().message(), HasSubstr("delivers more than 64 MiB"));
   EXPECT_EQ(read_file("/dev/null"), "");
 }
 

@@ -165,11 +165,11 @@ INSTANTIATE_TEST_SUITE_P(Values, HandJsonBadValue,
                                          BadValue{"Scaled",
                                                   "rest_transform",
                                                   {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {0, 0, 0, 1}},
-                                                  "no right-handed rotation"},
+                                                  "not hold a right-handed rotation"},
                                          BadValue{"Mirrored",
                                                   "rest_transform",
                                                   {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
-                                                  "no right-handed rotation"},
+                                                  "not hold a right-handed rotation"},
                                          BadValue{"ColumnMajor",
                                                   "rest_transform",
                                                   {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0.1, 0, -0.1, 1}},
@@ -181,7 +181,7 @@ TEST_F(HandJson, BadDofIsNamed) {
     EXPECT_TRUE(save_profile(small_hand(), path_));
     return error_after([&](json& j) { j["segments"][4]["dofs"][1][key] = value; });
   };
-  EXPECT_THAT(with("axis", {0, 0.5, 0}), AllOf(HasSubstr("index_proximal: dof flex"), HasSubstr("unit length")));
+  EXPECT_THAT(with("axis", {0, 0.5, 0}), AllOf(HasSubstr("index_proximal: dof flex"), HasSubstr("unit vector")));
   EXPECT_THAT(with("axis", {0, 0, 1}), HasSubstr("along the bone"));
   EXPECT_THAT(with("limits_deg", {90, -20}), HasSubstr("lower limit above"));
   EXPECT_THAT(with("limits_deg", {-20, 900}), HasSubstr("900"));

@@ -201,7 +201,7 @@ TEST_F(OverlayFiles, OutsideConditionsAreReported) {
 
   auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
   ASSERT_TRUE(video->write(grey_frame(320), shared(open_hand())));
-  EXPECT_THAT(video->write(grey_frame(800, 8), shared(open_hand())).error().message(), HasSubstr("has another size"));
+  EXPECT_THAT(video->write(grey_frame(800, 8), shared(open_hand())).error().message(), HasSubstr("differs in size"));
 
   auto pictures = OverlayWriter::open(folder_ / "overlay", 30);
   fs::create_symlink("/dev/full", folder_ / "overlay/000007.jpg");

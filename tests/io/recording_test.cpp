@@ -229,7 +229,7 @@ TEST_F(RecordingFolder, EmptyFolderIsAnError) {
   fs::remove(path_ + "/depth.txt");
   EXPECT_THAT(open_error(), HasSubstr("depth.txt: cannot be read"));
   path_ += "/nothing";
-  EXPECT_THAT(open_error(), HasSubstr("is no folder"));
+  EXPECT_THAT(open_error(), HasSubstr("is not a folder"));
 }
 
 TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
@@ -241,7 +241,7 @@ TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
   fs::create_symlink("camera.json", path_ + "/camera.json");
   EXPECT_THAT(open_error(), HasSubstr("camera.json: cannot be read"));
   path_ = folder_ / std::string(300, 'x');
-  EXPECT_THAT(open_error(), AllOf(HasSubstr("is no folder"), HasSubstr("name too long")));
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("is not a folder"), HasSubstr("name too long")));
   EXPECT_FALSE(RecordingWriter::create(path_));
 }
 
@@ -312,7 +312,7 @@ TEST_F(RecordingFolder, BadImagesAreNamed) {
   ASSERT_TRUE(write_depth_png(path_ + "/depth/000001.png", Image<std::uint16_t>(4, 6)));
   EXPECT_THAT(error(1), AllOf(HasSubstr("depth/000001.png"), HasSubstr("is 4x6")));
   ASSERT_TRUE(write_colour(path_ + "/depth/000001.png", Image<Rgb>(8, 6)));
-  EXPECT_THAT(error(1), HasSubstr("no 16-bit image"));
+  EXPECT_THAT(error(1), HasSubstr("not a 16-bit image"));
 }
 
 TEST_F(RecordingFolder, ColourThatIsMissingDamagedOrOfAnotherSizeCostsNoDepth) {
@@ -392,7 +392,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   EXPECT_TRUE(refused(R"("distortion_model": "equidistant", "D": [0.1, 0, 0, 0])", "equidistant"));
   EXPECT_TRUE(refused(R"("distortion_model": "my own", "k1": 0.1)", "my own"));
   EXPECT_TRUE(refused(R"("D": [0.1, 0, 0, 0, 0, 0, 0, 0, 0.2, 0, 0, 0])", "beyond k6")) << "thin prism";
-  EXPECT_TRUE(refused(R"("D": [-4000, 0, 0, 0, 0])", "no lens"));
+  EXPECT_TRUE(refused(R"("D": [-4000, 0, 0, 0, 0])", "implausible"));
 
   for (const char* none :
        {R"("D": [0, 0, 0, 0, 0])", R"("D": [])", R"("k1": 0.0)", R"("distortion_model": "plumb_bob")",
@@ -428,7 +428,7 @@ TEST_F(RecordingFolder, ImagesThatAreTooLargeOrOfAnotherKindDoNotReachTheDecoder
   bytes[width_at + 2] = bytes[height_at + 2] = '\x7F';
   test::write_text(path, bytes);
   for (const auto& error : {read_depth_png(path).error(), read_colour(path).error()})
-    EXPECT_THAT(error.message(), AllOf(HasSubstr(path), HasSubstr("absurd size")));
+    EXPECT_THAT(error.message(), AllOf(HasSubstr(path), HasSubstr("implausible size")));
   test::write_text(path, "P5 2 2 65535\n12345678");  // a PGM that OpenCV would read
   EXPECT_THAT(read_depth_png(path).error().message(), HasSubstr("neither a PNG nor a JPEG"));
   record();

@@ -134,7 +134,7 @@ TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
     for (int number : {1, 2}) {
       const auto written = writer->write(numbered_frame(number));
       ASSERT_FALSE(written);
-      EXPECT_THAT(written.error().message(), HasSubstr("make room"));
+      EXPECT_THAT(written.error().message(), HasSubstr("free some space"));
       EXPECT_EQ(std::filesystem::file_size(path_ + ".unfinished"), whole) << "no part of a frame is left";
     }
   }

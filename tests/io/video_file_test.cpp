@@ -185,7 +185,7 @@ TEST_F(VideoFiles, OutsideConditionsAreReported) {
   EXPECT_THAT(VideoFile::create(folder_ / "b.mp4", kFps).error().message(), HasSubstr("is a folder"));
   auto video = VideoFile::create(folder_ / "a.avi", kFps);
   ASSERT_TRUE(video->write(picture(0)));
-  EXPECT_THAT(video->write(picture(0, 98)).error().message(), HasSubstr("another size"));
+  EXPECT_THAT(video->write(picture(0, 98)).error().message(), HasSubstr("differs in size"));
   EXPECT_TRUE(video->write(picture(1)));
   ASSERT_TRUE(video->finish());
   EXPECT_EQ(test::read_video(folder_ / "a.avi").pictures.size(), 2);

@@ -76,7 +76,7 @@ TEST_F(OpenNiFaults, CannotBeOpenedForAWhile) {
 
 TEST_F(OpenNiFaults, StreamsDoNotStartForAWhile) {
   open({{"fault", "start"}});
-  ASSERT_TRUE(reader_->told("depth does not start"));
+  ASSERT_TRUE(reader_->told("the depth stream cannot be started"));
   inject("none");
   EXPECT_TRUE(reader_->frame());
 }
@@ -94,7 +94,7 @@ TEST_F(OpenNiFaults, AHiccupOfBothCamerasIsNoReasonToDoubtThatTheyAreInStep) {
   reader_->frames_within(milliseconds(750));  // more than half of the patience, but not all of it
   inject("none");
   reader_->frames(20);
-  EXPECT_THAT(reader_->notices, Not(HasSubstr("in step")));
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("synchronise")));
 }
 
 TEST_F(OpenNiFaults, ASlowStartIsNoReasonEither) {
@@ -103,7 +103,7 @@ TEST_F(OpenNiFaults, ASlowStartIsNoReasonEither) {
   reader_->frames_within(milliseconds(2000));
   inject("none");
   reader_->frames(20);
-  EXPECT_THAT(reader_->notices, Not(HasSubstr("not exposed in step")));
+  EXPECT_THAT(reader_->notices, Not(HasSubstr("not synchronised")));
 }
 
 /// Faults whose frames must not reach the tracker.
@@ -133,7 +133,7 @@ TEST_F(OpenNiFaults, FrozenFramesAreNotDeliveredAgain) {
 TEST_F(OpenNiFaults, BlackFramesAreDeliveredAndSaid) {
   stream();
   inject("black");
-  EXPECT_TRUE(reader_->told("no depth is measured anywhere"));
+  EXPECT_TRUE(reader_->told("no pixel has depth"));
   const FramePtr frame = reader_->frame();
   ASSERT_TRUE(frame);
   EXPECT_TRUE(
@@ -144,7 +144,7 @@ TEST_F(OpenNiFaults, BlackFramesAreDeliveredAndSaid) {
 TEST_F(OpenNiFaults, BlackColour) {
   stream();
   inject("black_colour");
-  EXPECT_TRUE(reader_->told("colour is black"));
+  EXPECT_TRUE(reader_->told("the colour image is black"));
   EXPECT_TRUE(reader_->frame());
 }
 
@@ -153,10 +153,10 @@ TEST_P(ColourStops, DepthGoesOnAndColourIsWelcomeBack) {
   sensor_.set({{"sync", GetParam()}});
   stream();
   inject("no_colour");
-  ASSERT_TRUE(reader_->told("colour stopped; depth goes on"));
+  ASSERT_TRUE(reader_->told("no more colour images arrive; tracking continues"));
   for (const FramePtr& frame : reader_->frames(10)) EXPECT_TRUE(frame->colour.empty());
   inject("none");
-  EXPECT_TRUE(reader_->told("colour is back"));
+  EXPECT_TRUE(reader_->told("colour images arrive again"));
   EXPECT_TRUE(reader_->frame([](const RgbdFrame& f) { return !f.colour.empty(); }));
   EXPECT_THAT(reader_->notices, Not(HasSubstr("opened")));
 }
@@ -168,7 +168,7 @@ TEST_P(ClockJump, IsSaidAndStampsGoOn) {
   reader_->frames(30);
   const FramePtr before = reader_->frame();
   sensor_.set({{"clock_offset_us", GetParam()}});
-  ASSERT_TRUE(reader_->told("the sensor's clock was set by"));
+  ASSERT_TRUE(reader_->told("the sensor's clock jumped by"));
   const FramePtr after = reader_->frame();
   ASSERT_TRUE(before && after);
   EXPECT_GT(after->utime, before->utime);

@@ -122,7 +122,7 @@ TEST_F(OniFile, AFileThatTellsNoFieldOfViewNeedsItsIntrinsics) {
   record_file("depth");
   const auto without = OpenNiFileSource::open(path_, {});
   ASSERT_FALSE(without.has_value());
-  EXPECT_THAT(without.error().message(), HasSubstr("does not tell its field of view"));
+  EXPECT_THAT(without.error().message(), HasSubstr("does not report its field of view"));
   EXPECT_THAT(without.error().remedy, HasSubstr("--fx --fy --cx --cy"));
   OpenNiParams given;
   given.camera = {150, 151, 79, 61};
@@ -147,11 +147,11 @@ TEST_F(OniFile, WhatCannotBePlayedIsRefusedWithTheReason) {
   test::write_text(path_, "this is no recording");
   const auto nonsense = OpenNiFileSource::open(path_, {});
   ASSERT_FALSE(nonsense.has_value());
-  EXPECT_THAT(nonsense.error().message(), HasSubstr("is no OpenNI recording"));
+  EXPECT_THAT(nonsense.error().message(), HasSubstr("is not an OpenNI recording"));
   test::write_text(path_, "NI10 and then nothing");
   const auto cut = OpenNiFileSource::open(path_, {});
   ASSERT_FALSE(cut.has_value());
-  EXPECT_THAT(cut.error().message(), HasSubstr("give a whole .oni recording"));
+  EXPECT_THAT(cut.error().message(), HasSubstr("give a complete .oni recording"));
   EXPECT_FALSE(OpenNiFileSource::open(path_, {}, 0, -1).has_value());
 }
 

@@ -126,14 +126,13 @@ TEST(OpenNiLiveSource, IntrinsicsThatNoCameraHasAreRefused) {
   OpenNiParams params = Stream::sized();
   params.camera = {0.5, 151, 79, 61};
   Stream stream({}, params);
-  EXPECT_TRUE(stream.reader.told("virtual/1 cannot have the fx, fy, cx and cy that are given"))
-      << stream.reader.notices;
+  EXPECT_TRUE(stream.reader.told("virtual/1 does not match the given fx, fy, cx and cy")) << stream.reader.notices;
   EXPECT_EQ(stream.reader.delivered, 0);
 }
 
 TEST(OpenNiLiveSource, ASensorThatTellsNoFieldOfViewNeedsItsIntrinsics) {
   Stream without(Settings{{"field_of_view", "0"}});
-  EXPECT_TRUE(without.reader.told("virtual/1 does not tell its field of view (give fx, fy, cx and cy"))
+  EXPECT_TRUE(without.reader.told("virtual/1 does not report its field of view (give fx, fy, cx and cy"))
       << without.reader.notices;
 }
 
@@ -145,13 +144,13 @@ TEST(OpenNiLiveSource, TurnsRoundWhatTheSensorMirrors) {
   ASSERT_GE(shown, 0);
   const Image<Rgb>& colour = pictures().frames[static_cast<std::size_t>(shown)]->colour;
   EXPECT_TRUE(std::equal(colour.data(), colour.data() + colour.size(), frame->colour.data()));
-  EXPECT_TRUE(stream.reader.told("mirrored only"));
+  EXPECT_TRUE(stream.reader.told("only mirrored"));
 }
 
 TEST(OpenNiLiveSource, LeavesOutColourThatIsNotConfirmedToLieOverDepth) {
   for (const char* reason : {"registration", "lies"}) {
     Stream stream(Settings{{reason, std::string(reason) == "lies" ? "1" : "0"}});
-    EXPECT_TRUE(stream.reader.told("colour is left out: the sensor does not lay it over depth")) << reason;
+    EXPECT_TRUE(stream.reader.told("colour is not used: the sensor does not register it to depth")) << reason;
     for (const FramePtr& frame : stream.reader.frames(10)) {
       EXPECT_TRUE(frame->colour.empty()) << reason;
       EXPECT_GE(picture_of(*frame), 0);
@@ -169,7 +168,7 @@ TEST(OpenNiLiveSource, UsesColourThatTheUserVouchesFor) {
 
 TEST(OpenNiLiveSource, PairsByTimeWhatIsNotExposedInStep) {
   Stream stream(Settings{{"sync", "0"}});
-  ASSERT_TRUE(stream.reader.told("does not expose depth and colour in step"));
+  ASSERT_TRUE(stream.reader.told("does not synchronise depth and colour"));
   stream.reader.frames(5);
   const auto frames = stream.reader.frames(30);
   int coloured = 0;
@@ -186,7 +185,7 @@ TEST(OpenNiLiveSource, HoldsWhatTheSensorClaimsAgainstItsTimeStamps) {
   OpenNiParams params = Stream::sized();
   params.colour = "always";
   Stream stream(Settings{{"sync", "0"}, {"lies", "1"}}, params);
-  ASSERT_TRUE(stream.reader.told("not exposed in step, whatever the sensor says")) << stream.reader.notices;
+  ASSERT_TRUE(stream.reader.told("not synchronised although the sensor reports")) << stream.reader.notices;
   EXPECT_TRUE(stream.reader.frame([](const RgbdFrame& f) { return !f.colour.empty(); }));
 }
 

@@ -40,7 +40,7 @@ TEST(CameraDoubts, AFieldOfViewThatNoCameraHasIsNamed) {
 }
 
 TEST(CameraDoubts, APrincipalPointThatCannotBeIsNamed) {
-  EXPECT_THAT(camera_doubts({640, 480, 525, 525, 0.5, 0.5}), ElementsAre(HasSubstr("parts of the image's size")));
+  EXPECT_THAT(camera_doubts({640, 480, 525, 525, 0.5, 0.5}), ElementsAre(HasSubstr("fractions of the image size")));
   EXPECT_THAT(camera_doubts({640, 480, 525, 525, 100, 239.5}), ElementsAre(HasSubstr("far from the middle")));
   EXPECT_THAT(camera_doubts({640, 480, 525, 525, 239.5, 319.5}), IsEmpty()) << "swapped: an offset some cameras have";
   EXPECT_THAT(camera_doubts({640, 480, 525, 262, 319.5, 239.5}),

@@ -111,12 +111,12 @@ TEST_F(PipedOutputs, AReaderThatGoesAndComesBackCostsNothingElse) {
   ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "sim:fist,width=160,height=120,live=true,loop=true,fps=20",
                       "--hand", folder_ / "take/hand.json", "--init", folder_ / "take/start_pose.json", "--no-publish",
                       "--config", folder_ / "quick.yaml", "--result", pipe, "--states-log", folder_ / "live.lcmlog"});
-  ASSERT_TRUE(track.wait_for("waiting for somebody to read the pipe " + pipe)) << track.output();
+  ASSERT_TRUE(track.wait_for("waiting for a program to read the pipe " + pipe)) << track.output();
   int reader = open(pipe.c_str(), O_RDONLY);
   EXPECT_THAT(some_of(pipe, reader), StartsWith("frame,timestamp"));
   close(reader);
 
-  ASSERT_TRUE(track.wait_for("nobody reads this pipe")) << track.output();
+  ASSERT_TRUE(track.wait_for("no program reads this pipe")) << track.output();
   reader = open(pipe.c_str(), O_RDONLY);
   std::string again;
   while (again.find("\nframe,timestamp") == std::string::npos && !again.starts_with("frame,timestamp"))
@@ -140,7 +140,7 @@ TEST_F(PipedOutputs, ARunThatWaitsForAReaderCanBeStopped) {
   for (const std::string option : {"--result", "--states-log", "--save-hand"}) {
     ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "folder:" + (folder_ / "take"), "--no-publish", option,
                         folder_ / "pipe"});
-    ASSERT_TRUE(track.wait_for("waiting for somebody to read the pipe")) << track.output();
+    ASSERT_TRUE(track.wait_for("waiting for a program to read the pipe")) << track.output();
     track.signal(SIGINT);
     EXPECT_EQ(track.finish(), 130) << track.output();
   }

@@ -230,7 +230,7 @@ TEST_F(TrackRun, WithoutAUsableGpuTheCpuTracks) {
     arguments.insert(arguments.begin(), {"env", trouble});
     ChildProcess child(arguments);
     EXPECT_EQ(child.finish(), 0) << child.output();
-    EXPECT_THAT(child.output(), HasSubstr("the CPU compares samples, not a GPU: ")) << trouble;
+    EXPECT_THAT(child.output(), HasSubstr("samples are compared on the CPU, not on a GPU: ")) << trouble;
     EXPECT_EQ(file_bytes("/result.csv"), expected) << trouble;
   }
 }

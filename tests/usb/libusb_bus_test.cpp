@@ -181,7 +181,7 @@ TEST_F(LibUsb, SaysWhyADeviceWasNotReset) {
   EXPECT_THAT(failed.error().message(), HasSubstr("cannot be reset"));
   const auto replugged = bus_.reset({0x1d27, 0x0601, 1, 9});
   ASSERT_FALSE(replugged);
-  EXPECT_THAT(replugged.error().message(), HasSubstr("not plugged in any more"));
+  EXPECT_THAT(replugged.error().message(), HasSubstr("no longer plugged in"));
 }
 
 }  // namespace

@@ -241,8 +241,8 @@ def killed(build, folder):
         cut = re.search(r"(\d+) bytes are damaged", copy)
         torn.append(int(cut.group(1)) if cut else 0)
         os.remove(log)
-    row("kill -9 while recording, 20 times", f"every whole frame replays; {sum(t > 0 for t in torn)} logs end in a torn "
-        f"frame, of {max(torn)} bytes at most", "the next recording starts as ever")
+    row("kill -9 while recording, 20 times", f"every whole frame replays; {sum(t > 0 for t in torn)} logs end in an "
+        f"incomplete frame, of {max(torn)} bytes at most", "the next recording starts as ever")
 
 
 def memory(build):

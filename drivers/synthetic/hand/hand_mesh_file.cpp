@@ -25,7 +25,7 @@ Result<std::string> find_hand_mesh(Handedness handedness, const std::string& con
   const std::string path = hand_mesh_folder(configured) + "/" + std::string(to_string(handedness)) + ".glb";
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    return fail("the simulator's hand mesh is not there", path,
+    return fail("the simulator's hand mesh is missing", path,
                 "run deploy/fetch_hand_mesh.sh (installed in /usr/share/barehand) once, or set BAREHAND_HANDS to the "
                 "folder that holds left.glb and right.glb");
   return path;

@@ -6,13 +6,13 @@ namespace barehand::synthetic {
 
 /// How a hand's shape differs from that of the mesh: factors on its dimensions.
 struct HandShape {
-  double scale = 1;                                               ///< the whole hand
-  double thickness = 1;                                           ///< fingers and palm, across the bones
-  double thumb = 1, index = 1, middle = 1, ring = 1, little = 1;  ///< lengths of the phalanges
+  double scale = 1;
+  double thickness = 1;
+  double thumb = 1, index = 1, middle = 1, ring = 1, little = 1;
 };
 template <class V>
 void visit(V& v, HandShape& p) {
-  v("scale", p.scale, 0.6, 1.5, "size of the hand, 1 = as in its file");
+  v("scale", p.scale, 0.6, 1.5, "size of the hand; 1: as in its file");
   v("thickness", p.thickness, 0.7, 1.4, "factor on the thickness of fingers and palm");
   v("thumb", p.thumb, 0.7, 1.4, "factor on the thumb's length");
   v("index", p.index, 0.7, 1.4, "factor on the index finger's length");

@@ -25,11 +25,13 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
   // Which frames count.
-  bench->add_option("--store", o.store, "frames to keep in memory; they are played forth and back")
+  bench->add_option("--store", o.store, "frames to keep in memory; they are played back and forth")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  bench->add_option("--frames", o.frames, "frames to count")->check(CLI::Range(1, 100000000))->capture_default_str();
-  bench->add_option("--warm-up", o.warm_up, "frames before those that count")
+  bench->add_option("--frames", o.frames, "number of frames to measure")
+      ->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  bench->add_option("--warm-up", o.warm_up, "number of frames before the measured ones")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
 
@@ -38,14 +40,15 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.1, 10000.0));
   bench->add_option("--threads", o.threads, "cores to use")->capture_default_str();
   bench->add_flag("--inline", o.single_threaded, "run all stages on one thread");
-  bench->add_option("--repeat", o.repeat, "measure all cases so often, in turn")->check(CLI::Range(1, 1000));
+  bench->add_option("--repeat", o.repeat, "number of times that all cases are measured, in turn")
+      ->check(CLI::Range(1, 1000));
 
   // What is varied, and where the results go.
   bench->add_option("--sweep", o.sweeps, "vary one parameter: NAME=VALUE,VALUE... (" + sweep_names() + ")");
   bench->add_option("--lcm-url", o.lcm_url, "LCM network of the states")->capture_default_str();
   bench->add_option("--json", o.json, "file for the figures");
-  bench->add_option("--plots", o.plots, "folder for plots (PNG) of what --json or --draw names");
-  bench->add_option("--draw", o.draw, "measure nothing, draw this file of figures");
+  bench->add_option("--plots", o.plots, "folder for plots (PNG) of the figures of --json or --draw");
+  bench->add_option("--draw", o.draw, "only draw the plots of this file of figures");
   add_overwrite_option(*bench, o.overwrite);
   bench->footer("Frames are read or rendered before the clock starts.");
   bench->callback([options, &exit_code] { exit_code = run_bench(*options); });

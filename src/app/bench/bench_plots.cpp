@@ -108,11 +108,11 @@ Result<void> draw_bench(const std::string& json_path, const std::string& directo
   if (!report) return tl::unexpected(report.error());
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
+  if (error) return fail("cannot be created: " + error.message(), directory, "check the path and its permissions");
   try {
     return draw(*report, directory);
   } catch (const Json::exception& e) {
-    return fail(std::string("is no report of barehand bench: ") + e.what(), json_path, "write it with --json");
+    return fail(std::string("is not a report of barehand bench: ") + e.what(), json_path, "write it with --json");
   }
 }
 

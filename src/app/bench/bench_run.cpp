@@ -125,7 +125,7 @@ void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report,
     if (!named.bench.sweep.empty()) continue;
     auto rows = compare_observers(named.config, named.bench.config, named.bench.threads);
     if (!rows) {
-      told << "samples are compared by the CPU alone: " << rows.error().message() << "\n";
+      told << "samples are compared on the CPU alone: " << rows.error().message() << "\n";
       return;
     }
     for (ObserverRow& row : *rows) {

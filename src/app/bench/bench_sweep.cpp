@@ -33,7 +33,7 @@ Result<int> number(const std::string& text, const Parameter& parameter) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc{} || stop != end || value < parameter.lo || value > parameter.hi)
-    return fail("'" + text + "' is no whole number from " + std::to_string(parameter.lo) + " to " +
+    return fail("'" + text + "' is not a whole number from " + std::to_string(parameter.lo) + " to " +
                     std::to_string(parameter.hi),
                 "--sweep " + std::string(parameter.name), "");
   return value;
@@ -53,7 +53,8 @@ Result<std::vector<BenchCase>> parse_sweep(const std::string& text, const BenchC
   const std::string name = text.substr(0, equals);
   const auto* parameter = std::find_if(kParameters.begin(), kParameters.end(), [&](auto& p) { return p.name == name; });
   if (parameter == kParameters.end() || equals == std::string::npos)
-    return fail("nothing that can be swept", "--sweep " + text, "give NAME=VALUE,VALUE with one of " + sweep_names());
+    return fail("not a parameter that can be varied", "--sweep " + text,
+                "give NAME=VALUE,VALUE with one of " + sweep_names());
 
   // One case per value.
   std::vector<BenchCase> cases;

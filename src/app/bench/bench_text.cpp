@@ -35,7 +35,7 @@ std::string bench_text(const BenchRow& row) {
 std::string bench_text(const ObserverRow& row) {
   return formatted("%s, %d samples compared, %d threads, %s%s: %s\n", row.config.c_str(), row.trial.samples,
                    row.threads, row.device.renderer.c_str(),
-                   row.device.software ? " (software, which observer: auto never takes)" : "",
+                   row.device.software ? " (software, which observer: auto never uses)" : "",
                    to_text(row.trial.times).c_str());
 }
 

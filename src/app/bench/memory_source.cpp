@@ -45,7 +45,7 @@ Result<FrameStore> read_frames(FrameSource& source, std::int64_t count) {
     if (auto* failed = std::get_if<SourceFailed>(&event)) return tl::unexpected(failed->error);
     if (std::holds_alternative<EndOfStream>(event)) break;
   }
-  if (store.frames.empty()) return fail("no frames", source.name(), "choose a source that has some");
+  if (store.frames.empty()) return fail("no frames", source.name(), "choose a source with frames");
   return store;
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kHowTo =
     "Open the hand and turn it slowly to show palm and back. Then circle the thumb and bend its joints one by one,\n"
     "make a hook (only the last two joints of the fingers bent), a table top (only the knuckles) and a fist, palm and\n"
-    "back towards the camera; half a minute. Ctrl-C ends a live scan; what was seen until then is used.";
+    "back towards the camera; half a minute. Ctrl-C ends a live scan; the frames until then are used.";
 
 struct CalibrateOptions {
   TrackOptions track;
@@ -67,7 +67,9 @@ class ScanSink : public Sink {
     if (complete_ || Clock::now() < advised_ + kAdvise) return;
     const auto missing = scan_.report.missing();
     complete_ = missing.empty();
-    std::cerr << "\n" << (complete_ ? "everything was seen; Ctrl-C ends a live scan" : missing.front()) << std::endl;
+    std::cerr << "\n"
+              << (complete_ ? "every part of the hand was seen; Ctrl-C ends a live scan" : missing.front())
+              << std::endl;
     advised_ = Clock::now();
   }
 
@@ -89,7 +91,7 @@ void print(std::FILE* out, const ScanReport& report, const HandProfile& start, c
   std::fprintf(out, "%d frames tracked; hand %.0f mm long, before %.0f mm\n", report.frames(),
                fitted.hand_length() * 1e3, start.hand_length() * 1e3);
   for (const std::string& sentence : report.missing())
-    std::fprintf(out, "not seen enough, kept near the hand it started from; to know it, %s\n", sentence.c_str());
+    std::fprintf(out, "not seen well enough, so close to the initial hand; to measure it, %s\n", sentence.c_str());
 }
 
 /// Scans the skin from the frames that were kept; none if they do not suffice.
@@ -97,21 +99,21 @@ std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, d
   // Too few frames do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
-    std::fputs("too short a scan for a skin of its own\n", out);
+    std::fputs("the scan was too short to measure the skin\n", out);
     return std::nullopt;
   }
 
   // Scan, and report the progress.
   Workers workers(threads);
   const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
-    std::fprintf(stderr, "skin and joints: round %d of %d, %.2f mm off before it\n", progress.round, progress.rounds,
-                 progress.mismatch * 1e3);
+    std::fprintf(stderr, "skin and joints: round %d of %d, mean error before it %.2f mm\n", progress.round,
+                 progress.rounds, progress.mismatch * 1e3);
   });
 
   if (hand)
     std::fprintf(out, "skin and joints from %d frames\n", frames);
   else
-    std::fputs("these frames tell no skin; the hand stays as it was fitted\n", stderr);
+    std::fputs("the skin cannot be measured in these frames; the result is the fitted hand alone\n", stderr);
   return hand;
 }
 
@@ -124,7 +126,7 @@ int run(const CalibrateOptions& o) {
   const auto hands = choose_hands({o.hand}, {});
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)
-    return tell({"is not one hand", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
+    return tell({"names two hands", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
   if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
 
   // Track, and collect what the user shows.
@@ -169,18 +171,18 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
 
   // Input and output.
   CLI::App* calibrate =
-      app.add_subcommand("calibrate", "Make the profile of a person's hand that is shown to the sensor");
+      app.add_subcommand("calibrate", "Measure the profile of the hand that a person shows to the sensor");
   calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
       ->required();
   calibrate->add_option("--out", o.out, "hand.json to write")->required();
   calibrate
       ->add_option("--hand", o.hand,
-                   "right or left: which hand is shown; or a hand.json, whose joints stay if it was measured")
+                   "right or left: which hand is shown; or a hand.json, whose joints are kept if it was measured")
       ->capture_default_str();
 
   // How the hand is tracked.
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
-  calibrate->add_option("--overlay", o.track.overlay, "as for track, to look at what was fitted");
+  calibrate->add_option("--overlay", o.track.overlay, "as for track, to check the fitted hand");
   add_overwrite_option(*calibrate, o.track.overwrite);
   calibrate->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
   calibrate->add_option("--threads", o.track.threads, "cores to use; results do not depend on it")

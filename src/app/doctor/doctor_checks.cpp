@@ -59,8 +59,8 @@ Finding judge(const UsbSensor& sensor) {
     return {Level::problem, "USB", to_text(sensor) + ": " + obstacle->what + " (" + obstacle->where + ")",
             obstacle->remedy};
   if (sensor.held_back)
-    return {Level::warning, "USB", to_text(sensor) + ", and it could do more",
-            "put it into a faster USB port, without a hub"};
+    return {Level::warning, "USB", to_text(sensor) + ", although it supports a faster one",
+            "plug it into a faster USB port, without a hub"};
   return {Level::ok, "USB", to_text(sensor), ""};
 }
 
@@ -86,10 +86,10 @@ Finding check_processor() {
   const int cores = available_cores();
   const std::string text = std::to_string(cores) + (cores == 1 ? " core" : " cores") +
                            (avx2 ? " with AVX2" : " without AVX2") + "; the program " +
-                           (kInstructionSet ? std::string("uses ") + kInstructionSet : "does without");
+                           (kInstructionSet ? std::string("uses ") + kInstructionSet : "uses neither");
   if (cores < 2) return {Level::warning, "processor", text, "two cores are needed to track at the rate of a sensor"};
   if (avx2 && !kInstructionSet)
-    return {Level::warning, "processor", text, "built with -DBAREHAND_ARCH=x86-64-v3 it tracks half as fast again"};
+    return {Level::warning, "processor", text, "a build with -DBAREHAND_ARCH=x86-64-v3 tracks about 1.5 times as fast"};
   return {Level::ok, "processor", text, ""};
 }
 
@@ -102,7 +102,7 @@ Finding check_receive_buffer(const std::string& lcm_url, const std::string& rmem
   const std::string subject = "receive buffer";
   long bytes = 0;
   if (!(std::ifstream(rmem_max_file) >> bytes))
-    return {Level::note, subject, "the kernel does not tell its size (" + rmem_max_file + ")", ""};
+    return {Level::note, subject, "the kernel does not report its size (" + rmem_max_file + ")", ""};
   if (const auto shortfall = LcmBus::receive_buffer_shortfall(lcm_url, rmem_max_file))
     return {Level::warning, subject, shortfall->what, shortfall->remedy};
   return {Level::ok, subject, std::to_string(bytes) + " bytes for a UDP socket", ""};
@@ -136,7 +136,7 @@ Finding check_graphics(const std::string& egl_library) {
   const SegmentTrackerParams& params = config.tracker.segment_tracker;
   const auto observer = EglObserver::open(distance_cap(params), DeviceChoice::any, egl_library);
   if (!observer)
-    return {Level::note, subject, observer.error().message() + "; the CPU compares samples",
+    return {Level::note, subject, observer.error().message() + "; samples are compared on the CPU",
             "only with a GPU: install its driver and libegl1"};
 
   // What observer: auto would find out with its first batch.
@@ -145,14 +145,16 @@ Finding check_graphics(const std::string& egl_library) {
   Workers workers(available_cores());
   const auto trial = time_trial_level(config, params.samples, **observer, workers);
   if (!trial)
-    return {Level::warning, subject, name + ": " + trial.error().message() + "; the CPU compares samples",
+    return {Level::warning, subject, name + ": " + trial.error().message() + "; samples are compared on the CPU",
             trial.error().remedy};
   const std::string times = "; " + std::to_string(trial->samples) + " samples: " + to_text(trial->times);
   if (device.software)
-    return {Level::note, subject, name + ": software, no GPU; observer: auto takes the CPU" + times, ""};
+    return {Level::note, subject, name + ": software, not a GPU; observer: auto uses the CPU" + times, ""};
   if (!trial->times.device_is_faster())
-    return {Level::note, subject, name + ": a GPU, but observer: auto takes the CPU, as it measures" + times, ""};
-  return {Level::ok, subject, name + ": a GPU, which observer: auto takes, as it measures" + times, ""};
+    return {Level::note, subject,
+            name + ": a GPU, which is measured to be slower, so that observer: auto uses the CPU" + times, ""};
+  return {Level::ok, subject, name + ": a GPU, which is measured to be faster and used with observer: auto" + times,
+          ""};
 }
 
 std::vector<Finding> check_openni() {
@@ -171,7 +173,7 @@ std::vector<Finding> check_openni() {
 std::vector<Finding> check_usb() {
   const auto sensors = LibUsbBus().sensors();
   if (!sensors) return {{Level::note, "USB", sensors.error().what, sensors.error().remedy}};
-  if (sensors->empty()) return {{Level::note, "USB", "no depth sensor that is known by name is plugged in", ""}};
+  if (sensors->empty()) return {{Level::note, "USB", "no known depth sensor is plugged in", ""}};
   std::vector<Finding> findings;
   for (const UsbSensor& sensor : *sensors) findings.push_back(judge(sensor));
   return findings;

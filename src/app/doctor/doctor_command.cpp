@@ -41,7 +41,7 @@ int run_doctor(const std::string& lcm_url) {
 
 void add_doctor_command(CLI::App& app, int& exit_code) {
   auto url = std::make_shared<std::string>();
-  CLI::App* doctor = app.add_subcommand("doctor", "Say what is missing on this machine, and how to mend it");
+  CLI::App* doctor = app.add_subcommand("doctor", "Report what this machine lacks for tracking, and how to fix it");
   doctor->add_option("--lcm-url", *url, "LCM network to test; default as for track");
   doctor->callback([url, &exit_code] { exit_code = run_doctor(*url); });
 }

@@ -25,11 +25,9 @@ struct EvalOptions {
 };
 
 Result<void> check(const EvalOptions& o) {
-  if (o.results.empty() && o.states.empty())
-    return fail("there is nothing to judge", "eval", "give --result or --states");
+  if (o.results.empty() && o.states.empty()) return fail("no result is given", "eval", "give --result or --states");
   if (o.truths.empty() && o.fingertips.empty())
-    return fail("there is nothing to compare with", "eval",
-                "give --truth, or --fingertips with --recording and --hand");
+    return fail("no reference is given", "eval", "give --truth, or --fingertips with --recording and --hand");
   if (!o.results.empty() && o.truths.size() > 1 && o.truths.size() != o.results.size())
     return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
                     std::to_string(o.results.size()) + " results",
@@ -42,7 +40,8 @@ Result<void> check(const EvalOptions& o) {
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
     return fail("--fingertips needs the camera and the fingers' thickness", "eval", "add --recording DIR and --hand");
-  if (o.step == 0) return fail("a step of 0 is no order of frames", "--step", "choose 1, 2 ... or -1, -2 ...");
+  if (o.step == 0)
+    return fail("a step of 0 would repeat one frame without end", "--step", "choose 1, 2 ... or -1, -2 ...");
   return {};
 }
 
@@ -163,10 +162,10 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
   eval->add_option("--result", o->results, "result table; several are compared with one another");
   eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
-  eval->add_option("--states", o->states, "log of hand states, one for each truth: is the stated uncertainty right?");
+  eval->add_option("--states", o->states, "log of hand states, one for each truth, to check the stated uncertainty");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
-  eval->add_option("--start", o->start, "first frame the result was to track, as given to track");
+  eval->add_option("--start", o->start, "first frame of the run, as given to track");
   eval->add_option("--step", o->step, "step between frames, as given to track");
   eval->add_option("--plots", o->plots, "folder for plots (PNG)");
   eval->add_option("--json", o->json, "file for the figures");

@@ -79,7 +79,7 @@ Result<void> write_plots(const EvalReport& report, const std::string& directory)
   // The folder may be missing.
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
+  if (error) return fail("cannot be created: " + error.message(), directory, "check the path and its permissions");
 
   // Errors of the runs.
   Result<void> done;

@@ -42,7 +42,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
 
 /// Frames where a hand was reported although there was none, and how long a returning hand took to be tracked.
 void print_returns(std::string& out, const Evaluation& e) {
-  if (!e.phantoms.empty()) out += "  a hand where there is none: " + frame_list(e.phantoms) + "\n";
+  if (!e.phantoms.empty()) out += "  frames with a hand although there is none: " + frame_list(e.phantoms) + "\n";
   if (e.returns.empty()) return;
   out += formatted("  %zu returns into view (frame: frames until tracked):", e.returns.size());
   for (const Return& r : e.returns)
@@ -55,7 +55,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
   // What was compared, and how many frames were tracked.
   const Evaluation& e = run.evaluation;
   out += formatted("%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
-  if (run.truncated) out += formatted("  the result was cut short; its last frame is left out\n");
+  if (run.truncated) out += formatted("  the result is truncated; its incomplete last frame is ignored\n");
   out += formatted("  frames %zu, tracked %zu, lost %zu (%zu without a hand, %zu off by more than %.0f mm)\n",
                    e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked,
                    e.lost.size() - e.untracked, kLostFrameError * kMillimetre);

@@ -60,12 +60,12 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
     side = state->handedness;
     const auto [frame, is_new] = poses.try_emplace(state->frame_number);
     if (!is_new)
-      return fail("frame " + std::to_string(state->frame_number) + " comes twice", log_path,
+      return fail("frame " + std::to_string(state->frame_number) + " occurs twice", log_path,
                   "give the log of a single run on a single recording");
     auto& segments = frame->second;
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))
-      return fail("frame " + std::to_string(state->frame_number) + " has a pose without sensible numbers", log_path,
+      return fail("frame " + std::to_string(state->frame_number) + " has a pose with invalid numbers", log_path,
                   "give a log written by barehand track --states-log");
   }
   if (poses.empty())

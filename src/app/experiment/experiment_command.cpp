@@ -37,18 +37,19 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<ExperimentArguments>();
   ExperimentOptions& o = a->options;
   o.threads = available_cores();
-  CLI::App* command = app.add_subcommand("experiment", "Repeat the paper's experiments on the simulator");
+  CLI::App* command = app.add_subcommand("experiment", "Repeat the paper's experiments with the simulator");
 
   // Which experiment.
   command
       ->add_option("name", a->name,
                    "fist (Fig. 6a), occlusion (seven levels, Fig. 6b-c and 7), grasp (mug, ball and pliers, Fig. 8) or "
-                   "ablation (what each addition to the paper's method buys)")
+                   "ablation (the effect of each addition to the paper's method)")
       ->required()
       ->check(CLI::IsMember(experiment_names()));
 
   // Where the results go, and what is compared.
-  command->add_option("--out", o.out, "folder to make: recordings, results, snapshots, plots and figures")->required();
+  command->add_option("--out", o.out, "folder to create: recordings, results, snapshots, plots and figures")
+      ->required();
   command
       ->add_option("--configs", a->configs,
                    "configurations side by side, as for track --config; default: paper,default; ablation: default")
@@ -67,7 +68,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   command->add_option("--init", a->init, "first pose: truth, or auto (found in the image)")
       ->check(CLI::IsMember({"truth", "auto"}))
       ->capture_default_str();
-  command->add_option("--frames", o.frames, "end every sequence after so many frames")->check(CLI::PositiveNumber);
+  command->add_option("--frames", o.frames, "maximum number of frames per sequence")->check(CLI::PositiveNumber);
   command->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   command->footer("Ctrl-C ends the run; what was finished until then stays.");
 

@@ -76,8 +76,8 @@ Step ExperimentRun::check() const {
   const bool folder = fs::is_directory(options_.out, error);
   const bool replaced = options_.overwrite && folder && fs::exists(options_.out + kMark, error);
   if (fs::exists(options_.out, error) && !replaced && !(folder && fs::is_empty(options_.out, error)))
-    return stop({"is there already", options_.out,
-                 options_.overwrite ? "no experiment made it: choose another folder or remove it first"
+    return stop({"exists already", options_.out,
+                 options_.overwrite ? "it was not created by an experiment: choose another folder or remove it first"
                                     : "choose another folder, or replace an experiment's with --overwrite"},
                 kExitUsage);
 
@@ -105,7 +105,7 @@ Step ExperimentRun::take_folder() const {
   }
 
   fs::create_directories(options_.out, error);
-  if (error) return stop({"cannot be made: " + error.message(), options_.out, "check the path"}, kExitUsage);
+  if (error) return stop({"cannot be created: " + error.message(), options_.out, "check the path"}, kExitUsage);
   if (const auto marked = write_whole_file(options_.out + kMark, "made by barehand experiment\n"); !marked)
     return stop(marked.error(), kExitUsage);
   return {};
@@ -122,7 +122,7 @@ Step ExperimentRun::make_folders() const {
   for (const char* folder : {"results", "figures"}) {
     std::error_code error;
     fs::create_directories(options_.out + "/" + folder, error);
-    if (error) return stop({"cannot be made: " + error.message(), options_.out + "/" + folder, "check the path"});
+    if (error) return stop({"cannot be created: " + error.message(), options_.out + "/" + folder, "check the path"});
   }
   return {};
 }

@@ -89,7 +89,7 @@ void add_listen_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("listen", "Print hand and glove states from LCM");
   command->add_option("--lcm-url", options->url, "LCM network");
   command->add_option("--prefix", options->prefix, "channel prefix of the tracker");
-  command->add_option("--count", options->count, "stop after so many messages")->check(CLI::PositiveNumber);
+  command->add_option("--count", options->count, "stop after this many messages")->check(CLI::PositiveNumber);
   command->callback([options, &exit_code] { exit_code = listen(*options); });
 }
 

@@ -35,7 +35,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "convert", "Turn a recording folder or an .oni file into an LCM log, or logs or an .oni file into a folder");
   command->add_option("in", *in, "recording folder, LCM log, folder or set of logs, or .oni file")->required();
-  command->add_option("out", request->out, "FILE.lcmlog, or a folder that is made")->required();
+  command->add_option("out", request->out, "FILE.lcmlog, or a folder to create")->required();
   add_copy_options(*command, *request);
   command->footer(
       "Time stamps are kept; a log keeps frame numbers too, a folder numbers its frames from 0. hand.json and "

@@ -10,7 +10,7 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   CopyRequest& r = request;
   command.add_option("--start", r.source.start, "first frame of a recording");
   command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
-  command.add_option("--frames", r.frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_option("--frames", r.frames, "stop after this many frames")->check(CLI::PositiveNumber);
   command.add_option("--channel", r.source.channel,
                      "glob of the LCM channels to read; default: live the first of *RGBD_FRAME that brings a frame, in "
                      "a log the only one that has some");
@@ -24,13 +24,13 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--colour", r.colour, "png and raw are lossless; raw is for logs only")
       ->check(CLI::IsMember({"png", "jpeg", "raw", "none"}))
       ->capture_default_str();
-  command.add_option("--jpeg-quality", r.jpeg_quality, "of --colour jpeg in a log")
+  command.add_option("--jpeg-quality", r.jpeg_quality, "JPEG quality of --colour jpeg in a log")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command.add_option("--depth", r.depth, "how a log holds depth; all are lossless, rvl is smallest and fastest")
       ->check(CLI::IsMember({"rvl", "zlib", "raw"}))
       ->capture_default_str();
-  command.add_option("--out-channel", r.out_channel, "LCM channel in the log that is written")
+  command.add_option("--out-channel", r.out_channel, "LCM channel in the written log")
       ->check([](const std::string& name) {
         return name.empty() || name.size() > kLongestChannel ? "channel names have 1 to 63 bytes" : "";
       })

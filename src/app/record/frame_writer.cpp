@@ -62,7 +62,7 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
   if (std::filesystem::path(path).extension() == ".oni")
     return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
   if (options.rotation && !is_log_path(path))
-    return fail("only a log goes on in new files", path, "give a name that ends in .lcmlog");
+    return fail("only a log can continue in new files", path, "give a name that ends in .lcmlog");
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());

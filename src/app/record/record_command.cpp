@@ -15,19 +15,20 @@ void add_record_command(CLI::App& app, int& exit_code) {
   CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log or a folder");
   record->add_option("--source", request->source.spec, "openni2[:SENSOR] | lcm | sim:NAME | folder:DIR | log:FILE")
       ->required();
-  record->add_option("--out", request->out, "FILE.lcmlog, or a folder that is made")->required();
+  record->add_option("--out", request->out, "FILE.lcmlog, or a folder to create")->required();
   record->add_option("--seconds", request->seconds, "stop after this time")->check(CLI::PositiveNumber);
   record->add_option("--lcm-url", request->source.lcm_url, "LCM network of the source lcm");
-  record->add_option("--max-size", request->max_size, "go on in a new log at this size, such as 2GB")
+  record->add_option("--max-size", request->max_size, "continue in a new log at this size, such as 2GB")
       ->transform(CLI::AsSizeValue(true));
-  record->add_option("--max-age", request->max_age, "go on in a new log after this time, such as 10min or 1h")
+  record->add_option("--max-age", request->max_age, "continue in a new log after this time, such as 10min or 1h")
       ->transform(
           CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}));
-  record->add_option("--quota", request->quota, "of all these logs together; the oldest are removed. Such as 100GB")
+  record
+      ->add_option("--quota", request->quota, "limit of all these logs together, such as 100GB; the oldest are removed")
       ->transform(CLI::AsSizeValue(true));
   add_copy_options(*record, *request);
   record->footer(
-      "Ctrl-C ends the recording; what was recorded until then is complete, and so it is after a crash. While the disk "
+      "Ctrl-C ends the recording; the recording until then is complete, as it is after a crash. While the disk "
       "is full, frames of a live source are lost and counted.\n"
       "With --max-size, --max-age or --quota, take.lcmlog becomes take-000001-TIME.lcmlog and so on, each complete in "
       "itself and counted on from those that are there. With a quota the oldest are also removed when the disk is "

@@ -53,7 +53,7 @@ Output output_of(const CopyRequest& request, bool rotates) {
 /// What makes a copy that came to its end a failed one.
 std::optional<Error> failure_of(const CopyResult& result, const std::string& source, bool live) {
   const std::string frames = std::to_string(result.written + result.skipped);
-  if (result.written == 0 && live) return Error{"no frame came, so nothing is written", source, ""};
+  if (result.written == 0 && live) return Error{"no frame arrived, so nothing is written", source, ""};
   if (result.written == 0)
     return Error{"nothing could be read: none of " + frames + " frames, so nothing is written", source, ""};
   if (!live && result.skipped > result.written)

@@ -41,7 +41,7 @@ std::optional<std::string> DepthRange::finish() {
 std::optional<std::string> DepthRange::conclude() {
   done_ = true;
   std::vector<std::uint16_t> values = std::exchange(values_, {});
-  if (values.empty()) return "no depth is measured anywhere: is the lens covered, or everything out of range?";
+  if (values.empty()) return "no pixel has depth: is the lens covered, or is everything out of range?";
 
   // Where it lies: a unit that is wrong puts all of it out of reach.
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -14,7 +14,7 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kElsewhere = "choose another name: what a run reads is never replaced";
+constexpr const char* kElsewhere = "choose another name: an input of the run is never replaced";
 
 tl::unexpected<Error> refuse(const Output& output, const std::string& what, const std::string& remedy = kElsewhere) {
   return fail(what, output.option + " " + output.path, remedy);
@@ -120,7 +120,7 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
     const Place place(output.path);
     for (const auto& [other, other_place] : before)
       if (place == other_place)
-        return refuse(output, "is what " + other->option + " " + other->path + " writes, too", "give two names");
+        return refuse(output, "is also written by " + other->option + " " + other->path, "give two names");
     for (const InputFile& input : inputs)
       if (!input.path.empty() && place == Place(input.path))
         return refuse(output, "is the file of " + input.option + " " + input.path);
@@ -135,7 +135,7 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
     if (output.kind == Output::Kind::file && fs::is_directory(output.path, ignored))
       return refuse(output, "is a folder", "give a file");
     if (!overwrite && is_taken(output))
-      return refuse(output, output.kind == Output::Kind::pictures ? "holds pictures already" : "exists already",
+      return refuse(output, output.kind == Output::Kind::pictures ? "already contains images" : "exists already",
                     "choose another name, or replace it with --overwrite");
   }
   return {};
@@ -143,7 +143,7 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
 
 void add_overwrite_option(CLI::App& command, bool& overwrite) {
   command.add_flag("--overwrite", overwrite,
-                   "replace files that exist; what is read, and recordings in folders, are never replaced");
+                   "replace existing files; inputs, and recordings in folders, are never replaced");
 }
 
 }  // namespace barehand

@@ -61,7 +61,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   open.warnings = (*source)->doubts();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warnings.push_back(path + ": " + std::to_string(bytes) +
-                            " bytes are damaged or cut off; every whole event is played");
+                            " bytes are damaged or cut off; every complete event is played");
   if (const auto& left_out = (*source)->left_out(); !left_out.empty())
     open.warnings.push_back(path + ": " + std::to_string(left_out.size()) + " of its logs cannot be played, first " +
                             left_out.front().message());
@@ -120,7 +120,8 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
   const auto colon = request.spec.find(':');
   const std::string kind = request.spec.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
-  if (request.step == 0) return fail("a step of 0 never gets anywhere", "--step", "give 1, 2, ... or -1, -2, ...");
+  if (request.step == 0)
+    return fail("a step of 0 would repeat one frame without end", "--step", "give 1, 2, ... or -1, -2, ...");
   const bool recording = kind == "folder" || kind == "log" || (kind == "openni2" && is_oni_file(argument));
   if (!recording && (request.start || request.step != 1))
     return fail("--start and --step are for recordings", request.spec, "leave them out");

@@ -44,7 +44,7 @@ bool WatchedSource::look(const FramePtr& frame) {
     range_.emplace(limits_);
   }
   if (!frame->colour_fault.empty())
-    say("colour", "colour is not used: " + frame->colour_fault, "depth goes on without");
+    say("colour", "colour is not used: " + frame->colour_fault, "tracking continues with depth alone");
   if (!look_at_picture(frame)) return false;
   if (const auto doubt = range_->look(*frame)) say("range", *doubt);
   before_ = frame;
@@ -59,14 +59,14 @@ bool WatchedSource::look_at_picture(const FramePtr& frame) {
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
   const bool still = fault == DepthFault::repeated;
   if (live() && (still || fault == DepthFault::senseless)) {
-    to_come_.push_back(SkippedFrame{{still ? "the depth image repeats the one before bit for bit, with a new time stamp"
-                                           : "the depth image is noise",
-                                     name(), "look after the sensor, or the program that sends its frames"}});
+    to_come_.push_back(SkippedFrame{
+        {still ? "the depth image is identical to the previous one, but has a new time stamp" : "the depth image is noise",
+         name(), "check the sensor, or the program that sends its frames"}});
     return false;
   }
   if (fault == DepthFault::senseless)
     say("noise",
-        formatted("the depth image of frame %lld is noise: neighbouring pixels have nothing to do with each other",
+        formatted("the depth image of frame %lld is noise: neighbouring pixels are unrelated",
                   static_cast<long long>(frame->number)),
         "is it a 16-bit image with its bytes in the right order?");
   look_at_stillness(*frame, still);
@@ -86,10 +86,9 @@ void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
   const std::int64_t lasting = std::abs(frame.utime - still_since_->utime);
   if (++still_frames_ < kStillFrames || lasting < kStillFor) return;
   say("still",
-      formatted("the picture stands still: from frame %lld to %lld, for %.3g s, every depth image is bit for bit "
-                "the same",
+      formatted("the depth image is frozen: from frame %lld to %lld, for %.3g s, all depth images are identical",
                 static_cast<long long>(still_since_->number), static_cast<long long>(frame.number), seconds(lasting)),
-      "a sensor's noise never repeats: had it stopped?");
+      "the noise of a sensor never repeats: had it stopped?");
 }
 
 void WatchedSource::say(const std::string& kind, const std::string& what, const std::string& remedy) {

@@ -58,7 +58,7 @@ int run(const SimArguments& a) {
   }
 
   // Check the arguments.
-  if (a.name.empty()) return fail_with({"which sequence?", "sim", "barehand sim --list names them"}, kExitUsage);
+  if (a.name.empty()) return fail_with({"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
     return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
 
@@ -84,17 +84,17 @@ void add_sim_command(CLI::App& app, int& exit_code) {
 
   // What is rendered, and where to.
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
-  sim->add_option("--out", a->out, "folder to make, or FILE.lcmlog");
+  sim->add_option("--out", a->out, "folder to create, or FILE.lcmlog");
   add_overwrite_option(*sim, a->overwrite);
   sim->add_option("--noise", a->noise, "none, kinect or tof");
-  sim->add_option("--seed", a->seed, "of motion and noise");
-  sim->add_option("--frames", a->frames, "end after this many frames");
+  sim->add_option("--seed", a->seed, "seed of motion and noise");
+  sim->add_option("--frames", a->frames, "number of frames");
   sim->add_option("--fps", a->fps, "frames per second, other than the sequence's own");
   sim->add_option("--hand", a->hand, "right or left, where a sequence shows one hand");
 
   // Everything else.
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
-  sim->add_flag("--list", a->list, "name the sequences and keys");
+  sim->add_flag("--list", a->list, "list the sequences and keys");
   sim->footer(
       "FILE.lcmlog gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where two hands are seen, "
       "those of the left one end in _left. Ctrl-C: what is written so far is a complete recording.");

@@ -26,22 +26,23 @@ void add_track_command(CLI::App& app, int& exit_code) {
                    "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  track->add_option("--start", o.start, "first frame of a recording; backwards, play goes from there down to 0");
+  track->add_option("--start", o.start, "first frame of a recording; when playing backwards, from there down to 0");
   track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
   track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
-  track->add_option("--log-decisions", o.decisions, "write what the tracker decided in every frame, and by what (CSV)");
+  track->add_option("--log-decisions", o.decisions,
+                    "write every decision of the tracker with the rule that made it (CSV)");
   track->add_option("--overlay", o.overlay,
                     "draw the tracked hand over the images: into a folder, or a video (.mp4, .mkv, .webm, .avi)");
   track->add_option("--save-hand", o.save_hand, "write the hand profile as fitted to the person (hand.json)");
-  track->add_option("--overlay-every", o.overlay_every, "draw every so many frames only")
+  track->add_option("--overlay-every", o.overlay_every, "draw every N-th frame only")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_overwrite_option(*track, o.overwrite);
   track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
   track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
-  track->add_option("--seed", o.seed, "of the random numbers, instead of the configuration's");
+  track->add_option("--seed", o.seed, "seed of the random numbers, instead of the configuration's");
   track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
@@ -52,18 +53,18 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->expected(0, 1)
       ->default_str("8765")
       ->type_name("[PORT]");
-  track->add_option("--view-origin", o.view_origins, "a foreign page that may connect, such as https://example.org");
+  track->add_option("--view-origin", o.view_origins,
+                    "origin of another web page that may connect, such as https://example.org");
   track
       ->add_flag("--print-config{user}", o.print_config,
                  "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "
                  "differs from the defaults")
       ->check(CLI::IsMember({"user", "all", "changed"}));
   track->footer(
-      "Ctrl-C ends the run; what was tracked until then is written completely. Files have their names when they are "
-      "whole; until then, and after a crash, they are NAME.unfinished. A live run does not stop at files that exist: "
-      "it "
+      "Ctrl-C ends the run; everything tracked until then is written. Files get their names when they are complete; "
+      "until then, and after a crash, they are called NAME.unfinished. A live run does not fail if a file exists: it "
       "writes NAME-2, NAME-3 and so on.\n"
-      "Exit code 1 also where no frame of a recording could be read, or more than half of them could not.");
+      "The exit code is 1, too, if no frame of a recording could be read, or if more than half of them could not.");
   track->callback([options, &exit_code] { exit_code = run_track(*options); });
 }
 

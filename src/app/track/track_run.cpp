@@ -187,7 +187,7 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
 Step TrackRun::await_readers() {
   for (std::string* path : {&options_.result, &options_.states_log, &options_.save_hand}) {
     const auto opened = readers_.wait_for(*path, stop_.get_token(), [&] {
-      log_.warn("reader of " + *path, "waiting for somebody to read the pipe " + *path);
+      log_.warn("reader of " + *path, "waiting for a program to read the pipe " + *path);
       service_.ready("waiting for a reader of " + *path);
       service_.alive();
     });
@@ -310,7 +310,8 @@ void TrackRun::reload() {
     return service_.ready("configuration not reloaded: " + changes.error().what);
   }
   for (const std::string& change : changes->made) log_.logger().info("changed {}", change);
-  for (const std::string& change : changes->for_restart) log_.logger().warn("not changed before a restart: {}", change);
+  for (const std::string& change : changes->for_restart)
+    log_.logger().warn("takes effect only after a restart: {}", change);
   log_.logger().info("configuration reloaded, {} values changed", changes->made.size());
   service_.ready("configuration reloaded");
 }

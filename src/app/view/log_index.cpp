@@ -23,7 +23,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
   }
   index.find_frames();
   if (index.frames_.empty())
-    return fail("neither states of hands nor frames are in it", names,
+    return fail("it holds neither hand states nor frames", names,
                 "write a log of states with barehand track --states-log FILE");
   index.find_lost();
   return index;

@@ -10,14 +10,14 @@ namespace barehand {
 void add_view_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   ViewOptions& o = *options;
-  CLI::App* view = app.add_subcommand("view", "Show a page with what a tracker elsewhere sends, or with a log");
+  CLI::App* view = app.add_subcommand("view", "Serve a page that shows the states of another tracker, or a log");
   view->add_option("LOG", o.logs, "LCM logs; states and images of one frame may be in different ones");
-  view->add_flag("--lcm", o.lcm, "what trackers send on the LCM network, now");
+  view->add_flag("--lcm", o.lcm, "show what trackers send on the LCM network now");
   view->add_option("--lcm-url", o.lcm_url, "LCM network");
   view->add_option("--prefix", o.prefix, "channel prefix of the tracker");
   view->add_option("--port", o.port, "PORT or ADDRESS:PORT of the page; 0.0.0.0:8765: for the whole network")
       ->capture_default_str();
-  view->add_option("--origin", o.origins, "a foreign page that may connect, such as https://example.org");
+  view->add_option("--origin", o.origins, "origin of another web page that may connect, such as https://example.org");
   view->add_option("--hand", o.hands, "profile whose skin is shown (hand.json); default: the mean adult hand")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   view->callback([options, &exit_code] { exit_code = run_view(*options); });

@@ -115,7 +115,7 @@ Result<ConfigReader> ConfigReader::open(const std::string& path) {
   try {
     root = YAML::Load(*text);
   } catch (const YAML::ParserException& e) {
-    return fail("not YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "mend the line");
+    return fail("not valid YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "correct the line");
   }
   if (!root.IsMap()) return fail("no keys in the configuration", path, "--print-config writes one");
   state->groups.push_back({root, "", {}});

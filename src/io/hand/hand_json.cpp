@@ -40,7 +40,7 @@ std::string find_cycle(const ParentNames& parents) {
 
 Result<void> check_parents(const ParentNames& parents, const std::string& path) {
   if (const std::string cycle = find_cycle(parents); !cycle.empty())
-    return fail("\"parent\" goes round in a cycle: " + cycle, path, "the palm is the root, its parent is null");
+    return fail("\"parent\" forms a cycle: " + cycle, path, "the palm is the root, its parent is null");
   for (int s = 0; s < kSegmentCount; ++s) {
     const std::string name(kSegmentNames[s]);
     const std::string wanted = s == kPalm ? "" : std::string(kSegmentNames[parent_of(s)]);
@@ -83,7 +83,7 @@ Result<JointDof> parse_dof(const Json& json, const std::string& where) {
   const auto limits = object.numbers("limits_deg", 2, -180, 180);
   if (!limits) return tl::unexpected(limits.error());
   JointDof dof{*name, {(*axis)[0], (*axis)[1], (*axis)[2]}, (*limits)[0] * kDegree, (*limits)[1] * kDegree};
-  if (std::abs(dof.axis.norm() - 1) > 0.01) return fail("\"axis\" has no unit length", object.where, "normalise it");
+  if (std::abs(dof.axis.norm() - 1) > 0.01) return fail("\"axis\" is not a unit vector", object.where, "normalise it");
   if (std::abs(dof.axis.z()) > 0.5)
     return fail("\"axis\" points along the bone", object.where, "joints flex about x and abduct about y only");
   if (dof.lower > dof.upper)
@@ -94,7 +94,8 @@ Result<JointDof> parse_dof(const Json& json, const std::string& where) {
 
 Result<void> parse_dofs(const Object& object, SegmentProfile& segment) {
   if (!object.has("dofs") || !object.json.at("dofs").is_array())
-    return fail("\"dofs\" is missing or no list", object.where, "list the joint's degrees of freedom; [] for the palm");
+    return fail("\"dofs\" is missing or not a list", object.where,
+                "list the joint's degrees of freedom; [] for the palm");
   for (const Json& entry : object.json.at("dofs")) {
     const auto dof = parse_dof(entry, object.where);
     if (!dof) return tl::unexpected(dof.error());
@@ -167,7 +168,7 @@ Result<int> parse_index(const Object& object, const ParentNames& known) {
   const auto name = object.text("name");
   if (!name) return tl::unexpected(name.error());
   const auto index = segment_from_name(*name);
-  if (!index) return fail("\"" + *name + "\" is no segment of the hand", object.where, "see docs/formats.md");
+  if (!index) return fail("\"" + *name + "\" is not a segment of the hand", object.where, "see docs/formats.md");
   if (known.contains(*name)) return fail("segment " + *name + " occurs twice", object.where, "remove one");
   return *index;
 }
@@ -198,7 +199,7 @@ Json to_json(const SegmentProfile& segment, int s) {
 
 Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   if (!json.is_object() || !json.contains("segments") || !json.at("segments").is_array())
-    return fail("\"segments\" is missing or no list", path, "see docs/formats.md");
+    return fail("\"segments\" is missing or not a list", path, "see docs/formats.md");
   HandProfile profile;
   const auto side = parse_handedness({json, path});
   if (!side) return tl::unexpected(side.error());
@@ -230,7 +231,8 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
                 "multiply them by 180 / pi");
   if (json.contains("skin")) {
     if (profile.origin == ProfileOrigin::mean)
-      return fail("\"skin\" stands beside \"mean_hand\"", path, "a scanned hand is nobody else's: remove one");
+      return fail("\"skin\" stands beside \"mean_hand\"", path,
+                  "a scanned skin belongs to one person, a mean hand to nobody: remove one");
     auto skin = skin_from_json(json.at("skin"), path + ": skin");
     if (!skin) return tl::unexpected(skin.error());
     compute_normals(profile, *skin);

@@ -104,9 +104,9 @@ Result<SE3> Object::transform(const char* key) const {
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   const double skew = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (R.determinant() > 0 && skew >= 1e-3 && skew < 0.1)
-    return bad(*this, key, "holds no exact rotation: perhaps its numbers are rounded",
+    return bad(*this, key, "does not hold an exact rotation: perhaps its numbers are rounded",
                wanted + ", with 4 decimals or more"s);
-  if (!(skew < 1e-3 && R.determinant() > 0)) return bad(*this, key, "holds no right-handed rotation", wanted);
+  if (!(skew < 1e-3 && R.determinant() > 0)) return bad(*this, key, "does not hold a right-handed rotation", wanted);
   if ((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9)
     return bad(*this, key, "does not end with the row 0 0 0 1", wanted);
   return SE3{orthonormalised(R), m.topRightCorner<3, 1>()};

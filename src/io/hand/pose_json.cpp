@@ -24,8 +24,8 @@ Result<SE3> posed_by_angles(const Object& object, const SE3& rest) {
 Result<void> check_names(const Json& segments, const std::string& path) {
   for (const auto& [name, value] : segments.items()) {
     if (!segment_from_name(name))
-      return fail("\"" + name + "\" is no segment of the hand", path, "see docs/formats.md");
-    if (!value.is_object()) return fail("segment " + name + " is no object", path, "see docs/formats.md");
+      return fail("\"" + name + "\" is not a segment of the hand", path, "see docs/formats.md");
+    if (!value.is_object()) return fail("segment " + name + " is not an object", path, "see docs/formats.md");
   }
   return {};
 }
@@ -37,7 +37,7 @@ Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) 
   const auto json = json_fields::read_json(path);
   if (!json) return tl::unexpected(json.error());
   if (!json->is_object() || !json->contains("segments") || !json->at("segments").is_object())
-    return fail("\"segments\" is missing or no object", path, "see docs/formats.md");
+    return fail("\"segments\" is missing or not an object", path, "see docs/formats.md");
   const Json& segments = json->at("segments");
   if (const auto names = check_names(segments, path); !names) return tl::unexpected(names.error());
 

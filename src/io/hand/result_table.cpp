@@ -124,7 +124,8 @@ Result<ResultTable> read_table(const std::string& path) {
   std::string text;
   std::getline(file, text);
   if (text != kHeader)
-    return fail("line 1 is no truth or result table's", path, "it must be \"" + std::string(kHeader) + "\"");
+    return fail("line 1 is not the header of a truth or result table", path,
+                "it must be \"" + std::string(kHeader) + "\"");
   TableBuilder builder;
   for (int number = 2; std::getline(file, text); ++number) {
     const bool ended = !file.eof();  // false: the last line has no line feed

@@ -16,8 +16,8 @@ constexpr double kFarthest = 0.5;  // m, from the origin of a segment
 double micrometres(float metres) { return std::round(metres * 1e6) / 1e6; }
 
 tl::unexpected<Error> bad(const std::string& where, const char* key, std::size_t i, const std::string& wanted) {
-  return fail(formatted("\"%s\" %zu is no %s", key, i, wanted.c_str()), where,
-              "scan the hand anew, or remove \"skin\": the sections then say what the skin is");
+  return fail(formatted("\"%s\" %zu must be %s", key, i, wanted.c_str()), where,
+              "scan the hand anew, or remove \"skin\": the skin then follows from the sections");
 }
 
 bool all_numbers(const Json& row) {
@@ -63,7 +63,7 @@ bool read_triangle(const Json& row, std::size_t vertices, std::array<std::int32_
 Result<void> check_list(const Json& json, const char* key, const std::string& where) {
   if (!json.is_object() || !json.contains(key) || !json.at(key).is_array() || json.at(key).empty() ||
       json.at(key).size() > kMostEntries)
-    return fail(formatted("\"%s\" is missing, empty, too long or no list", key), where, "see docs/formats.md");
+    return fail(formatted("\"%s\" is missing, empty, too long or not a list", key), where, "see docs/formats.md");
   return {};
 }
 
@@ -76,7 +76,8 @@ Result<Skin> skin_from_json(const Json& json, const std::string& where) {
   const Json &vertices = json.at("vertices"), &triangles = json.at("triangles");
   skin.vertices.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!read_vertex(vertices[i], skin.vertices[i])) return bad(where, "vertices", i, "place on one or two neighbours");
+    if (!read_vertex(vertices[i], skin.vertices[i]))
+      return bad(where, "vertices", i, "a place on one or two neighbouring segments");
   skin.triangles.resize(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (!read_triangle(triangles[i], vertices.size(), skin.triangles[i]))

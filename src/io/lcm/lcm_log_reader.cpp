@@ -118,7 +118,7 @@ Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
   LcmLogReader reader(path);
   if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
   const auto size = std::filesystem::file_size(path, error);
-  if (error) return fail("cannot tell the size of the log: " + error.message(), path);
+  if (error) return fail("cannot determine the size of the log: " + error.message(), path);
   if (size == 0) return fail("the log is empty", path);
   reader.damaged_bytes_ = Scanner(reader.file_.get(), static_cast<std::int64_t>(size)).scan(reader.entries_);
   return reader;

@@ -80,13 +80,13 @@ tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
   std::FILE* file = log_->getFilePtr();
   __fpurge(file);  // or closing the file would append the rest of the event that failed
   std::clearerr(file);
-  if (reason == EPIPE) return fail("nobody reads this pipe", path_, "the log goes on when somebody does");
+  if (reason == EPIPE) return fail("no program reads this pipe", path_, "the log continues when one does");
   const bool cut = !file_.direct() && ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;
   failed_ = !cut;
   disk_full_ = cut && (reason == ENOSPC || reason == EDQUOT);
   return fail(std::string("cannot write the log: ") + std::strerror(reason), path_,
-              cut ? "the " + std::to_string(events_) + " events before are kept; make room"
-                  : "the log ends in a broken event; readers skip it");
+              cut ? "the " + std::to_string(events_) + " events before are kept; free some space"
+                  : "the log ends in an incomplete event, which readers skip");
 }
 
 }  // namespace barehand

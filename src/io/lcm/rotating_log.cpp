@@ -41,7 +41,8 @@ Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds pat
   const fs::path folder = folder_of(path);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return fail("cannot be made: " + error.message(), folder.string(), "check the path and its permissions");
+  if (error)
+    return fail("cannot be created: " + error.message(), folder.string(), "check the path and its permissions");
   const std::string name = fs::path(path).filename().string();
   auto lock = FileLock::take((folder / ("." + name + ".lock")).string(), patience);
   if (!lock) lock.error().what = "this set of logs cannot be written, its lock " + lock.error().what;
@@ -55,11 +56,13 @@ Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path
                                                          const Clock& clock) {
   if (rotation.quota > 0 && rotation.max_bytes == 0) rotation.max_bytes = std::max<std::int64_t>(1, rotation.quota / 8);
   if (rotation.quota > 0 && rotation.quota < 2 * rotation.max_bytes)
-    return fail("the quota does not hold two files of the largest size", path, "enlarge it or make the files smaller");
+    return fail("the quota is smaller than two files of the maximum size", path,
+                "increase the quota or make the files smaller");
   const fs::path folder = folder_of(path);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return fail("cannot be made: " + error.message(), folder.string(), "check the path and its permissions");
+  if (error)
+    return fail("cannot be created: " + error.message(), folder.string(), "check the path and its permissions");
   std::unique_ptr<RotatingLog> log(new RotatingLog(path, rotation, clock));
   log->finish_abandoned_files();
   log->find_files();

@@ -77,10 +77,10 @@ Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps, b
         [](VideoFile&& file) { return OverlayWriter(std::make_unique<Video>(std::move(file))); });
   }
   if (is_other_video(path))
-    return fail("is no kind of video that can be written", path, "let the name end in .mp4, .mkv, .webm or .avi");
+    return fail("is not a supported video format", path, "use a name that ends in .mp4, .mkv, .webm or .avi");
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) return fail("cannot be made: " + error.message(), path, "check the path and its permissions");
+  if (error) return fail("cannot be created: " + error.message(), path, "check the path and its permissions");
   return OverlayWriter(std::make_unique<Folder>(path, overwrite));
 }
 

@@ -17,7 +17,7 @@ using json_fields::Json;
 Result<int> whole_number(const json_fields::Object& object, const char* key) {
   const auto value = object.number(key, 1, 16384);
   if (!value) return tl::unexpected(value.error());
-  if (*value != std::floor(*value)) return fail(std::string("\"") + key + "\" is no whole number", object.where);
+  if (*value != std::floor(*value)) return fail(std::string("\"") + key + "\" is not a whole number", object.where);
   return static_cast<int>(*value);
 }
 
@@ -137,7 +137,7 @@ Result<CameraFile> read_camera_json(const std::string& path) {
                 "write width, height, fx, fy, cx, cy and depth_units_per_metre, see docs/formats.md");
   const auto json = json_fields::read_json(path);
   if (!json) return tl::unexpected(json.error());
-  if (!json->is_object()) return fail("holds no JSON object", path, "see docs/formats.md");
+  if (!json->is_object()) return fail("does not hold a JSON object", path, "see docs/formats.md");
   CameraFile file;
   if (const auto read = read_numbers({*json, path}, file); !read) return tl::unexpected(read.error());
   read_distortion(*json, path, file);

@@ -20,7 +20,7 @@ bool is_png(std::span<const std::uint8_t> bytes) {
 
 Result<ImageSize> png_size(std::span<const std::uint8_t> bytes) {
   // The high halves of both 32-bit sizes must be zero: nothing larger than 65535 pixels is an image of ours.
-  if (big_endian_16(bytes, 16) != 0 || big_endian_16(bytes, 20) != 0) return fail("image of an absurd size");
+  if (big_endian_16(bytes, 16) != 0 || big_endian_16(bytes, 20) != 0) return fail("image of an implausible size");
   return ImageSize{big_endian_16(bytes, 18), big_endian_16(bytes, 22)};
 }
 
@@ -59,7 +59,7 @@ Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes) {
   const bool jpeg = bytes.size() >= 4 && bytes[0] == 0xFF && bytes[1] == 0xD8;
   if (!jpeg && !is_png(bytes)) return fail("neither a PNG nor a JPEG image");
   const Result<ImageSize> size = jpeg ? jpeg_size(bytes) : png_size(bytes);
-  if (size && !possible_size(size->width, size->height)) return fail("image of an absurd size");
+  if (size && !possible_size(size->width, size->height)) return fail("image of an implausible size");
   return size;
 }
 
@@ -78,7 +78,7 @@ Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize e
 Result<Image<std::uint16_t>> decode_depth_image(std::span<const std::uint8_t> bytes) {
   const Result<ImageSize> size = compressed_image_size(bytes);
   if (!size) return tl::unexpected(size.error());
-  if (!is_png(bytes)) return fail("is no 16-bit image of one channel", {}, "depth is stored that way");
+  if (!is_png(bytes)) return fail("is not a 16-bit image with one channel", {}, "store depth in this format");
   return decode_png_depth(bytes, size->width, size->height);
 }
 

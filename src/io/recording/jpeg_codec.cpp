@@ -95,7 +95,7 @@ class Reader {
     };
     if (!guarded(errors_, read_header)) return damaged();
     if (codec_.image_width != static_cast<JDIMENSION>(width) || codec_.image_height != static_cast<JDIMENSION>(height))
-      return fail("damaged JPEG image: it has another size than it states");
+      return fail("damaged JPEG image: its size differs from the one in its header");
     return {};
   }
 

@@ -53,7 +53,7 @@ class Reader {
     if (!guarded(png_, [this] { png_read_info(png_, info_); })) return damaged();
     if (png_get_image_width(png_, info_) != static_cast<png_uint_32>(width) ||
         png_get_image_height(png_, info_) != static_cast<png_uint_32>(height))
-      return fail("damaged PNG image: it has another size than it states");
+      return fail("damaged PNG image: its size differs from the one in its header");
     return {};
   }
   int colour_type() const { return png_get_color_type(png_, info_); }
@@ -166,7 +166,7 @@ Result<Image<std::uint16_t>> decode_png_depth(std::span<const std::uint8_t> byte
   Reader reader(bytes);
   if (const auto opened = reader.open(width, height); !opened) return tl::unexpected(opened.error());
   if (reader.colour_type() != PNG_COLOR_TYPE_GRAY || reader.bit_depth() != 16)
-    return fail("is no 16-bit image of one channel", {}, "depth is stored that way");
+    return fail("is not a 16-bit image with one channel", {}, "store depth in this format");
   Image<std::uint16_t> image(width, height);
   if (const auto read = reader.read_as_stored(image); !read) return tl::unexpected(read.error());
   return image;

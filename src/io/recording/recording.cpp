@@ -59,7 +59,7 @@ void use_camera(CameraFile file, const std::string& path, Recording& recording) 
   auto undistortion = std::make_shared<const Undistortion>(file.camera, file.distortion);
   if (undistortion->shown() < kLeast) {
     recording.doubts.push_back(path +
-                               ": no lens has these coefficients of distortion; they are not used (are they in "
+                               ": these coefficients of lens distortion are implausible and not used (are they in "
                                "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
   } else if (undistortion->largest_shift() > kNoticed) {
     recording.doubts.push_back(
@@ -93,7 +93,7 @@ Result<Image<Rgb>> read_frame_colour(const Recording& recording, const std::stri
 Result<Recording> open_recording(const std::string& directory) {
   std::error_code error;
   if (!fs::is_directory(directory, error))
-    return fail("is no folder" + (error ? ": " + error.message() : ""), directory, "name a recording folder");
+    return fail("is not a folder" + (error ? ": " + error.message() : ""), directory, "give a recording folder");
   Recording recording;
   recording.directory = directory;
   const std::string camera_path = directory + "/camera.json";

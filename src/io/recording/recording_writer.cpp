@@ -49,7 +49,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Op
   writer.options_ = std::move(options);
   writer.made_ = !fs::exists(directory, error);
   fs::create_directories(directory + "/depth", error);
-  if (error) return fail("cannot be made: " + error.message(), directory, "check the path and its permissions");
+  if (error) return fail("cannot be created: " + error.message(), directory, "check the path and its permissions");
   return writer;
 }
 

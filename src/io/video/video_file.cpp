@@ -42,7 +42,7 @@ Result<const VideoModule*> load_video_module(const std::string& library) {
   const std::string file = library.empty() ? module_file() : library;
   const auto failure = [&] {
     return fail(std::string("videos cannot be written: ") + dlerror(), file,
-                "install the package barehand-video, or give a folder for single pictures");
+                "install the package barehand-video, or give a folder for single images");
   };
   void* loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // for good: libav is not made for being unloaded
   if (!loaded) return failure();
@@ -65,7 +65,7 @@ Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
   void* trial = (*module)->open(trial_path.c_str(), video_format(path), 64, 64, fps, message);
   if (trial && (*module)->close(trial, message)) return video;
   return fail(std::string("no video can be written: ") + message.data(), path,
-              "check the free space; the other formats are .mp4, .mkv, .webm and .avi, or give a folder for pictures");
+              "check the free space; the other formats are .mp4, .mkv, .webm and .avi, or give a folder for images");
 }
 
 VideoFile::VideoFile(const VideoModule* module, std::string path, double fps, WholeFile file)
@@ -93,7 +93,7 @@ Result<void> VideoFile::write(const Image<Rgb>& picture) {
     if (!video_) return broken(message);
   }
   if (picture.width() != width_ || picture.height() != height_)
-    return fail("has another size than the first picture", path_, "give a folder for single pictures");
+    return fail("differs in size from the first image", path_, "give a folder for single images");
 
   static_assert(sizeof(Rgb) == 3, "pixels are read as they lie in memory");
   if (module_->write(video_, reinterpret_cast<const std::uint8_t*>(picture.data()), message)) return {};

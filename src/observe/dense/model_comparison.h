@@ -16,21 +16,21 @@ inline constexpr float kReferenceArea = 5e-6f;
 
 /// Settings of the comparison of model and data.
 struct ComparisonParams {
-  int stride = 2;                      ///< compare every n-th pixel of the region of interest
-  double distance_cap = 0.02;          ///< m, no cell costs more than this in the score
-  double occlusion_tolerance = 0.004;  ///< m, an object this far behind the model may still hide it
-  double self_occlusion = 0.010;  ///< m, hand data this far in front of the model belongs to another part (Sec. 4.2)
+  int stride = 2;
+  double distance_cap = 0.02;
+  double occlusion_tolerance = 0.004;
+  double self_occlusion = 0.010;
   bool operator==(const ComparisonParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, ComparisonParams& p) {
   v.user("stride", p.stride, 1, 16, "compare every n-th pixel of the region of interest");
-  v("distance_cap", p.distance_cap, 1e-3, 0.2, "m, no pixel costs more than this in the global score");
+  v("distance_cap", p.distance_cap, 1e-3, 0.2, "m, upper limit of one pixel's distance in the global score");
   v("occlusion_tolerance", p.occlusion_tolerance, 0.0, 0.05,
-    "m, an object this far behind the model may still hide it");
+    "m, an object up to this far behind the model may still occlude it");
   v("self_occlusion", p.self_occlusion, 1e-3, 0.1,
-    "m, hand data this far in front of the model is another part (Sec. 4.2)");
+    "m, hand data this far in front of the model belongs to another segment (Sec. 4.2)");
 }
 
 /// One piece of evidence: a point of the model and the point of the data that it should move to.

@@ -15,7 +15,7 @@ Result<void> check(GLuint object, GLenum what, GetStatus get_status, GetLog get_
   GLsizei length = 0;
   get_log(object, kLogSize, &length, log.data());
   log.resize(length);
-  return fail("the compute shader is refused: " + log, "OpenGL ES", "update the graphics driver");
+  return fail("the driver rejects the compute shader: " + log, "OpenGL ES", "update the graphics driver");
 }
 
 }  // namespace

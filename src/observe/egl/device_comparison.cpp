@@ -105,7 +105,7 @@ Result<void> DeviceComparison::wait_for_device() {
         formatted("the device has not finished within %.1f s", 1e-9 * static_cast<double>(fence_limit_.count())),
         "OpenGL ES");
   const auto checked = check_gl(gl, "waiting for the device");
-  return checked && state == GL_WAIT_FAILED ? fail("the device cannot be waited for", "OpenGL ES") : checked;
+  return checked && state == GL_WAIT_FAILED ? fail("waiting for the device failed", "OpenGL ES") : checked;
 }
 
 }  // namespace barehand

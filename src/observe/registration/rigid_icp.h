@@ -10,44 +10,44 @@ namespace barehand {
 /// Rigid registration of a posed hand surface to a frame (paper Sec. 4.4, its [2]).
 struct RegistrationParams {
   bool enabled = true;
-  int model_points = 200;      ///< visible surface points that take part
-  int iterations = 30;         ///< per start, at most
-  double scale_start = 0.030;  ///< [m] Geman-McClure scale of the first iteration
-  double scale_end = 0.004;    ///< [m] and of the last
-  double point_weight = 0.03;  ///< of point-to-point beside point-to-plane in the last iteration; 1 in the first
-  int min_points = 100;        ///< fewer observed points: hold
-  double min_inliers = 0.5;    ///< fraction of unhidden model points that must match to be reliable
-  double slack = 0.03;         ///< [m] motion that is always believed; rotations: slack / 0.1 m
+  int model_points = 200;
+  int iterations = 30;
+  double scale_start = 0.030;
+  double scale_end = 0.004;
+  double point_weight = 0.03;
+  int min_points = 100;
+  double min_inliers = 0.5;
+  double slack = 0.03;
   bool operator==(const RegistrationParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, RegistrationParams& p) {
-  v("enabled", p.enabled, "align rigidly by ICP (Sec. 4.4); off: no motion");
-  v("model_points", p.model_points, 20, 100000, "visible surface points that take part");
-  v("iterations", p.iterations, 1, 200, "per start, at most");
+  v("enabled", p.enabled, "align rigidly by ICP (Sec. 4.4); false: no motion is estimated");
+  v("model_points", p.model_points, 20, 100000, "number of visible surface points that are used");
+  v("iterations", p.iterations, 1, 200, "maximum number of iterations from each start");
   v("scale_start", p.scale_start, 1e-3, 1.0, "m, Geman-McClure scale of the first iteration");
   v("scale_end", p.scale_end, 1e-4, 1.0, "m, Geman-McClure scale of the last iteration");
   v("point_weight", p.point_weight, 1e-6, 1.0,
-    "weight of point-to-point beside point-to-plane in the last iteration; 1 in the first");
-  v("min_points", p.min_points, 3, 1000000, "fewer observed points: no motion");
-  v("min_inliers", p.min_inliers, 0.0, 1.0, "fraction of unhidden model points that must match");
-  v("slack", p.slack, 0.0, 1.0, "m, motion that is always believed (rotation: slack / 0.1 m)");
+    "weight of the point-to-point residuals, relative to point-to-plane, in the last iteration; 1 in the first");
+  v("min_points", p.min_points, 3, 1000000, "minimum number of observed points; with fewer, no motion is estimated");
+  v("min_inliers", p.min_inliers, 0.0, 1.0, "minimum fraction of the model points in view that must match");
+  v("slack", p.slack, 0.0, 1.0, "m, motion that is accepted at any frame interval (rotation: slack / 0.1 m)");
 }
 
 /// Registration of the previous hand surface to the new frame: the large global motion. It may be faster than slack
 /// allows by these times the frame interval.
 struct IcpParams : RegistrationParams {
-  double max_speed = 4.0;         ///< [m/s]
-  double max_angular_speed = 20;  ///< [rad/s]
+  double max_speed = 4.0;
+  double max_angular_speed = 20;
   bool operator==(const IcpParams&) const = default;
 };
 
 template <class V>
 void visit(V& v, IcpParams& p) {
   visit(v, static_cast<RegistrationParams&>(p));
-  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion between two frames is not believed");
-  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is not believed");
+  v("max_speed", p.max_speed, 0.0, 100.0, "m/s, faster motion between two frames is rejected");
+  v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is rejected");
 }
 
 /// Motion beyond these is not believed.

@@ -6,7 +6,7 @@ void FallbackObserver::compare(const SampleBatch& batch, PatchDistances& distanc
   if (device_) {
     const auto done = device_->compare(batch, distances);
     if (done) return;
-    log_->warn("the CPU compares samples from now on, not the GPU: {}", done.error().message());
+    log_->warn("samples are compared on the CPU from now on, not on the GPU: {}", done.error().message());
     device_.reset();
   }
   other_->compare(batch, distances);

@@ -13,24 +13,24 @@ namespace barehand {
 /// side. An advantage is the fraction by which the challenger's score must be lower than that of what it replaces.
 struct ChoiceParams {
   // Challengers of the followed pose, in one frame.
-  double sampling_advantage = 0.02;  ///< of the sampled pose
-  bool uncross = true;               ///< whether fingers that cross are put side by side
-  double uncross_allowance = 0.05;   ///< fraction by which the score may then be higher
-  double search_advantage = 0.1;     ///< of a pose that was found anew, with the palm where it is
-  double elsewhere_advantage = 0.3;  ///< of a pose that was found anew elsewhere
+  double sampling_advantage = 0.02;
+  bool uncross = true;
+  double uncross_allowance = 0.05;
+  double search_advantage = 0.1;
+  double elsewhere_advantage = 0.3;
 
   // Absolute levels.
-  double search_settled = 0.0015;    ///< [m] a found pose below ends the searches of a frame
-  double search_convincing = 0.002;  ///< [m] a pose below is confident, whatever the baseline
+  double search_settled = 0.0015;
+  double search_convincing = 0.002;
 
   // Multiples of the track's baseline score.
-  double doubt = 0.15;   ///< above (1 + doubt) times the baseline the followed pose is ambiguous
-  double unsure = 1.25;  ///< above, a hand that returns must be confirmed by the next frame; 0: never
-  double unlike = 2;     ///< above, what is found instead of a lost hand is not that hand; 0: it always may be
+  double doubt = 0.15;
+  double unsure = 1.25;
+  double unlike = 2;
 
   // Agreement with the detection.
-  double agreement = 0.02;  ///< [m] mean distance of the joints, within which a detection confirms a pose
-  double confirmed = 0.5;   ///< factor of the score of a confirmed pose; 1: a detection confirms nothing
+  double agreement = 0.02;
+  double confirmed = 0.5;
   bool operator==(const ChoiceParams&) const = default;
 };
 
@@ -38,23 +38,29 @@ template <class V>
 void visit(V& v, ChoiceParams& p) {
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
-  v("uncross", p.uncross, "put fingers that cross side by side, where that explains the frame about as well");
-  v("uncross_allowance", p.uncross_allowance, 0.0, 1.0, "by this fraction the global score may then be higher");
+  v("uncross", p.uncross, "also test the followed pose with crossing fingers put side by side");
+  v("uncross_allowance", p.uncross_allowance, 0.0, 1.0,
+    "fraction by which the global score of that pose may be higher");
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("elsewhere_advantage", p.elsewhere_advantage, 0.0, 1.0,
-    "the same for a found pose whose palm lies elsewhere than that of the followed one");
+    "the same for a found pose whose palm is in another place than that of the followed one");
   v("search_settled", p.search_settled, 0.0, 0.1,
-    "m, a found pose with a lower global score ends the searches of a frame");
-  v("search_convincing", p.search_convincing, 0.0, 0.1, "m, a found pose with a lower global score convinces");
+    "m, a found pose with a lower global score ends the search of a frame");
+  v("search_convincing", p.search_convincing, 0.0, 0.1,
+    "m, a pose with a lower global score is confident, whatever the baseline score");
   v("doubt", p.doubt, 0.0, 1000.0,
-    "a frame whose score is higher than usual by this fraction, and not convincing, is searched beside the tracking");
+    "a pose is ambiguous, and the frame is searched as well, if its score exceeds the baseline score by this fraction "
+    "and it is not confident");
   v("unsure", p.unsure, 0.0, 1000.0,
-    "a hand that returns with so many times its usual score must be confirmed by the next frame; 0: never");
+    "a hand that returns with a score above this multiple of its baseline score must be confirmed by the next frame; "
+    "0: never");
   v("unlike", p.unlike, 0.0, 1000.0,
-    "with so many times the usual score, and not convincing, it is not the hand that was lost; 0: it always may be");
-  v("agreement", p.agreement, 0.0, 1.0, "m, a detection whose joints lie so near on average confirms a pose");
-  v("confirmed", p.confirmed, 0.0, 1.0, "factor of the score of a confirmed pose; 1: a detection confirms nothing");
+    "a pose with a score above this multiple of the baseline score, and not confident, is not the hand that was lost; "
+    "0: no limit");
+  v("agreement", p.agreement, 0.0, 1.0,
+    "m, a detection confirms a pose if the mean distance of their joints is at most this");
+  v("confirmed", p.confirmed, 0.0, 1.0, "factor on the score of a pose that a detection confirms; 1: no effect");
 }
 
 /// Advantages of a side or a size of the hand over another one.

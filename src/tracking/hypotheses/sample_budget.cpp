@@ -41,7 +41,7 @@ void SampleBudget::measure(const Level& level) {
 std::string SampleBudget::to_text() const {
   const double budget = params_.level_budget_ms;
   if (level_seconds_ == 0)
-    return formatted("%d samples per segment and level, as on the CPU: more take longer than %g ms", on_device_,
+    return formatted("%d samples per segment and level, as on the CPU: more would take longer than %g ms", on_device_,
                      budget);
   return formatted(
       "%d samples per segment and level where the GPU compares them, %d on the CPU: a level takes %.2f of "
