@@ -5,6 +5,6 @@
 namespace barehand::synthetic {
 
 /// The purpose of a random number. It is the last word of the number's key, so that no two purposes share numbers.
-enum class Draw : std::uint32_t { grain = 1, depth_noise = 2, holes = 3, tremor = 4, variation = 5 };
+enum class Draw : std::uint32_t { grain = 1, depth_noise = 2, holes = 3, tremor = 4, variation = 5, scene = 6 };
 
 }  // namespace barehand::synthetic

@@ -8,7 +8,6 @@
 namespace barehand::synthetic {
 namespace {
 
-constexpr Rgb kSkin = {214, 162, 134}, kCloth = {42, 66, 138};
 constexpr int kMargin = 200;  // px, a segment that is this close to the image still counts as projected
 
 Intrinsics camera_of(const SimulatorParams& p) {
@@ -19,10 +18,12 @@ Intrinsics camera_of(const SimulatorParams& p) {
 /// The sides of the hands that a sequence shows.
 Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const SimulatorParams& params) {
   const Handedness wanted = params.hand == "left" ? Handedness::left : Handedness::right;
-  if (!info.both_hands) return std::vector{wanted};
+  if (info.shows == ShownHands::one) return std::vector{wanted};
+  const bool both = info.shows == ShownHands::both;
   if (wanted == Handedness::left)
-    return fail("shows both hands, so that none can be chosen", info.name, "leave out hand=left");
-  return std::vector{Handedness::right, Handedness::left};
+    return fail(both ? "shows both hands, so that none can be chosen" : "shows no hand", info.name,
+                "leave out hand=left");
+  return both ? std::vector{Handedness::right, Handedness::left} : std::vector<Handedness>{};
 }
 
 /// Index of the first surface of a hand, see AnimatedHand; objects follow after all hands.
@@ -62,8 +63,8 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   }
 
   // Make the sequence.
-  auto sequence =
-      make_sequence(params.sequence, simulator.hands_.front().rig(), static_cast<std::uint64_t>(params.seed));
+  const HandRig* const rig = simulator.hands_.empty() ? nullptr : &simulator.hands_.front().rig();
+  auto sequence = make_sequence(params.sequence, rig, static_cast<std::uint64_t>(params.seed));
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
 
@@ -77,8 +78,8 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
 std::vector<Material> Simulator::materials() const {
   std::vector<Material> list;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    list.insert(list.end(), kSegmentCount, Material{kSkin});
-    list.push_back({params_.sleeve == "skin" ? kSkin : kCloth});
+    list.insert(list.end(), kSegmentCount, Material{kSkinColour});
+    list.push_back({params_.sleeve == "skin" ? kSkinColour : kClothColour});
   }
   for (const SceneObject& object : sequence_->objects()) list.push_back(object.material);
   return list;
@@ -90,7 +91,7 @@ SceneGeometry Simulator::things(const SceneState& state) const {
   for (std::size_t i = 0; i < objects.size(); ++i)
     geometry.add(objects[i].mesh, state.T_camera_object[i],
                  static_cast<std::uint8_t>(first_surface(hands_.size()) + i));
-  if (hands_.front().side() == Handedness::left) geometry.mirror();  // a single left hand: the whole scene is mirrored
+  if (params_.hand == "left") geometry.mirror();  // a single left hand: the whole scene is mirrored
   return geometry;
 }
 

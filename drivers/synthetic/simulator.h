@@ -55,7 +55,7 @@ struct SimulatedFrame {
   std::vector<HandTruth> hands;  ///< in the order of Simulator::hands()
 };
 
-/// Renders a sequence: one or two animated hand meshes with sleeves, objects and a table, as a range camera sees them.
+/// Renders a sequence: up to two animated hand meshes with sleeves, bodies and objects, as a range camera sees them.
 /// Frame i is a pure function of the parameters and of i. Not to be used by several threads at once.
 class Simulator {
  public:
@@ -63,7 +63,7 @@ class Simulator {
   static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< of frame 0
 
   /// Errors: the hand mesh was not fetched or is unusable, there is no such sequence, or a left hand is requested from
-  /// a sequence with both hands. `mesh_folder`: see hand_mesh_folder().
+  /// a sequence with both hands or none. `mesh_folder`: see hand_mesh_folder().
   static Result<Simulator> create(const SimulatorParams& params, const std::string& mesh_folder = {});
 
   /// Renders the frame with this number.
@@ -72,7 +72,7 @@ class Simulator {
   std::int64_t frame_count() const { return frame_count_; }
   double fps() const { return fps_; }
   const Intrinsics& camera() const { return rasteriser_.camera(); }
-  /// One hand, or a right and a left one.
+  /// No hand, one, or a right and a left one.
   const std::vector<AnimatedHand>& hands() const { return hands_; }
   const SimulatorParams& params() const { return params_; }
 

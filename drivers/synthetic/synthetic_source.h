@@ -31,7 +31,7 @@ class SyntheticSource : public FrameSource {
   bool live() const override { return spec_.live; }
   std::string name() const override { return name_; }
 
-  /// One hand, or a right and a left one.
+  /// No hand, one, or a right and a left one.
   const std::vector<SimulatedHand>& hands() const { return hands_; }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }

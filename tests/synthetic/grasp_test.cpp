@@ -47,7 +47,7 @@ struct Contact {
   double ever = 1, held = 1;
 };
 Contact contact(const HandRig& hand, const std::string& name, const SignedDistance& thing) {
-  const auto sequence = make_sequence(name, hand, 1);
+  const auto sequence = make_sequence(name, &hand, 1);
   const Skinner skinner(hand.mesh);
   std::vector<Eigen::Vector3f> skin;
   Contact result;

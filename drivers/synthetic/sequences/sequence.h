@@ -45,12 +45,15 @@ class Sequence {
   virtual SceneState at(double time) const = 0;
 };
 
+/// The hands that a sequence shows: one of either side, or a right and a left one.
+enum class ShownHands { none, one, both };
+
 /// Description of a sequence that a user can select.
 struct SequenceInfo {
   std::string name, description;
   int frames = 0;  ///< number of frames at `fps`
   double fps = 30;
-  bool both_hands = false;  ///< a right and a left hand; otherwise one hand of either side
+  ShownHands shows = ShownHands::one;
 };
 // All sequences.
 const std::vector<SequenceInfo>& sequence_list();
@@ -58,8 +61,8 @@ const std::vector<SequenceInfo>& sequence_list();
 /// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
-/// Creates a sequence. `rig` is used for one-handed sequences, and only during the call. Errors: as for
+/// Creates a sequence. `rig` is used for one-handed sequences, which need it, and only during the call. Errors: as for
 /// sequence_info().
-Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig& rig, std::uint64_t seed);
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace barehand::synthetic {
+
+/// The measures of an arm in a sleeve [m].
+struct ArmSize {
+  double upper = 0.29, forearm = 0.26;
+  double shoulder_radius = 0.062, elbow_radius = 0.047, cuff_radius = 0.037;
+
+  double reach() const { return upper + forearm; }
+};
+
+/// The elbow between a shoulder and a wrist, on the side to which `towards` points. A wrist that is out of reach has a
+/// straight arm on the way to it.
+Eigen::Vector3d elbow_between(const ArmSize& arm, const Eigen::Vector3d& shoulder, const Eigen::Vector3d& wrist,
+                              const Eigen::Vector3d& towards);
+
+}  // namespace barehand::synthetic

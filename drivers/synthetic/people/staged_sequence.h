@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "drivers/synthetic/people/body.h"
+#include "drivers/synthetic/sequences/keyframes.h"
+#include "drivers/synthetic/sequences/sequence.h"
+
+namespace barehand::synthetic {
+
+/// An object that stands still. World frame: z up, y away from the camera, x to the right; the camera looks at its
+/// origin or near it.
+struct PlacedObject {
+  SceneObject object;
+  SE3 T_world_object;
+};
+
+/// A place of the camera at one time: it is turned and shifted from where it stands. World frame.
+struct CameraKey {
+  double time = 0;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+};
+
+/// Objects that stand still, bodies that move, and a right hand of the first body, if there is one, before a camera
+/// that may move.
+class StagedSequence : public Sequence {
+ public:
+  struct Setting {
+    double duration = 0;
+    std::uint64_t seed = 0;
+    SE3 T_camera_world;
+    std::vector<CameraKey> camera = {{}};
+    std::vector<PlacedObject> things;
+    std::vector<Body> bodies;
+    std::vector<HandKey> hand;  ///< world frame; empty: no hand
+    Eigen::Matrix3d R_world_hand = Eigen::Matrix3d::Identity();
+  };
+  explicit StagedSequence(Setting setting);
+  double duration() const override { return setting_.duration; }
+  const std::vector<SceneObject>& objects() const override { return objects_; }
+  SceneState at(double time) const override;
+
+ private:
+  SE3 T_camera_world(double time) const;
+
+  Setting setting_;
+  std::vector<SceneObject> objects_;
+  SmoothTrack camera_;
+  std::optional<HandTrack> hand_;
+};
+
+}  // namespace barehand::synthetic
