@@ -138,7 +138,7 @@ TEST_F(EvalCommand, RefusesStatesWhoseUncertaintyIsNoNumber) {
 
 TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
   for (const auto& [frame, side, complaint] : {std::tuple(1, hand_state_t::LEFT, "holds the states of two hands"),
-                                               {0, hand_state_t::RIGHT, "frame 0 comes twice"}}) {
+                                               {0, hand_state_t::RIGHT, "frame 0 occurs twice"}}) {
     auto log = LcmLogWriter::create(folder_ / "states.lcmlog", true);
     ASSERT_TRUE(log);
 

@@ -138,7 +138,8 @@ TEST_F(Watched, ARecordingThatStandsStillIsSaidAndPlayed) {
     if (i > 20 && i < 80) std::const_pointer_cast<RgbdFrame>(frames_.back())->depth = frames_[20]->depth;
   }
   EXPECT_EQ(play().size(), 100u);
-  EXPECT_THAT(said_, ElementsAre(AllOf(HasSubstr("stands still: from frame 20 to 51"), HasSubstr("for 1.03 s"))));
+  EXPECT_THAT(said_,
+              ElementsAre(AllOf(HasSubstr("the depth image is frozen: from frame 20 to 51"), HasSubstr("for 1.03 s"))));
 }
 
 TEST_F(Watched, AMomentOfStandingStillIsNotWorthAWord) {

@@ -108,7 +108,7 @@ TEST_F(HandJson, DoubledAndUnknownSegmentsAreNamed) {
   EXPECT_THAT(error_after([](json& j) { j["segments"].push_back(j["segments"][4]); }),
               HasSubstr("index_proximal occurs twice"));
   EXPECT_THAT(error_after([](json& j) { j["segments"][4]["name"] = "sixth_proximal"; }),
-              HasSubstr("\"sixth_proximal\" is no segment"));
+              HasSubstr("\"sixth_proximal\" is not a segment"));
 }
 
 TEST_F(HandJson, WrongParentIsNamed) {
@@ -246,7 +246,7 @@ TEST_F(HandJson, BadSkinIsNamed) {
     return error_after(change);
   };
   const auto vertex = [&](const json& row) { return with([&](json& j) { j["skin"]["vertices"][1] = row; }); };
-  const auto bad_vertex = AllOf(HasSubstr("skin"), HasSubstr("\"vertices\" 1 is no place"));
+  const auto bad_vertex = AllOf(HasSubstr("skin"), HasSubstr("\"vertices\" 1 must be a place"));
   EXPECT_THAT(vertex({0, 0.1, 0.1}), bad_vertex);
   EXPECT_THAT(vertex({16, 0, 0, 0}), bad_vertex);
   EXPECT_THAT(vertex({0.5, 0, 0, 0}), bad_vertex);
@@ -255,7 +255,7 @@ TEST_F(HandJson, BadSkinIsNamed) {
   EXPECT_THAT(vertex({0, 0, 0, 0, 4, 0.7, 0, 0, 0}), bad_vertex);  // the second one's share is the smaller
   EXPECT_THAT(vertex({0, 0, 0, nullptr}), bad_vertex);
   for (const json& row : {json{0, 1, 3}, json{0, 1, -1}, json{0, 1}, json{0, 1, 1.5}})
-    EXPECT_THAT(with([&](json& j) { j["skin"]["triangles"][0] = row; }), HasSubstr("\"triangles\" 0 is no three"))
+    EXPECT_THAT(with([&](json& j) { j["skin"]["triangles"][0] = row; }), HasSubstr("\"triangles\" 0 must be three"))
         << row;
   EXPECT_THAT(with([](json& j) { j["skin"].erase("vertices"); }), HasSubstr("\"vertices\" is missing"));
   EXPECT_THAT(with([](json& j) { j["skin"] = 3; }), HasSubstr("\"vertices\" is missing"));

@@ -54,7 +54,7 @@ TEST_F(PoseJson, SavedPoseComesBack) {
 
 TEST_F(PoseJson, BadInputIsNamed) {
   EXPECT_THAT(load("").error().message(), HasSubstr("segment palm: \"T_camera_segment\" is missing"));
-  EXPECT_THAT(load(std::string(kPalmAt) + R"(, "toe": {})").error().message(), HasSubstr("\"toe\" is no segment"));
+  EXPECT_THAT(load(std::string(kPalmAt) + R"(, "toe": {})").error().message(), HasSubstr("\"toe\" is not a segment"));
   EXPECT_THAT(load(std::string(kPalmAt) + R"(, "ring_distal": {"flexion_deg": "much"})").error().message(),
               HasSubstr("segment ring_distal: \"flexion_deg\""));
   test::write_text(path_, "[]");

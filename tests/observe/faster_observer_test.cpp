@@ -36,8 +36,9 @@ TEST_F(Faster, FirstBatchIsTheCpusAndLaterOnesTheFasterOnes) {
   const auto observer = this->observer({1'000}, {400});
   EXPECT_FALSE(observer->on_device());
   EXPECT_EQ(who(*observer), kByCpu);
-  EXPECT_THAT(log_.str(), HasSubstr("Card 9 compares samples: a call takes 1.00 ms on the CPU and 0.40 ms on the "
-                                    "device, which is 2.5 times as fast (160 samples)"));
+  EXPECT_THAT(log_.str(),
+              HasSubstr("samples are compared on Card 9: a call takes 1.00 ms on the CPU and 0.40 ms on the "
+                        "device, which is 2.5 times as fast (160 samples)"));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(who(*observer), kByDevice);
   EXPECT_TRUE(observer->on_device());
 }
@@ -48,7 +49,7 @@ TEST_F(Faster, SlowerDeviceIsNeverUsed) {
     for (int i = 0; i < 4; ++i) EXPECT_EQ(who(*observer), kByCpu) << device_us;
     EXPECT_FALSE(observer->on_device());
   }
-  EXPECT_THAT(log_.str(), HasSubstr("the CPU compares samples, not Card 9: "));
+  EXPECT_THAT(log_.str(), HasSubstr("samples are compared on the CPU, not on Card 9: "));
   EXPECT_THAT(log_.str(), HasSubstr("35.0 times as slow"));
   EXPECT_THAT(log_.str(), Not(HasSubstr("[warning]")));
 }
@@ -63,7 +64,7 @@ TEST_F(Faster, DeviceThatFailsWhileMeasuredIsNotUsed) {
   for (const int failing : {0, 4}) {
     const auto observer = this->observer({1'000}, {400}, failing);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(who(*observer), kByCpu);
-    EXPECT_THAT(log_.str(), HasSubstr("[warning] the CPU compares samples, not Card 9: device: gone"));
+    EXPECT_THAT(log_.str(), HasSubstr("[warning] samples are compared on the CPU, not on Card 9: device: gone"));
   }
 }
 
@@ -73,7 +74,7 @@ TEST_F(Faster, DeviceThatFailsLaterLeavesItsBatchToTheCpu) {
   EXPECT_EQ(who(*observer), kByDevice);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(who(*observer), kByCpu);
   EXPECT_FALSE(observer->on_device());
-  EXPECT_THAT(log_.str(), HasSubstr("the CPU compares samples from now on, not the GPU: device: gone"));
+  EXPECT_THAT(log_.str(), HasSubstr("samples are compared on the CPU from now on, not on the GPU: device: gone"));
 }
 
 TEST_F(Faster, DeviceThatTurnsSlowLeavesItsBatchToTheCpu) {

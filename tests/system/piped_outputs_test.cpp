@@ -168,7 +168,7 @@ TEST_F(PipedOutputs, WhatCannotBeIsRefused) {
   EXPECT_THAT(two.output, HasSubstr("two hands are tracked"));
   const Outcome mixed = run(kTrack + "--result /dev/stdout --states-log /dev/fd/1");
   EXPECT_EQ(mixed.exit_code, 2);
-  EXPECT_THAT(mixed.output, HasSubstr("is what --result /dev/stdout writes, too"));
+  EXPECT_THAT(mixed.output, HasSubstr("is also written by --result /dev/stdout"));
   const Outcome input = run(kTrack + "--result /dev/fd/5 5<>$D/take/truth.csv");
   EXPECT_EQ(input.exit_code, 2);
   EXPECT_THAT(input.output, HasSubstr("truth.csv of the source"));

@@ -173,7 +173,7 @@ TEST_F(Service, ReloadsWhatCanChangeAndSaysWhatCannot) {
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), AllOf(HasSubstr("changed tracker.fusion.levels: "), HasSubstr(" -> 2\n"),
-                                    HasSubstr("not changed before a restart: run.seed: 1 -> 7")));
+                                    HasSubstr("takes effect only after a restart: run.seed: 1 -> 7")));
 }
 
 TEST_F(Service, LeavesNothingBehindWhenStartedAndStoppedAgainAndAgain) {

@@ -63,7 +63,7 @@ TEST_F(SampleBudgetOf, NeverFewerThanOnTheCpu) {
   SampleBudget tight = this->budget(100, 1000, 0.001);
   tight.measure(level());
   EXPECT_EQ(tight.samples(true), 100);
-  EXPECT_THAT(tight.to_text(), HasSubstr("more take longer than 0.001 ms"));
+  EXPECT_THAT(tight.to_text(), HasSubstr("more would take longer than 0.001 ms"));
   for (const int on_device : {0, 60, 100}) {
     const SampleBudget none = budget(100, on_device, 1000);
     EXPECT_FALSE(none.to_be_measured(true)) << on_device;

@@ -24,7 +24,7 @@ StagedSequence::StagedSequence(Setting setting) : setting_(std::move(setting)), 
   if (!setting_.hand.empty()) hand_.emplace(setting_.R_world_hand, setting_.hand);
 }
 
-SE3 StagedSequence::T_camera_world(double time) const {
+SE3 StagedSequence::world_in_camera(double time) const {
   const std::vector<double> v = camera_.at(time);
   const SE3 T_world_camera = setting_.T_camera_world.inverse();
   return SE3{exp_so3({v[3], v[4], v[5]}) * T_world_camera.R, T_world_camera.t + Eigen::Vector3d(v[0], v[1], v[2])}
@@ -32,7 +32,7 @@ SE3 StagedSequence::T_camera_world(double time) const {
 }
 
 SceneState StagedSequence::at(double time) const {
-  const SE3 T_camera = T_camera_world(time);
+  const SE3 T_camera = world_in_camera(time);
   SceneState state;
   for (const PlacedObject& thing : setting_.things) state.T_camera_object.push_back(T_camera * thing.T_world_object);
 

@@ -41,7 +41,7 @@ class StagedSequence : public Sequence {
   SceneState at(double time) const override;
 
  private:
-  SE3 T_camera_world(double time) const;
+  SE3 world_in_camera(double time) const;
 
   Setting setting_;
   std::vector<SceneObject> objects_;
