@@ -197,7 +197,8 @@ TEST_F(OverlayFiles, OutsideConditionsAreReported) {
   EXPECT_THAT(OverlayWriter::open(folder_ / "none/overlay.avi", 30).error().message(),
               AllOf(HasSubstr("none/overlay.avi"), HasSubstr("cannot be written")));
   EXPECT_FALSE(OverlayWriter::open(folder_ / "none/overlay.mp4", 30));
-  EXPECT_THAT(OverlayWriter::open("/proc/overlay", 30).error().message(), HasSubstr("/proc/overlay: cannot be created"));
+  EXPECT_THAT(OverlayWriter::open("/proc/overlay", 30).error().message(),
+              HasSubstr("/proc/overlay: cannot be created"));
 
   auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
   ASSERT_TRUE(video->write(grey_frame(320), shared(open_hand())));

@@ -77,7 +77,8 @@ TEST(OpenNiLiveSource, DeliversEveryPixelWithItsColourAndCamera) {
   }
   EXPECT_THAT(
       stream.reader.notices,
-      HasSubstr("opened Barehand Virtual Sensor at virtual/1: 160x120 at 30 Hz, 0.1 mm, colour registered, synchronised"));
+      HasSubstr(
+          "opened Barehand Virtual Sensor at virtual/1: 160x120 at 30 Hz, 0.1 mm, colour registered, synchronised"));
 }
 
 TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
