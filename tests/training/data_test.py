@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""The data that the networks learn from: hands, grasps, scenes and sensors."""
+import json
+import re
+import unittest
+
+import surroundings
+import torch
+from scenes.chance import Chance
+from scenes.grasps import Solids, grasps
+from scenes.mesh_hand import MeshRig
+from scenes.parametric_hand import DEVIATIONS, PROFILE, ParametricRig
+from scenes.poses import free_poses
+from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
+from scenes.sensors import measure
+from scenes.shapes import BOX, CAPSULE, ELLIPSOID, FAR, distance_to_solid, hit_solid
+from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
+from scenes.views import full_view
+
+CPU = torch.device("cpu")
+MESH = surroundings.HANDS / "right.glb"
+
+
+class NoChance(Chance):
+    """Every person is the mean one."""
+
+    def normal(self, deviation, *shape):
+        return torch.zeros(*shape)
+
+
+class Hands(unittest.TestCase):
+    def test_the_mean_parametric_hand_is_the_shipped_one(self):
+        segments = json.loads(PROFILE.read_text())["segments"]
+        hands = ParametricRig(10, CPU).people(NoChance(1), 1)
+        joints = landmarks(hands.bones, forward_kinematics(hands.bones, torch.zeros(1, 21)))[0]
+        for finger in range(5):
+            for k in range(3):
+                place = torch.tensor(segments[1 + 3 * finger + k]["rest_transform"])[:3, 3]
+                self.assertLess((joints[1 + 4 * finger + k] - place).norm(), 1e-4)
+            last = torch.tensor(segments[3 + 3 * finger]["rest_transform"])
+            tip = last[:3, :3] @ torch.tensor(segments[3 + 3 * finger]["distal_local"]) + last[:3, 3]
+            self.assertLess((joints[4 + 4 * finger] - tip).norm(), 1e-4)
+
+    def test_people_differ_as_much_as_in_the_program(self):
+        source = (surroundings.ROOT / "src/hand/hand_shape.cpp").read_text()
+        program = {name: float(value) for name, value in re.findall(r'\{"(\w+)", ([\d.]+)\}', source)}
+        for finger_wide, value in re.findall(r'\{finger \+ "_(\w+)", ([\d.]+)\}', source):
+            program["finger_" + finger_wide] = float(value)
+        program["bone_length"] = float(re.search(r'kSegmentNames\[s\]\) \+ "_length", ([\d.]+)', source)[1])
+        thumb, others = re.search(r"f == 0 \? ([\d.]+) : ([\d.]+)", source).groups()
+        program["thumb_knuckle"], program["knuckle"] = float(thumb), float(others)
+        program["flatness"] = program.pop("fingers_flatness")
+        self.assertEqual(program, DEVIATIONS)
+
+    def test_a_straight_finger_of_the_mesh_is_straight(self):
+        hands = MeshRig(MESH, 10, CPU).people(NoChance(1), 1)
+        joints = landmarks(hands.bones, forward_kinematics(hands.bones, torch.zeros(1, 21)))[0]
+        for finger in range(1, 5):
+            a, b, c = (joints[1 + 4 * finger + k] for k in range(3))
+            self.assertGreater(torch.nn.functional.cosine_similarity(b - a, c - b, dim=0), 0.98)
+        self.assertGreater((joints[12] - joints[0]).norm(), 0.17)
+
+    def test_flexion_bends_towards_the_palm_and_abduction_towards_the_thumb(self):
+        for rig in (ParametricRig(10, CPU), MeshRig(MESH, 10, CPU)):
+            hands = rig.people(NoChance(1), 3)
+            angles = torch.zeros(3, 21)
+            angles[1, 9], angles[2, 10] = 1.0, 0.3  # the middle finger's knuckle
+            tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, 12]
+            self.assertLess(tips[1, 1], tips[0, 1] - 0.05)
+            self.assertLess(tips[2, 0], tips[0, 0] - 0.02)
+
+    def test_free_poses_keep_the_limits_and_neighbours_move_together(self):
+        poses = free_poses(Chance(1), 2000)
+        low, high = limits(CPU).T
+        self.assertTrue(((poses >= low - 1e-5) & (poses <= high + 1e-5)).all())
+        ring_and_little = torch.corrcoef(poses[:, [15, 19]].T)[0, 1]
+        self.assertGreater(ring_and_little, 0.4)
+
+
+class Grasps(unittest.TestCase):
+    def test_fingers_end_on_the_object(self):
+        hands = ParametricRig(10, CPU).people(Chance(3), 60)
+        angles, solids, gap = grasps(Chance(4), hands)
+        touching = (gap.abs() < 0.005).sum(1)
+        self.assertGreater((touching >= 2).float().mean(), 0.6)
+        self.assertGreater((gap > -0.004).float().mean(), 0.9)
+
+        # The same fingers around another object do not: the check can fail.
+        elsewhere = Solids(solids.kind, solids.centre + 0.03, solids.rotation, solids.half)
+        tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, TIPS]
+        wrong = (elsewhere.distance(tips) - hands.flesh[:, TIPS]).abs() < 0.005
+        self.assertLess((wrong.sum(1) >= 2).float().mean(), 0.4)
+
+    def test_distance_to_a_solid_is_zero_where_a_ray_hits_it(self):
+        kind = torch.tensor([BOX, ELLIPSOID, CAPSULE])
+        chance = Chance(5)
+        centre = torch.tensor([[0.05, -0.03, 0.7]]).expand(3, 3)
+        half, rotation = torch.tensor([[0.09, 0.05, 0.05]]).expand(3, 3), chance.rotation(3)
+        rays = full_view(torch.ones(3)).rays()
+        depth = hit_solid(rays, kind, centre, rotation, half)
+        for i in range(3):
+            seen = depth[i] < FAR
+            self.assertGreater(seen.sum(), 100)
+            points = (rays[i] * depth[i][..., None])[seen]
+            one = slice(i, i + 1)
+            self.assertLess(distance_to_solid(points[None], kind[one], centre[one], rotation[one], half[one]).abs().max(), 1e-3)
+
+
+class Scenes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.frames = Generator(Chance(6), MESH, 5000).frames(24)
+        cls.windows = Generator(Chance(7), MESH, 5000).windows(24)
+
+    def test_the_same_seed_gives_the_same_scenes(self):
+        first, second, other = (Generator(Chance(seed), MESH, 500).windows(2).depth for seed in (8, 8, 9))
+        self.assertTrue(torch.equal(first, second))
+        self.assertFalse(torch.equal(first, other))
+
+    def test_shapes_and_labels(self):
+        self.assertEqual(self.frames.depth.shape, (24, 120, 160))
+        self.assertEqual(self.windows.depth.shape, (24, 96, 96))
+        for scenes in (self.frames, self.windows):
+            self.assertTrue(torch.isfinite(scenes.depth).all())
+            self.assertTrue((scenes.depth >= 0).all())
+            self.assertEqual(set(scenes.label.unique().tolist()), {BACKGROUND, HAND, ARM, OBJECT})
+            self.assertEqual(len(scenes.right[:, 0].unique()), 2)
+
+    def test_scenes_without_a_hand_have_no_pixel_of_one(self):
+        frames = Generator(Chance(10), MESH, 500).frames(40)
+        empty = frames.pixels.sum(1) == 0
+        self.assertGreater(empty.sum(), 2)
+        self.assertFalse((frames.label[empty] == HAND).any())
+        self.assertTrue((frames.label[empty] == ARM).any())  # arms that end without a hand
+        seen = frames.pixels[:, 0] > 50
+        self.assertTrue(((frames.label == HAND).flatten(1).sum(1) > 0)[seen].all())
+
+    def test_the_joints_lie_where_the_hand_is_seen(self):
+        windows = self.windows
+        for i in range(24):
+            if windows.pixels[i, 0] < 300:
+                continue
+            hand = (windows.label[i] == HAND).nonzero().flip(1).float()
+            distance = (hand[None] - windows.uv[i, 0][:, None]).norm(dim=-1).amin(1)
+            self.assertLess(distance.median(), 4)
+            valid = (windows.label[i] == HAND) & (windows.depth[i] > 0)
+            if valid.any():
+                self.assertLess((windows.depth[i][valid].median() - windows.joints[i, 0, :, 2].median()).abs(), 0.1)
+
+
+class Sensors(unittest.TestCase):
+    def test_each_sensor_measures_a_wall_and_shadows_or_frays_its_edge(self):
+        depth = torch.full((200, 60, 80), 1.2)
+        depth[:, 15:45, 20:50] = 0.8
+        measured, kinds = measure(Chance(11), depth, full_view(torch.full((200,), 1.0)))
+        self.assertEqual(set(kinds.tolist()), {0, 1, 2, 3})
+        for kind in range(4):
+            own = measured[kinds == kind]
+            flat = own[:, 5:10, 60:75]
+            seen = flat[flat > 0]
+            self.assertGreater(len(seen), 0)
+            self.assertLess((seen - 1.2).abs().median(), 0.02)
+            beside_edge, lost = own[:, 15:45, 47:58], lambda x: (x == 0).float().mean()
+            if kind < 3:
+                self.assertGreater(lost(beside_edge), lost(own[:, 2:12, 60:75]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Inputs, losses and figures of the training."""
+import unittest
+
+import surroundings  # first: skips without PyTorch
+import torch
+from examples import MAP_OFFSET, MAP_STEP, crop_input, full_input, generator_for, make_examples
+from losses import LOSSES, joint_errors_mm
+from network import make_network
+
+MESH = surroundings.HANDS / "right.glb"
+
+
+def perfect_maps(examples):
+    """What a network would have to say of a batch of windows: a peak between two cells, the joint's depth everywhere."""
+    cells = (examples.uv[:, 0] - MAP_OFFSET) / MAP_STEP
+    columns, rows = torch.arange(24.0), torch.arange(24.0)[:, None]
+    square = (columns - cells[..., 0, None, None]) ** 2 + (rows - cells[..., 1, None, None]) ** 2
+    depths = examples.depth[:, 0, :, None, None].expand(-1, -1, 24, 24)
+    return torch.cat([-square / 2, depths], 1)
+
+
+class Inputs(unittest.TestCase):
+    def test_frames_are_encoded_as_in_the_program(self):
+        image = full_input(torch.tensor([[[0.0, 0.5, 1.0, 9.0]]]))
+        self.assertEqual(image[0, 0, 0].tolist(), [1.5, -0.5, 0.0, 1.5])
+        self.assertEqual(image[0, 1, 0].tolist(), [0, 1, 1, 1])
+
+    def test_windows_are_encoded_as_in_the_program(self):
+        image = crop_input(torch.tensor([[[0.0, 0.5, 0.575, 0.425, 2.0, 0.1]]]), torch.tensor([0.5]))
+        self.assertTrue(torch.allclose(image[0, 0, 0], torch.tensor([1.0, 0.0, 0.5, -0.5, 1.0, -1.0]), atol=1e-5))
+        self.assertEqual(image[0, 1, 0].tolist(), [0, 1, 1, 1, 1, 1])
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.windows = make_examples(generator_for(3, "cpu", MESH, 2000), "crop", 24)
+
+    def test_perfect_maps_have_no_error_and_shifted_ones_have(self):
+        windows, maps = self.windows, perfect_maps(self.windows)
+        inside = ((windows.uv[:, 0] > 16) & (windows.uv[:, 0] < 80)).all(-1) & windows.seen[:, :1]
+        self.assertGreater(inside.sum(), 50)
+        self.assertLess(joint_errors_mm(maps, windows)[inside].max(), 1.5)
+        deeper = torch.cat([maps[:, :21], maps[:, 21:] + 10 / 150], 1)
+        self.assertLess((joint_errors_mm(deeper, windows)[inside] - 10).abs().max(), 1.5)
+
+    def test_the_loss_is_least_for_the_truth(self):
+        windows, maps = self.windows, perfect_maps(self.windows)
+        labels = 9 * torch.nn.functional.one_hot(windows.label[:, ::2, ::2], 4).permute(0, 3, 1, 2).float()
+        side = torch.where(windows.right, 9.0, -9.0)[:, None]
+        right = LOSSES["crop"]((maps, labels, side), windows)
+        for wrong in ((maps.roll(1, 3), labels, side), (maps, labels.roll(1, 1), side), (maps, labels, -side)):
+            self.assertGreater(LOSSES["crop"](wrong, windows), right + 0.1)
+
+    def test_windows_show_right_hands_mostly(self):
+        share = self.windows.right.float().mean()
+        self.assertGreater(share, 0.6)
+        self.assertLess(share, 1)
+
+
+class Networks(unittest.TestCase):
+    def test_their_outputs_have_the_shapes_of_the_interface(self):
+        for name, size, joints in (("full", (120, 160), 1), ("crop", (96, 96), 21)):
+            maps, labels, side = make_network(name).eval()(torch.zeros(1, 2, *size))
+            self.assertEqual(maps.shape, (1, 2 * joints, size[0] // 4, size[1] // 4))
+            self.assertEqual(labels.shape, (1, 4, size[0] // 2, size[1] // 2))
+            self.assertEqual(side.shape, (1, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()

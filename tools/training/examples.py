@@ -1,0 +1,74 @@
+"""Scenes as the networks are fed with them, and what they should answer. The program does the same in
+stages/detection/networks.cpp."""
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from scenes.chance import Chance
+from scenes.scene import Generator, Scenes
+
+MAP_STEP, MAP_OFFSET = 4, 1.5  # cell i of a map is pixel i * step + offset
+CROP_DEPTH = 0.15  # m before and behind the palm that a window shows
+_LEAST_PIXELS = {"full": 25, "crop": 150}  # of a hand, so that it counts as seen
+
+
+@dataclass
+class Examples:
+    """`image` [B, 2, H, W]; `label` [B, H, W]; `uv` [B, 2, N, 2, pixels] and `depth` [B, 2, N] of N joints (crop) or of the
+    palm (full) of two hands; `seen` [B, 2]: whether a hand counts; `right` [B]: how the first hand looks in the image;
+    `mm` [B]: millimetres per pixel at the palm."""
+    image: Tensor
+    label: Tensor
+    uv: Tensor
+    depth: Tensor
+    seen: Tensor
+    right: Tensor
+    mm: Tensor
+    scenes: Scenes
+
+
+def full_input(depth: Tensor) -> Tensor:
+    """[B, 2, H, W] of whole frames [B, H, W, m; 0: nothing]."""
+    valid = depth > 0
+    return torch.stack([torch.where(valid, (depth - 1).clamp(-1, 1.5), torch.full_like(depth, 1.5)), valid.float()], 1)
+
+
+def crop_input(depth: Tensor, middle: Tensor) -> Tensor:
+    """[B, 2, H, W] of windows around palms at the depths `middle` [B, m]."""
+    valid = depth > 0
+    near = ((depth - middle[:, None, None]) / CROP_DEPTH).clamp(-1, 1)
+    return torch.stack([torch.where(valid, near, torch.ones_like(depth)), valid.float()], 1)
+
+
+def make_examples(generator: Generator, name: str, count: int) -> Examples:
+    """A batch for the network `name`."""
+    with torch.no_grad():
+        return _full(generator, count) if name == "full" else _crop(generator, count)
+
+
+def _full(generator: Generator, count: int) -> Examples:
+    scenes = generator.frames(count)
+    palms = scenes.palms()
+    uv = scenes.view.project(palms)[:, :, None]
+    inside = ((uv[:, :, 0] > -4) & (uv[:, :, 0] < uv.new_tensor([164.0, 124.0]))).all(-1)
+    return Examples(full_input(scenes.depth), scenes.label, uv, palms[..., 2:], (scenes.pixels >= _LEAST_PIXELS["full"]) & inside,
+                    scenes.right[:, 0], 1e3 * palms[:, 0, 2] / scenes.view.focal, scenes)
+
+
+def _crop(generator: Generator, count: int) -> Examples:
+    """Windows that show a right hand; every seventh shows the wrong side, so that the side is learned."""
+    scenes, chance = generator.windows(count), generator.chance
+    mirror = torch.where(chance.flag(0.15, count), scenes.right[:, 0], ~scenes.right[:, 0])
+    image = crop_input(scenes.depth, scenes.middle[:, 2])
+    image = torch.where(mirror[:, None, None, None], image.flip(3), image)
+    label = torch.where(mirror[:, None, None], scenes.label.flip(2), scenes.label)
+    u = torch.where(mirror[:, None, None], image.shape[3] - 1 - scenes.uv[..., 0], scenes.uv[..., 0])
+    depth = (scenes.joints[..., 2] - scenes.middle[:, None, None, 2]) / CROP_DEPTH
+    return Examples(image, label, torch.stack([u, scenes.uv[..., 1]], -1), depth, scenes.pixels >= _LEAST_PIXELS["crop"],
+                    scenes.right[:, 0] != mirror, 1e3 * scenes.middle[:, 2] / scenes.view.focal, scenes)
+
+
+def generator_for(seed: int, device: str, mesh, points: int) -> Generator:
+    """A generator with its own stream of random numbers."""
+    return Generator(Chance(seed, device), mesh, points)

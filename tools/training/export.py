@@ -1,0 +1,62 @@
+"""Writes the networks as the program reads them: full.onnx, crop.onnx and nets.json (docs/nets.md)."""
+import inspect
+import json
+import warnings
+import zlib
+from pathlib import Path
+from typing import Callable
+
+import torch
+from torch import Tensor
+
+from network import HandNetwork
+from scenes.views import CROP_SIZE, FULL_SIZE
+
+INTERFACE = "1"  # stages/detection/weights.cpp
+OUTPUTS = ["j", "seg", "side"]
+SIZES = {"full": FULL_SIZE, "crop": CROP_SIZE}
+
+
+def export(network: HandNetwork, name: str, folder: Path) -> None:
+    """Writes folder/NAME.onnx, which OpenCV 4.6 reads: opset 11, made by the older of PyTorch's two exporters."""
+    network = network.float().cpu().eval()
+    options = {"dynamo": False} if "dynamo" in inspect.signature(torch.onnx.export).parameters else {}
+    path = folder / f"{name}.onnx"
+    unfinished = path.with_suffix(".unfinished")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        torch.onnx.export(network, torch.zeros(1, 2, *SIZES[name]), str(unfinished), opset_version=11, input_names=["x"],
+                          output_names=OUTPUTS, **options)
+    unfinished.rename(path)
+
+
+def write_manifest(folder: Path, version: str) -> None:
+    """Writes folder/nets.json for the networks that are there."""
+    manifest: dict = {"version": version, "interface": INTERFACE}
+    for name in SIZES:
+        data = (folder / f"{name}.onnx").read_bytes()
+        manifest[name] = {"file": f"{name}.onnx", "crc32": f"{zlib.crc32(data):08x}"}
+    (folder / "nets.json").write_text(json.dumps(manifest, indent=1) + "\n")
+
+
+def opencv_network(name: str, folder: Path) -> Callable[[Tensor], tuple[Tensor, ...]]:
+    """folder/NAME.onnx as OpenCV runs it, for images [B, 2, H, W]. Needs Debian's python3-opencv."""
+    import cv2
+
+    reader = cv2.dnn.readNetFromONNX(str(folder / f"{name}.onnx"))
+
+    def run(images: Tensor) -> tuple[Tensor, ...]:
+        single = []
+        for image in images.cpu():
+            reader.setInput(image[None].numpy())
+            single.append([torch.from_numpy(output.copy()) for output in reader.forward(OUTPUTS)])
+        return tuple(torch.cat(parts) for parts in zip(*single))
+
+    return run
+
+
+def greatest_difference(network: HandNetwork, name: str, folder: Path, images: Tensor) -> float:
+    """Of OpenCV's outputs from PyTorch's over `images` [B, 2, H, W]."""
+    with torch.no_grad():
+        wanted = network.float().cpu().eval()(images.cpu())
+    return max(float((ours - theirs).abs().max()) for ours, theirs in zip(wanted, opencv_network(name, folder)(images)))

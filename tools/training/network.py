@@ -1,0 +1,59 @@
+"""The two networks: one small U-shaped architecture with two sizes. docs/nets.md states what goes in and comes out."""
+import torch
+from torch import Tensor, nn
+from torch.nn import functional
+
+LABELS = 4
+
+
+def _convolution(inputs: int, outputs: int, stride: int = 1) -> nn.Sequential:
+    return nn.Sequential(nn.Conv2d(inputs, outputs, 3, stride, 1, bias=False), nn.BatchNorm2d(outputs), nn.ReLU(inplace=True))
+
+
+class _Residual(nn.Module):
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.first = _convolution(width, width)
+        self.second = nn.Sequential(nn.Conv2d(width, width, 3, 1, 1, bias=False), nn.BatchNorm2d(width))
+
+    def forward(self, x: Tensor) -> Tensor:
+        return functional.relu(x + self.second(self.first(x)))
+
+
+class HandNetwork(nn.Module):
+    """[B, 2, H, W] (depth, validity) to maps [B, 2 N, H/4, W/4] (N logits, then N depths), labels [B, 4, H/2, W/2] and
+    the log odds of a right hand [B, 1]."""
+
+    def __init__(self, joints: int, widths: tuple[int, int, int, int, int]) -> None:
+        super().__init__()
+        a, b, c, d, e = widths
+        self.stem = _convolution(2, a)
+        self.to_half = nn.Sequential(_convolution(a, b, 2), _Residual(b))
+        self.to_quarter = nn.Sequential(_convolution(b, c, 2), _Residual(c))
+        self.to_eighth = nn.Sequential(_convolution(c, d, 2), _Residual(d))
+        self.to_sixteenth = nn.Sequential(_convolution(d, e, 2), _Residual(e), _Residual(e))
+        self.up_eighth = nn.Sequential(_convolution(e + d, d), _Residual(d))
+        self.up_quarter = nn.Sequential(_convolution(d + c, c), _Residual(c))
+        self.up_half = _convolution(c + b, b)
+        self.maps, self.labels, self.side = nn.Conv2d(c, 2 * joints, 1), nn.Conv2d(b, LABELS, 1), nn.Linear(e, 1)
+
+    def forward(self, x: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        half = self.to_half(self.stem(x))
+        quarter = self.to_quarter(half)
+        eighth = self.to_eighth(quarter)
+        sixteenth = self.to_sixteenth(eighth)
+        coarse = self.up_eighth(_beside(sixteenth, eighth))
+        middle = self.up_quarter(_beside(coarse, quarter))
+        fine = self.up_half(_beside(middle, half))
+        return self.maps(middle), self.labels(fine), self.side(sixteenth.mean((2, 3)))
+
+
+def _beside(coarse: Tensor, fine: Tensor) -> Tensor:
+    return torch.cat([functional.interpolate(coarse, size=fine.shape[2:], mode="nearest"), fine], 1)
+
+
+def make_network(name: str) -> HandNetwork:
+    """`name`: "full", which finds palms in whole frames, or "crop", which finds the joints in a window."""
+    if name == "full":
+        return HandNetwork(1, (12, 24, 48, 64, 96))
+    return HandNetwork(21, (16, 32, 64, 96, 128))

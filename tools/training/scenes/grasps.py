@@ -1,0 +1,131 @@
+"""Grasps: an object in the hand, and fingers that close until their skin touches it. Hand frame, metres."""
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from .chance import Chance
+from .hands import Hands
+from .rotations import about, frame_along, unit
+from .shapes import BOX, CAPSULE, ELLIPSOID, distance_to_solid
+from .skeleton import KNUCKLES, TIPS, forward_kinematics, landmarks, limits
+
+_STEPS = 10  # of a finger's closing that are tried at once
+# What closes, one after the other (indices of the 21 angles): whole fingers, then their outer joints, then the last.
+_STAGES = [
+    {0: [(1, 0.5), (2, 0.5)], 1: [(5, 1.3), (7, 1.3), (8, 0.7)]},
+    {0: [(2, 0.6), (4, 0.9)], 1: [(7, 1.0), (8, 0.5)]},
+    {0: [(4, 0.6)], 1: [(8, 0.6)]},
+]
+
+
+@dataclass
+class Solids:
+    """One object for each of B hands: `kind` [B] (see shapes.py), `centre` [B, 3], `rotation` [B, 3, 3], `half` [B, 3]."""
+    kind: Tensor
+    centre: Tensor
+    rotation: Tensor
+    half: Tensor
+
+    def distance(self, points: Tensor) -> Tensor:
+        return distance_to_solid(points, self.kind, self.centre, self.rotation, self.half)
+
+    def repeated(self, times: int) -> "Solids":
+        return Solids(*(v.repeat_interleave(times, 0) for v in (self.kind, self.centre, self.rotation, self.half)))
+
+
+def objects(chance: Chance, count: int) -> Solids:
+    """Boxes, ellipsoids and bars of 1.4 to 13 cm thickness, some of them long, before they have a place."""
+    thick = chance.log_uniform(0.007, 0.065, count, 1)
+    half = thick * chance.uniform(0.8, 1.25, count, 3)
+    half[:, 0] *= torch.where(chance.flag(0.5, count), chance.uniform(1, 6, count), torch.ones(count, device=chance.device))
+    half[:, 0] = half[:, 0].clamp_max(0.16)
+    ball = chance.flag(0.25, count)
+    half = torch.where(ball[:, None], half[:, 1:2].expand(-1, 3), half)
+    kind = torch.where(ball, torch.full_like(chance.choice([1], count), ELLIPSOID), chance.choice([0.4, 0.2, 0.4], count))
+    kind[kind == CAPSULE] = CAPSULE
+    where = torch.zeros(count, 3, device=chance.device)
+    return Solids(kind, where, chance.rotation(count), half)
+
+
+def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) -> Tensor:
+    """Puts the objects against the palm or between the fingertips; [B] true: against the palm."""
+    count = len(open_angles)
+    joints = landmarks(hands.bones, forward_kinematics(hands.bones, open_angles))
+    knuckles, thumb = joints[:, KNUCKLES], joints[:, 3]
+    against_palm = chance.flag(0.65, count)
+
+    # The long axis lies across the palm or anyhow.
+    across = unit(knuckles[:, 3] - knuckles[:, 0])
+    wobble = unit(across + chance.normal(0.35, count, 3))
+    solids.rotation = frame_along(torch.where(chance.flag(0.8, count)[:, None], wobble, chance.direction(count)))
+    solids.rotation = solids.rotation @ about("x", chance.uniform(0, 6.3, count))
+
+    # Below the knuckles, or where thumb and fingers meet.
+    share = chance.uniform(0.1, 0.75, count, 1)
+    on_palm = knuckles[:, 1] * (1 - 0.5 * share) + 0.15 * (knuckles[:, 3] - knuckles[:, 0]) * chance.normal(1, count, 1)
+    ahead = 0.5 * (thumb + joints[:, [7, 11]].mean(1)) + chance.normal(0.008, count, 3)
+    spot = torch.where(against_palm[:, None], on_palm, ahead)
+
+    # Out of the palm's flesh: along its normal until they touch.
+    away = torch.tensor([0.0, -1.0, 0.0], device=chance.device)
+    flesh = torch.where(against_palm, 1.25 * hands.flesh[:, 9], 0.5 * hands.flesh[:, 7])
+    solids.centre = spot + 0.5 * away * solids.half.amin(1, keepdim=True)
+    for _ in range(8):
+        gap = (solids.distance(spot[:, None])[:, 0] - flesh).clamp(-0.04, 0.04)
+        solids.centre = solids.centre - away * torch.where(against_palm, gap, gap.clamp_max(0) * 0.5)[:, None]
+    return against_palm
+
+
+def _touching(bones, flesh: Tensor, angles: Tensor, solids: Solids) -> Tensor:
+    """[B, 5] whether a finger's bones reach into the object deeper than flesh gives."""
+    joints = landmarks(bones, forward_kinematics(bones, angles))
+    hit = []
+    for finger in range(5):
+        chain = joints[:, 1 + 4 * finger:5 + 4 * finger]
+        radius = flesh[:, 1 + 4 * finger:5 + 4 * finger]
+        places = torch.cat([chain[:, 1:], 0.5 * (chain[:, 1:] + chain[:, :-1])], 1)
+        reach = torch.cat([radius[:, 1:], 0.5 * (radius[:, 1:] + radius[:, :-1])], 1)
+        hit.append((solids.distance(places) < reach - 0.002).any(1))
+    return torch.stack(hit, 1)
+
+
+def _close(hands: Hands, angles: Tensor, solids: Solids, stage: dict[int, list[tuple[int, float]]]) -> Tensor:
+    """The angles after each finger has moved as far through the stage as it can without sinking into the object."""
+    count, device = len(angles), angles.device
+    share = torch.linspace(0, 1, _STEPS, device=device)
+    motion = torch.zeros(5, 21, device=device)
+    for finger in range(5):
+        for index, amount in stage[min(finger, 1)]:
+            motion[finger, index + 4 * max(finger - 1, 0)] = amount
+
+    # All steps of all hands at once.
+    tried = angles[:, None] + share[:, None] * motion.sum(0)
+    tried = torch.minimum(tried, limits(device)[:, 1]).reshape(-1, 21)
+    many = hands.bones.repeated(_STEPS)
+    hit = _touching(many, hands.flesh.repeat_interleave(_STEPS, 0), tried, solids.repeated(_STEPS))
+    free = (torch.cumsum(hit.reshape(count, _STEPS, 5).int(), 1) == 0).sum(1)  # [B, 5] steps before the first touch
+    moved = share[(free - 1).clamp_min(0)]
+    return torch.minimum(angles + moved @ motion, torch.maximum(limits(device)[:, 1], angles))
+
+
+def grasps(chance: Chance, hands: Hands) -> tuple[Tensor, Solids, Tensor]:
+    """Angles [B, 21] of hands that hold objects, the objects, and [B, 5] how far each fingertip's skin is from them [m]."""
+    count = len(hands.flesh)
+    solids = objects(chance, count)
+    angles = torch.zeros(count, 21, device=chance.device)
+    angles[:, :5] = torch.tensor([0.4, -0.2, 0.0, 0.0, 0.0], device=chance.device) + chance.normal(0.1, count, 5)
+    angles[:, 6::4] = torch.tensor([0.1, 0.0, -0.08, -0.15], device=chance.device) * chance.uniform(0, 2, count, 1)
+    angles[:, 5::4] = chance.uniform(-0.2, 0.5, count, 1) + chance.normal(0.08, count, 4)
+    against_palm = _place(chance, hands, angles, solids)
+    angles[:, 5::4] -= 0.25 * against_palm[:, None]
+
+    # Some fingers stay away from the object, as little fingers and pointing ones do.
+    closed = angles
+    for stage in _STAGES:
+        closed = _close(hands, closed, solids, stage)
+    idle = chance.flag(0.08, count, 5).float().repeat_interleave(torch.tensor([5, 4, 4, 4, 4], device=chance.device), 1)
+    closed = closed + idle * (angles - closed)
+
+    tips = landmarks(hands.bones, forward_kinematics(hands.bones, closed))[:, TIPS]
+    return closed, solids, solids.distance(tips) - hands.flesh[:, TIPS]

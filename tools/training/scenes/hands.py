@@ -1,0 +1,41 @@
+"""Batches of different people's right hands: a skeleton each, and points on the skin that follow it."""
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from .skeleton import Bones, forward_kinematics, landmarks
+
+
+@dataclass
+class Hands:
+    """B hands with P skin points each. A point follows two segments.
+
+    `segment` [B, P, 2]: which; `weight` [B, P, 2]: how much, sums up to 1; `local` [B, P, 2, 3]: where the point is in
+    the frame of each [m]; `flesh` [B, 21]: radius of the hand around each landmark [m].
+    """
+    bones: Bones
+    segment: Tensor
+    weight: Tensor
+    local: Tensor
+    flesh: Tensor
+
+    def posed(self, angles: Tensor) -> tuple[Tensor, Tensor]:
+        """Skin points [B, P, 3] and landmarks [B, 21, 3] in the hand's frame [m] at joint angles [B, 21, rad]."""
+        poses = forward_kinematics(self.bones, angles)
+        count, points = self.segment.shape[:2]
+        skin = torch.zeros(count, points, 3, device=angles.device)
+        for k in range(2):
+            index = self.segment[:, :, k, None].expand(-1, -1, 12)
+            own = poses.reshape(count, -1, 12).gather(1, index).reshape(count, points, 3, 4)
+            moved = torch.einsum("bpij,bpj->bpi", own[..., :3], self.local[:, :, k]) + own[..., 3]
+            skin = skin + self.weight[:, :, k, None] * moved
+        return skin, landmarks(self.bones, poses)
+
+
+def joined(parts: list[Hands]) -> Hands:
+    """One batch out of several."""
+    def cat(name: str) -> Tensor:
+        return torch.cat([getattr(part, name) for part in parts])
+    bones = Bones(*(torch.cat([getattr(part.bones, name) for part in parts]) for name in ("turn", "joint", "tip")))
+    return Hands(bones, cat("segment"), cat("weight"), cat("local"), cat("flesh"))

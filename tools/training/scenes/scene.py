@@ -1,0 +1,162 @@
+"""Whole scenes with their truth: the examples from which both networks learn."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor
+
+from .chance import Chance
+from .grasps import grasps
+from .hands import Hands, joined
+from .mesh_hand import MeshRig
+from .parametric_hand import ParametricRig
+from .people import Stance, arms, bodies, stances
+from .poses import free_poses
+from .rotations import apply
+from .sensors import measure
+from .shapes import FAR, hit_solid, only
+from .skeleton import MIDDLE_KNUCKLE, WRIST
+from .surroundings import clutter, occluders, planes
+from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
+
+BACKGROUND, HAND, ARM, OBJECT = range(4)
+_MEAN_PALM = 0.095  # m from wrist to middle knuckle of a mean hand
+
+
+@dataclass
+class Scenes:
+    """B depth images with their truth. Of two hands (index 0: the one in question, 1: another one):
+
+    `depth` [B, H, W, m; 0: nothing]; `label` [B, H, W]; `joints` [B, 2, 21, 3, m, camera frame]; `uv` [B, 2, 21, 2,
+    pixels]; `pixels` [B, 2]: how many show each hand, 0 if it is not there; `right` [B, 2]; `grasp` [B]: hand 0 holds
+    something; `sensor` [B] (sensors.KINDS).
+    """
+    view: View
+    depth: Tensor
+    label: Tensor
+    joints: Tensor
+    uv: Tensor
+    pixels: Tensor
+    right: Tensor
+    grasp: Tensor
+    sensor: Tensor
+    middle: Tensor  # [B, 3]: what a window is centred on; of a whole frame the first palm
+
+    def palms(self) -> Tensor:
+        """[B, 2, 3] centres of the palms, between wrist and middle knuckle."""
+        return 0.5 * (self.joints[:, :, WRIST] + self.joints[:, :, MIDDLE_KNUCKLE])
+
+
+class Generator:
+    """Makes scenes; `mesh` is the simulator's right hand (right.glb), None: the parametric hand alone."""
+
+    def __init__(self, chance: Chance, mesh: Path | None, points: int = 12000) -> None:
+        self.chance = chance
+        self.rigs = [ParametricRig(points, chance.device)]
+        if mesh is not None:
+            self.rigs.append(MeshRig(mesh, points, chance.device))
+
+    def people(self, count: int) -> Hands:
+        """The rigs take turns."""
+        shares = [(count + i) // len(self.rigs) for i in range(len(self.rigs))]
+        return joined([rig.people(self.chance, share) for rig, share in zip(self.rigs, shares) if share])
+
+    def frames(self, count: int) -> Scenes:
+        """Whole frames: hands 0.18 to 1.6 m away, 16 % without any."""
+        chance = self.chance
+        view = full_view(chance.uniform(0.8, 1.15, count))
+        rows, columns = view.size
+        z = chance.log_uniform(0.18, 1.6, count)
+        u, v = chance.uniform(0.08, 0.92, count) * columns, chance.uniform(0.08, 0.92, count) * rows
+        place = torch.stack([(u - view.cx) * z / view.focal, (v - view.cy) * z / view.focal, z], 1)
+        return self._make(view, place, place, chance.flag(0.84, count), True)
+
+    def windows(self, count: int) -> Scenes:
+        """Windows around palms, up to 5 cm off, 8 % around something else."""
+        chance = self.chance
+        z = chance.log_uniform(0.18, 1.6, count)
+        place = torch.stack([chance.uniform(-0.5, 0.5, count) * z, chance.uniform(-0.4, 0.4, count) * z, z], 1)
+        middle = place + chance.uniform(-0.045, 0.045, count, 3)
+        view = crop_view(middle, CROP_ACROSS * chance.uniform(0.9, 1.12, count))
+        return self._make(view, place, middle, chance.flag(0.92, count), False)
+
+    def _make(self, view: View, place: Tensor, middle: Tensor, present: Tensor, whole: bool) -> Scenes:
+        """`place` [B, 3]: the first palm's; `present` [B]: whether there are hands at all."""
+        chance, count = self.chance, len(place)
+        rays = view.rays()
+
+        # The hand in question, which holds something in two of five scenes, and another hand beside it.
+        hands, stance = self.people(count), stances(chance, count)
+        holding, solids, _ = grasps(chance, hands)
+        grasp = chance.flag(0.4, count)
+        angles = torch.where(grasp[:, None], holding, free_poses(chance, count))
+        right = chance.flag(0.5, count)
+        skin, joints, origin = _put(hands, angles, right, stance, place)
+        beside = place + _beside(chance, place)
+        other_right = torch.where(chance.flag(0.85, count), ~right, right)
+        other_stance = Stance(torch.where(chance.flag(0.5, count)[:, None, None], stances(chance, count).rotation,
+                                          _mirrored(stance.rotation)), stance.egocentric)
+        other_hands = self.people(count)
+        other_skin, other_joints, _ = _put(other_hands, free_poses(chance, count), other_right, other_stance, beside)
+        both = present & chance.flag(0.3, count) & (beside[:, 2] > 0.15)
+
+        # The surfaces. A window is about one hand: another one is background there.
+        size = (joints[:, MIDDLE_KNUCKLE] - joints[:, WRIST]).norm(dim=1) / _MEAN_PALM
+        arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
+        other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)
+        arm = torch.minimum(arm, only(both, other_arm))
+        arm = only(present | chance.flag(0.6, count), arm)
+        rest = torch.minimum(only(chance.flag(0.55, count) & ~stance.egocentric, bodies(chance, rays, shoulder)),
+                             planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1)))
+        rest = torch.minimum(rest, clutter(chance, rays, place))
+        flip = _flip(right)
+        held = hit_solid(rays, solids.kind, apply(stance.rotation, flip * solids.centre) + origin,
+                         stance.rotation @ (flip[:, :, None] * solids.rotation), solids.half)
+        thing = torch.minimum(only(grasp & (present | chance.flag(0.3, count)), held), occluders(chance, rays, place))
+        layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
+                  (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
+
+        # What is in front, and what a sensor makes of it.
+        depth, winner = torch.stack([layer for layer, _ in layers], 1).min(1)
+        label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
+        label = torch.where(depth < FAR, label, torch.zeros_like(label))
+        measured, sensor = measure(chance, depth, view)
+        pixels = torch.stack([(winner == 1).flatten(1).sum(1) * present, (winner == 2).flatten(1).sum(1) * both], 1)
+        every = torch.stack([joints, other_joints], 1)
+        uv = view.project(every.flatten(1, 2)).reshape(count, 2, -1, 2)
+        return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other_right], 1), grasp & present,
+                      sensor, middle)
+
+
+def only_joints(mask: Tensor, joints: Tensor, otherwise: Tensor) -> Tensor:
+    """`joints` [B, 21, 3] where `mask` [B], `otherwise` elsewhere."""
+    return torch.where(mask[:, None, None], joints, otherwise)
+
+
+def _flip(right: Tensor) -> Tensor:
+    """[B, 3] factors that mirror a left hand's x."""
+    sign = torch.where(right, 1.0, -1.0)
+    return torch.stack([sign, torch.ones_like(sign), torch.ones_like(sign)], 1)
+
+
+def _mirrored(rotation: Tensor) -> Tensor:
+    """The other hand held symmetrically: mirrored in the camera's and in the hand's x."""
+    flip = torch.tensor([-1.0, 1.0, 1.0], device=rotation.device)
+    return flip[:, None] * rotation * flip
+
+
+def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+    """Skin and joints in the camera's frame with the palm's centre at `place` [B, 3], and the hand frame's origin there."""
+    skin, joints = hands.posed(angles)
+    flip = _flip(right)[:, None]
+    skin, joints = apply(stance.rotation, flip * skin), apply(stance.rotation, flip * joints)
+    origin = place - 0.5 * (joints[:, WRIST] + joints[:, MIDDLE_KNUCKLE])
+    return skin + origin[:, None], joints + origin[:, None], origin
+
+
+def _beside(chance: Chance, place: Tensor) -> Tensor:
+    """[B, 3] from one palm to the other: 7 to 50 cm, mostly across the view."""
+    count = len(place)
+    turn = chance.uniform(0, 6.3, count)
+    way = torch.stack([torch.cos(turn), 0.6 * torch.sin(turn), chance.normal(0.35, count)], 1)
+    return torch.nn.functional.normalize(way, dim=1) * chance.log_uniform(0.07, 0.5, count, 1)

@@ -1,0 +1,109 @@
+"""Solids as rays see them, and signed distances to them. Camera frame unless said otherwise, metres.
+
+`rays` [B, H, W, 3] start at the origin and have z = 1. Each `hit_` function gives the depth z [B, H, W] of the nearest
+surface in front of the camera, FAR where there is none.
+"""
+import torch
+from torch import Tensor
+
+from .rotations import apply
+
+FAR = 1e3  # m: nothing there
+NEAR = 0.05  # m: nothing is seen that is nearer
+
+
+def _seen(hit: Tensor, t: Tensor) -> Tensor:
+    return torch.where(hit & (t > NEAR), t, torch.full_like(t, FAR))
+
+
+def only(mask: Tensor, depth: Tensor) -> Tensor:
+    """The depth of those samples of the batch for which `mask` [B] is true; nothing of the others."""
+    return torch.where(mask[:, None, None], depth, torch.full_like(depth, FAR))
+
+
+def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, end_radius: Tensor) -> Tensor:
+    """Round bone from `start` to `end` [B, 3] whose radius [B] changes linearly between them."""
+    along = (end - start)[:, None, None]
+    start, start_radius, end_radius = start[:, None, None], start_radius[:, None, None], end_radius[:, None, None]
+
+    rr, ra, aa = (rays * rays).sum(-1), (rays * along).sum(-1), (along * along).sum(-1)
+    rs, sa = (rays * start).sum(-1), (start * along).sum(-1)
+
+    def ball(share: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Where the rays enter the ball around this place on the bone: middle and squared half length of the chord."""
+        centre = start + share[..., None] * along
+        radius = start_radius + share.clamp(0, 1) * (end_radius - start_radius)
+        middle = (rays * centre).sum(-1) / rr
+        chord = (radius * radius - (centre * centre).sum(-1)) / rr + middle * middle
+        return middle, chord, middle - torch.sqrt(chord.clamp_min(0))
+
+    # The ball at the place that is nearest to the ray says whether it hits.
+    nearest = (ra * rs - rr * sa) / (rr * aa - ra * ra).clamp_min(1e-9)
+    _, chord, t = ball(nearest.clamp(0, 1))
+    hit = chord > 0
+
+    # A slanting ray enters the mantle earlier, or the ball at the end that it comes from.
+    middle, chord, _ = ball(nearest)
+    slant = (1 - ra * ra / (rr * aa)).clamp_min(1e-3)
+    entry = middle - torch.sqrt(chord.clamp_min(0) / slant)
+    for _ in range(2):
+        _, chord, earlier = ball(((entry * ra - sa) / aa).clamp(0, 1))
+        t = torch.where(chord > 0, torch.minimum(t, earlier), t)
+        entry = t
+    return _seen(hit, t)
+
+
+def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """Box with half edges `half` [B, 3] along the columns of `rotation` [B, 3, 3]."""
+    origin = -apply(rotation.transpose(1, 2), centre)[:, None, None]
+    slope = torch.einsum("bji,bhwj->bhwi", rotation, rays)
+    inverse = 1 / torch.where(slope.abs() < 1e-6, torch.full_like(slope, 1e-6), slope)
+    half = half[:, None, None]
+    first, second = (-half - origin) * inverse, (half - origin) * inverse
+    enter, leave = torch.minimum(first, second).amax(-1), torch.maximum(first, second).amin(-1)
+    return _seen(enter < leave, enter)
+
+
+def hit_ellipsoid(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """Ellipsoid with half axes `half` [B, 3] along the columns of `rotation`."""
+    origin = (-apply(rotation.transpose(1, 2), centre) / half)[:, None, None]
+    slope = torch.einsum("bji,bhwj->bhwi", rotation, rays) / half[:, None, None]
+    a, b, c = (slope * slope).sum(-1), (slope * origin).sum(-1), (origin * origin).sum(-1) - 1
+    root = b * b - a * c
+    return _seen(root > 0, (-b - torch.sqrt(root.clamp_min(0))) / a)
+
+
+def hit_plane(rays: Tensor, point: Tensor, normal: Tensor) -> Tensor:
+    """Plane through `point` [B, 3], seen from the side that `normal` [B, 3] points to."""
+    slope = (rays * normal[:, None, None]).sum(-1)
+    return _seen(slope < -1e-3, (point * normal).sum(1)[:, None, None] / slope.clamp_max(-1e-3))
+
+
+BOX, ELLIPSOID, CAPSULE = 0, 1, 2
+
+
+def hit_solid(rays: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """One solid a sample, of `kind` [B]: box, ellipsoid or capsule (along the first axis, of radius half[:, 1])."""
+    end = rotation[:, :, 0] * (half[:, :1] - half[:, 1:2]).clamp_min(1e-3)
+    depth = hit_box(rays, centre, rotation, half)
+    depth = torch.where((kind == ELLIPSOID)[:, None, None], hit_ellipsoid(rays, centre, rotation, half), depth)
+    capsule = hit_capsule(rays, centre - end, centre + end, half[:, 1], half[:, 1])
+    return torch.where((kind == CAPSULE)[:, None, None], capsule, depth)
+
+
+def distance_to_solid(points: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """Signed distances [B, N] of `points` [B, N, 3] to the same solids; that of an ellipsoid is of first order."""
+    local = torch.einsum("bji,bnj->bni", rotation, points - centre[:, None])
+    half = half[:, None]
+
+    over = local.abs() - half
+    box = over.clamp_min(0).norm(dim=-1) + over.amax(-1).clamp_max(0)
+    scaled = (local / half).norm(dim=-1).clamp_min(1e-6)
+    ellipsoid = scaled * (scaled - 1) / (local / half ** 2).norm(dim=-1).clamp_min(1e-6)
+    reach = (half[..., 0] - half[..., 1]).clamp_min(1e-3)
+    nearest = torch.maximum(torch.minimum(local[..., 0], reach), -reach)
+    aside = torch.stack([local[..., 0] - nearest, local[..., 1], local[..., 2]], -1)
+    capsule = aside.norm(dim=-1) - half[..., 1]
+
+    kind = kind[:, None]
+    return torch.where(kind == BOX, box, torch.where(kind == ELLIPSOID, ellipsoid, capsule))

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Trains the networks that find hands, measures them on unseen scenes, and writes a folder that the program reads.
+
+  train.py OUT                 half an hour on a GPU
+  train.py OUT --smoke         a minute or two on a processor: whether it all works, not whether it is good
+"""
+import argparse
+import json
+import math
+import os
+import time
+from pathlib import Path
+
+import torch
+
+from evaluate import UNSEEN_SEED, evaluate
+from examples import generator_for, make_examples
+from export import export, greatest_difference, write_manifest
+from hands_folder import add_hands_option, right_hand
+from losses import LOSSES
+from network import HandNetwork, make_network
+
+_SHARE = {"full": 0.33, "crop": 0.67}  # of the time
+_BATCH = {"full": 160, "crop": 256}
+_SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
+_VALIDATION_SEED = 1_000_003  # other people and scenes than any batch of the training
+
+
+class Schedule:
+    """How far the training is, 0 to 1: by time, or by steps where the result has to be the same each time."""
+
+    def __init__(self, seconds: float, steps: int) -> None:
+        self.seconds, self.steps, self.done, self.started = seconds, steps, 0, time.monotonic()
+
+    def progress(self) -> float:
+        if self.steps:
+            return self.done / self.steps
+        return (time.monotonic() - self.started) / self.seconds
+
+    def rate(self, highest: float = 2e-3) -> float:
+        """Learning rate: rises over the first steps, then falls like a cosine."""
+        rise = min(1.0, (self.done + 1) / (200 if not self.steps else 10))
+        return highest * rise * 0.5 * (1 + math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
+
+
+def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int, points: int) -> HandNetwork:
+    """The trained network `name`. Prints the loss on scenes that it did not see."""
+    torch.manual_seed(options.seed)
+    device, mesh = options.device, right_hand(options.hands)
+    network = make_network(name).to(device)
+    if options.resume:
+        network.load_state_dict(torch.load(options.resume / f"{name}.pt", map_location=device))
+    optimiser = torch.optim.AdamW(network.parameters(), 2e-3, weight_decay=1e-3)
+    generator = generator_for(options.seed + len(name) * 7919, device, mesh, points)
+    unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 4 * batch if options.smoke else batch)
+    before = _loss(network, name, unseen)
+
+    while schedule.progress() < 1:
+        for group in optimiser.param_groups:
+            group["lr"] = schedule.rate()
+        network.train()
+        examples = make_examples(generator, name, batch)
+        with torch.autocast(device, torch.bfloat16, enabled=device == "cuda"):
+            output = network(examples.image)
+        loss = LOSSES[name](output, examples)
+        optimiser.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 5.0)
+        optimiser.step()
+        schedule.done += 1
+        if schedule.done % (200 if not options.smoke else 30) == 0:
+            print(f"{name}: {100 * schedule.progress():.0f} %, {schedule.done} steps, loss {loss.item():.3f}, "
+                  f"unseen {_loss(network, name, unseen):.3f}", flush=True)
+
+    after = _loss(network, name, unseen)
+    print(f"{name}: loss on unseen scenes from {before:.3f} to {after:.3f}")
+    if not after < before:  # also if it is not a number
+        raise SystemExit(f"{name}: the training did not converge; start it again with another --seed")
+    return network
+
+
+def _loss(network: HandNetwork, name: str, examples) -> float:
+    network.eval()
+    with torch.no_grad():
+        return LOSSES[name](network(examples.image), examples).item()
+
+
+def main() -> None:
+    options = _options()
+    options.out.mkdir(parents=True, exist_ok=True)
+    torch.backends.cudnn.benchmark = True
+    started, figures = time.monotonic(), {}
+    for name in ("crop", "full"):
+        batch = _SMOKE_BATCH if options.smoke else _BATCH[name]
+        points = 5000 if options.smoke else 12000
+        schedule = Schedule(60 * options.minutes * _SHARE[name], _SMOKE_STEPS[name] if options.smoke else options.steps)
+        network = train(name, options, schedule, batch, points)
+
+        generator = generator_for(UNSEEN_SEED, options.device, right_hand(options.hands), points)
+        figures[name] = evaluate(network.float().eval(), name, generator, *((1, 32) if options.smoke else (40, 128)))
+        torch.save(network.state_dict(), options.out / f"{name}.pt")
+        export(network, name, options.out)
+        if options.check:
+            images = make_examples(generator_for(5, "cpu", right_hand(options.hands), 5000), name, 4).image
+            figures[name]["greatest difference in OpenCV"] = greatest_difference(network, name, options.out, images)
+
+    write_manifest(options.out, options.version)
+    (options.out / "evaluation.json").write_text(json.dumps(figures, indent=1) + "\n")
+    print(json.dumps(figures, indent=1))
+    print(f"wrote {options.out} in {(time.monotonic() - started) / 60:.1f} minutes")
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=Path, help="folder for full.onnx, crop.onnx, nets.json, weights and evaluation.json")
+    parser.add_argument("--minutes", type=float, default=25, help="of training (default: 25)")
+    parser.add_argument("--steps", type=int, default=0, help="of each network, instead of a time")
+    parser.add_argument("--smoke", action="store_true", help="a few small steps")
+    parser.add_argument("--resume", type=Path, metavar="FOLDER", help="go on from full.pt and crop.pt of an earlier OUT")
+    parser.add_argument("--version", default="2.0", help="that nets.json states (default: 2.0)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--device", default="cuda" if torch.cuda.is_available() else "cpu")
+    parser.add_argument("--check", action="store_true", help="compare with OpenCV's outputs (needs python3-opencv)")
+    add_hands_option(parser)
+    options = parser.parse_args()
+    if options.device == "cpu":
+        torch.set_num_threads(int(os.environ.get("OMP_NUM_THREADS", "1")))
+        if not options.smoke:
+            print("no GPU: the training would take days; --smoke shows whether it works", flush=True)
+    return options
+
+
+if __name__ == "__main__":
+    main()
