@@ -137,7 +137,7 @@ TEST_F(PipedOutputs, AReaderThatGoesAndComesBackCostsNothingElse) {
 
 TEST_F(PipedOutputs, ARunThatWaitsForAReaderCanBeStopped) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  for (const std::string option : {"--result", "--states-log", "--save-hand"}) {
+  for (const std::string option : {"--result", "--states-log", "--log-decisions", "--save-hand"}) {
     ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "folder:" + (folder_ / "take"), "--no-publish", option,
                         folder_ / "pipe"});
     ASSERT_TRUE(track.wait_for("waiting for a program to read the pipe")) << track.output();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,10 @@ struct TrackOptions {
   bool health = false;
   std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: there is none
   std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
+
+  /// The outputs that are one file each.
+  static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::decisions,
+                                        &TrackOptions::save_hand};
 };
 
 }  // namespace barehand

@@ -101,10 +101,9 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
 }
 
 bool writes_to_standard_output(const TrackOptions& o) {
-  for (const std::string& path :
-       {o.result, o.states_log, o.decisions, o.overlay, o.save_hand, of_network(o.lcm_url).path})
-    if (is_standard_output(path)) return true;
-  return false;
+  for (const auto file : TrackOptions::kFiles)
+    if (is_standard_output(o.*file)) return true;
+  return is_standard_output(o.overlay) || is_standard_output(of_network(o.lcm_url).path);
 }
 
 }  // namespace barehand

@@ -169,11 +169,8 @@ Step TrackRun::choose_outputs() {
   const auto tell = [&](const std::string& wanted, const std::string& chosen) {
     if (wanted != chosen) log_.logger().info("{} exists already, writing {}", wanted, chosen);
   };
-  tell(options_.result, settled->result);
-  tell(options_.states_log, settled->states_log);
-  tell(options_.decisions, settled->decisions);
+  for (const auto file : TrackOptions::kFiles) tell(options_.*file, (*settled).*file);
   tell(options_.overlay, settled->overlay);
-  tell(options_.save_hand, settled->save_hand);
   options_ = std::move(*settled);
   return {};
 }
@@ -185,15 +182,16 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
 }
 
 Step TrackRun::await_readers() {
-  for (std::string* path : {&options_.result, &options_.states_log, &options_.save_hand}) {
-    const auto opened = readers_.wait_for(*path, stop_.get_token(), [&] {
-      log_.warn("reader of " + *path, "waiting for a program to read the pipe " + *path);
-      service_.ready("waiting for a reader of " + *path);
+  for (const auto file : TrackOptions::kFiles) {
+    std::string& path = options_.*file;
+    const auto opened = readers_.wait_for(path, stop_.get_token(), [&] {
+      log_.warn("reader of " + path, "waiting for a program to read the pipe " + path);
+      service_.ready("waiting for a reader of " + path);
       service_.alive();
     });
-    if (!opened) return stopped("stopped while waiting for a reader of " + *path);
-    if (*opened != *path) log_.logger().info("the pipe {} is written as {}", *path, *opened);
-    *path = *opened;
+    if (!opened) return stopped("stopped while waiting for a reader of " + path);
+    if (*opened != path) log_.logger().info("the pipe {} is written as {}", path, *opened);
+    path = *opened;
   }
   return {};
 }
