@@ -6,24 +6,15 @@
 #include "drivers/synthetic/people/arm.h"
 #include "drivers/synthetic/people/body.h"
 #include "drivers/synthetic/rendering/body_shapes.h"
-#include "drivers/synthetic/simulator.h"
+#include "tests/synthetic/small_simulator.h"
 
 namespace barehand::synthetic {
 namespace {
 
 SimulatorParams scene(const std::string& name, int seed) {
-  SimulatorParams params;
-  params.sequence = name;
+  SimulatorParams params = small_scene(name);
   params.seed = seed;
-  params.width = 160;
-  params.height = 120;
   return params;
-}
-
-Simulator simulator(const SimulatorParams& params) {
-  auto made = Simulator::create(params);
-  if (!made) throw std::runtime_error(made.error().message());
-  return std::move(*made);
 }
 
 /// Fraction of the pixels nearer than 1.5 m.

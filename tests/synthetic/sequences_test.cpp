@@ -1,29 +1,15 @@
 #include <gtest/gtest.h>
 
-#include "drivers/synthetic/simulator.h"
+#include "tests/synthetic/small_simulator.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {
 namespace {
 
-SimulatorParams small(const std::string& sequence) {
-  SimulatorParams params;
-  params.sequence = sequence;
-  params.width = 160;
-  params.height = 120;
-  return params;
-}
-
-Simulator simulator(const SimulatorParams& params) {
-  auto made = Simulator::create(params);
-  if (!made) throw std::runtime_error(made.error().message());
-  return std::move(*made);
-}
-
 class EverySequence : public testing::TestWithParam<std::string> {};
 
 TEST_P(EverySequence, KeepsTheHandInViewAndMovesNoFasterThanAHand) {
-  Simulator sim = simulator(small(GetParam()));
+  Simulator sim = simulator(small_scene(GetParam()));
   const Intrinsics& camera = sim.camera();
   const bool far = GetParam() == "person" || GetParam() == "desk" || GetParam() == "egocentric";
   std::vector<HandTruth> before;
@@ -57,7 +43,7 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(All, EverySequence, testing::ValuesIn(names()), [](const auto& info) { return info.param; });
 
 TEST(Wave, LeavesTheViewAndComesBack) {
-  Simulator sim = simulator(small("wave"));
+  Simulator sim = simulator(small_scene("wave"));
   std::string presence;
   for (std::int64_t i = 0; i < sim.frame_count(); i += 10) presence += sim.render(i).hands.front().table ? 'x' : '.';
   EXPECT_EQ(presence.front(), 'x');
@@ -67,7 +53,7 @@ TEST(Wave, LeavesTheViewAndComesBack) {
 }
 
 TEST(Returns, LeavesTheViewTenTimes) {
-  Simulator sim = simulator(small("returns"));
+  Simulator sim = simulator(small_scene("returns"));
   int departures = 0;
   bool was_there = true;
   for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames the hand leaves for good
@@ -80,7 +66,7 @@ TEST(Returns, LeavesTheViewTenTimes) {
 }
 
 TEST(Fist, ClosesTwice) {
-  Simulator sim = simulator(small("fist"));
+  Simulator sim = simulator(small_scene("fist"));
   EXPECT_EQ(sim.frame_count(), 160);
   EXPECT_EQ(sim.fps(), 25);
   int closings = 0;
@@ -95,7 +81,7 @@ TEST(Fist, ClosesTwice) {
 }
 
 double fingers_visible(int degree) {
-  Simulator sim = simulator(small("occlusion_" + std::to_string(degree)));
+  Simulator sim = simulator(small_scene("occlusion_" + std::to_string(degree)));
   const TableFrame truth = *sim.render(0).hands.front().table;
   double sum = 0;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) sum += truth.rows[s].visible;

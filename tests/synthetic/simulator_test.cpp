@@ -1,18 +1,12 @@
-#include "drivers/synthetic/simulator.h"
 
 #include <gmock/gmock.h>
 
 #include "hand/joint_angles.h"
+#include "tests/synthetic/small_simulator.h"
 #include "tests/synthetic/test_hand.h"
 
 namespace barehand::synthetic {
 namespace {
-
-Simulator simulator(const SimulatorParams& params) {
-  auto made = Simulator::create(params);
-  if (!made) throw std::runtime_error(made.error().message());
-  return std::move(*made);
-}
 
 SimulatorParams small(const std::string& sequence, const std::string& noise = "none", int seed = 1) {
   SimulatorParams params;

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "drivers/synthetic/simulator.h"
 #include "hand/joint_angles.h"
+#include "tests/synthetic/small_simulator.h"
 
 namespace barehand::synthetic {
 namespace {
@@ -18,19 +18,10 @@ using testing::Lt;
 constexpr int kRight = 0, kLeft = 1;
 
 SimulatorParams two_hands(const std::string& noise = "none", int seed = 1) {
-  SimulatorParams params;
-  params.sequence = "two_hands";
+  SimulatorParams params = small_scene("two_hands");
   params.noise = noise;
   params.seed = seed;
-  params.width = 160;
-  params.height = 120;
   return params;
-}
-
-Simulator simulator(const SimulatorParams& params) {
-  auto made = Simulator::create(params);
-  if (!made) throw std::runtime_error(made.error().message());
-  return std::move(*made);
 }
 
 SimulatedFrame at(Simulator& sim, double time) { return sim.render(std::lround(time * sim.fps())); }

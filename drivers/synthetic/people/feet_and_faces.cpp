@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-KeyedRandom random_for(std::uint64_t seed) { return {seed, 0, 0, static_cast<std::uint32_t>(Draw::scene)}; }
-
 /// A foot, in its own frame: the ankle at the origin, the toes towards -y, z up.
 struct Foot {
   double length = 0.26;
@@ -67,7 +65,7 @@ void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_
 
 std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
   // From above, as one sees one's own, or from the front.
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(15, 80) * kDegree, random.uniform(0.5, 1.05));
   s.things.push_back(make_floor(0));
@@ -89,7 +87,7 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
 
 std::unique_ptr<Sequence> make_faces(std::uint64_t seed) {
   // Heads 0.5 to 1 m away.
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   const double distance = random.uniform(0.55, 0.8);
   s.T_camera_world = camera_above_table(random.uniform(-15, 25) * kDegree, distance);

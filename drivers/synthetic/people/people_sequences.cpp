@@ -16,9 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDuration = 6;  // s
-
-KeyedRandom random_for(std::uint64_t seed) { return {seed, 0, 0, static_cast<std::uint32_t>(Draw::scene)}; }
+constexpr double kDuration = 6;   // s
+constexpr double kFloor = -0.72;  // m, height below a desk
 
 StagedSequence::Setting setting(std::uint64_t seed) {
   StagedSequence::Setting s;
@@ -72,7 +71,7 @@ void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_w
 
 std::unique_ptr<Sequence> make_person(std::uint64_t seed) {
   // The camera before the hand.
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = setting(seed);
   const double distance = random.uniform(0.5, 0.85), range = 0.11 * distance;
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, distance);
@@ -92,7 +91,7 @@ std::unique_ptr<Sequence> make_person(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = setting(seed);
   s.T_camera_world = camera_above_table(random.uniform(30, 65) * kDegree, random.uniform(0.65, 0.85), 0.1);
 
@@ -106,7 +105,7 @@ std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
   // The desk between it and the camera.
   s.things = make_desk(-0.45, T_world_body.t.y() - size.depth - 0.04,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
-  s.things.push_back(make_floor(-0.72));
+  s.things.push_back(make_floor(kFloor));
   s.things.push_back(make_wall(random.uniform(1.2, 2.5)));
   add_person(s, size, T_world_body, centre, {-Vector3d::UnitY(), -Vector3d::UnitZ(), 0.9, {0.09, 0.07, 0.03}}, true,
              random);
@@ -114,7 +113,7 @@ std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = setting(seed);
   s.T_camera_world = camera_above_table(random.uniform(35, 60) * kDegree, random.uniform(0.55, 0.7), 0.06);
   const Vector3d eyes = s.T_camera_world.inverse().t;
@@ -130,7 +129,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   // The desk before it.
   s.things = make_desk(T_world_body.t.y() + size.depth + 0.04, 0.55,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
-  s.things.push_back(make_floor(-0.72));
+  s.things.push_back(make_floor(kFloor));
   s.things.push_back(make_wall(random.uniform(1.0, 2.0)));
   add_person(s, size, T_world_body, centre, {Vector3d::UnitY(), -Vector3d::UnitZ(), 0.9, {0.09, 0.07, 0.03}}, false,
              random);
@@ -138,7 +137,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, random.uniform(0.6, 1.1));
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
@@ -160,6 +159,8 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
     }
     body.keys.push_back(key);
   }
+
+  // It stands before the camera, turned a little.
   body.T_world_body = {exp_so3({0, 0, random.uniform(-0.5, 0.5)}),
                        {random.uniform(-0.1, 0.1), random.uniform(0.2, 0.5), random.uniform(0, 0.2)}};
   s.bodies.emplace_back(std::move(body));
@@ -167,11 +168,11 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_empty_desk(std::uint64_t seed) {
-  KeyedRandom random = random_for(seed);
+  KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(30, 65) * kDegree, random.uniform(0.55, 0.9));
   s.things = make_desk(-0.45, random.uniform(0.3, 0.6), {}, random);
-  s.things.push_back(make_floor(-0.72));
+  s.things.push_back(make_floor(kFloor));
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
   return std::make_unique<StagedSequence>(std::move(s));
 }
