@@ -1,6 +1,5 @@
 #include "tracking/hand_tracker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -165,10 +164,10 @@ void HandTracker::apply(const TrackRequest& request) {
   } else if (const auto* doubt = std::get_if<DoubtSize>(&request)) {
     person_.doubt_size(doubt->size);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
-    std::shared_ptr<Observer> observer = context_.observer;
-    if (!same_observer(context_.params.segment_tracker, changed->params.segment_tracker))
-      observer = make_observer(changed->params.segment_tracker, context_.workers, context_.log);
-    person_.change(changed->params, observer);  // until here it may throw
+    // What may throw comes first.
+    std::shared_ptr<Observer> observer = context_.observer_for(changed->params);
+    person_.change(changed->params, observer);
+
     context_.params = changed->params;
     context_.observer = std::move(observer);
     follower_.change();

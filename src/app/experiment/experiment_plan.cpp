@@ -53,14 +53,11 @@ Result<ExperimentPlan> plan_experiment(const std::string& name, const std::vecto
 std::vector<ExperimentVariant> ablations(const Config& complete) {
   // The complete method comes first.
   std::vector<ExperimentVariant> variants = {{"complete", complete}};
-  const auto without = [&](const char* label, auto change) {
+  const auto variant = [&](const char* label) -> Config& {
     variants.push_back({label, complete});
-    change(variants.back().config.tracker);
+    return variants.back().config;
   };
-  const auto without_nets = [&](const char* label) {
-    variants.push_back({label, complete});
-    variants.back().config.detection.enabled = false;
-  };
+  const auto without = [&](const char* label, auto change) { change(variant(label).tracker); };
 
   // Without one of the parts that estimate the pose.
   without("no_sampling", [](TrackerParams& p) { p.sampling = false; });
@@ -74,7 +71,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
 
   // Without one of the rules of starts, choice and return.
-  without_nets("no_detection");
+  variant("no_detection").detection.enabled = false;
   without("no_doubt", [](TrackerParams& p) { p.choice.doubt = 1000; });
   without("no_uncross", [](TrackerParams& p) { p.choice.uncross = false; });
   without("no_neutral_pose", [](TrackerParams& p) { p.relax = false; });

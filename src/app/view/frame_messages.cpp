@@ -51,6 +51,8 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
                                  const GivenIntrinsics& foreign) {
   ViewFrame::Content content;
   FrameVector<Eigen::Vector3d> places;
+
+  // States and glove values are passed on as received; an image is decoded.
   for (const LcmMessage& message : messages) {
     const MessageKind kind = kind_of(message_hash(message.bytes));
     if (kind == MessageKind::hand_state) {
@@ -67,6 +69,8 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
       if (const auto frame = decode_frame_message(message.bytes, foreign, content.number)) content.frame = *frame;
     }
   }
+
+  // Without states the image gives time and number.
   if (content.frame && content.messages.empty()) {
     content.utime = content.frame->utime;
     content.number = content.frame->number;

@@ -9,7 +9,6 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kStatusPeriodUs = 500'000, kNoFramesUs = 2'000'000;
 constexpr std::int64_t kCompleteUs = 10'000;  // the messages of one frame come within this time
 constexpr std::size_t kImages = 8;            // kept for states that are still to come
 

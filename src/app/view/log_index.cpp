@@ -9,6 +9,7 @@
 namespace barehand {
 
 Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
+  // Open every log, those of sets and folders too.
   LogIndex index;
   std::string names;
   for (const std::string& path : paths) {
@@ -21,6 +22,8 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
     }
     names.append(names.empty() ? "" : ", ").append(path);
   }
+
+  // Find what can be shown.
   index.find_frames();
   if (index.frames_.empty())
     return fail("it holds neither hand states nor frames", names,

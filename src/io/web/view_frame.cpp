@@ -77,6 +77,7 @@ std::vector<std::uint8_t> picture_chunk(const Image<Rgb>& image, ViewPicture kin
 }  // namespace
 
 std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const Intrinsics& camera) {
+  // The rectangle and the range of depths around the points.
   constexpr double kBeside = 0.06, kBefore = 0.1, kBehind = 0.12;  // m, what a hand holds belongs to it
   double left = camera.width, right = 0, top = camera.height, bottom = 0;
   double near = std::numeric_limits<double>::infinity(), far = 0;
@@ -91,6 +92,8 @@ std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const
     near = std::min(near, point.z());
     far = std::max(far, point.z());
   }
+
+  // Its part inside the image.
   const auto inside = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
   const int u = inside(left, camera.width), v = inside(top, camera.height);
   const ViewFocus focus{

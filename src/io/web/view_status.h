@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct PlayedLog {
   double speed = 1;
   std::vector<LostFrames> lost;  ///< in order
 };
+
+inline constexpr std::int64_t kStatusPeriodUs = 500'000;  ///< between two status messages
+inline constexpr std::int64_t kNoFramesUs = 2'000'000;    ///< after so long without a frame the status says so
 
 /// What the page says besides frames.
 struct ViewState {

@@ -97,11 +97,14 @@ Result<int> WebServer::Impl::start() {
                             "enable_directory_listing",
                             "no",
                             nullptr};
+
+  // Listen.
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // said by start() itself
   context_ = mg_start(&callbacks, this, settings);
   if (!context_) return fail("cannot listen on " + port, "view", "another program may have the port; give --view=PORT");
 
+  // Answer, and say at which port where any would do.
   mg_set_request_handler(context_, "**", on_request, this);
   mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
   mg_server_port ports[1] = {};
@@ -133,6 +136,8 @@ void WebServer::Impl::send_error(mg_connection* connection, int status, const ch
 int WebServer::Impl::answer(mg_connection* connection) const {
   const mg_request_info& request = *mg_get_request_info(connection);
   const std::string_view method = request.request_method;
+
+  // Refuse what is not asked by this page, or not for one of its files.
   if (!is_allowed(connection))
     send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
   else if (method != "GET" && method != "HEAD")
@@ -141,6 +146,8 @@ int WebServer::Impl::answer(mg_connection* connection) const {
                options_.files.find(std::string_view(request.local_uri) == "/" ? "/index.html" : request.local_uri);
            file == options_.files.end())
     send_error(connection, 404, "There is no such file.");
+
+  // Send the file; scripts and connections of other origins stay out.
   else {
     mg_printf(connection,
               "HTTP/1.1 200 OK\r\nContent-Type: %s\r\nContent-Length: %zu\r\nCache-Control: no-cache\r\n"

@@ -7,9 +7,6 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kStatusPeriodUs = 500'000;
-constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this long without a frame the status says so
-
 template <class Message>
 ViewMessage encoded(const char* channel, const Message& message) {
   ViewMessage out{channel, {}};
