@@ -6,7 +6,7 @@
 
 #include "stages/pose_prior/hidden_fingers.h"
 #include "stages/segment_tracker/make_observer.h"
-#include "tracking/found_poses.h"
+#include "tracking/restart_consensus.h"
 
 namespace barehand {
 namespace {
