@@ -23,7 +23,8 @@ struct LossParams {
 template <class V>
 void visit(V& v, LossParams& p) {
   v.user("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame with a higher global score is bad (for a hand of 190 mm)");
-  v("recovered_score", p.recovered_score, 1e-4, 0.1, "m, a frame with a lower global score is good; between the two thresholds nothing changes");
+  v("recovered_score", p.recovered_score, 1e-4, 0.1,
+    "m, a frame with a lower global score is good; between the two thresholds nothing changes");
   v("noise_factor", p.noise_factor, 0.0, 10.0,
     "standard deviations of the sensor noise that are added to both thresholds in quadrature");
   v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames after which the hand is lost");

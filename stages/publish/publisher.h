@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Sends messages on `<prefix>`HAND_STATE, GLOVE_STATE, HAND_JOINTS and HEALTH to every sink it was given (a bus, a log,
-/// both). Sinks outlive it.
+/// Sends messages on `<prefix>`HAND_STATE, GLOVE_STATE, HAND_JOINTS and HEALTH to every sink it was given (a bus, a
+/// log, both). Sinks outlive it.
 class Publisher {
  public:
   /// A prefix that makes a channel name longer than 63 bytes is an error.

@@ -59,9 +59,10 @@ bool WatchedSource::look_at_picture(const FramePtr& frame) {
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
   const bool still = fault == DepthFault::repeated;
   if (live() && (still || fault == DepthFault::senseless)) {
-    to_come_.push_back(SkippedFrame{
-        {still ? "the depth image is identical to the previous one, but has a new time stamp" : "the depth image is noise",
-         name(), "check the sensor, or the program that sends its frames"}});
+    to_come_.push_back(
+        SkippedFrame{{still ? "the depth image is identical to the previous one, but has a new time stamp"
+                            : "the depth image is noise",
+                      name(), "check the sensor, or the program that sends its frames"}});
     return false;
   }
   if (fault == DepthFault::senseless)
