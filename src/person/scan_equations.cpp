@@ -208,7 +208,7 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
 bool ScanFrameEquations::factorise_pose(const GaussianTree& tree, bool hold_pose) {
   Eigen::MatrixXd H = dense(tree);
   H.diagonal() *= 1 + kDamping;
-  H.diagonal().array() += hold_pose ? kHeld : 1e-3;
+  H.diagonal().array() += hold_pose ? kFixedInformation : 1e-3;
   g_pose_.resize(kPose);
   for (int s = 0; s < kSegmentCount; ++s) g_pose_.segment<6>(6 * s) = tree.g[s];
   pose_.compute(H);

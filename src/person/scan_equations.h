@@ -19,7 +19,7 @@ struct ScanFrame {
 };
 
 /// Information that effectively fixes an unknown.
-inline constexpr double kHeld = 1e12;
+inline constexpr double kFixedInformation = 1e12;
 
 /// Normal equations H x = g of the unknowns that all frames of a scan share (ScanVariables). Each term involves only
 /// few unknowns, so H is kept as triplets; the exceptions are means over the skin of a bone, which are kept in

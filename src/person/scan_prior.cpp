@@ -68,7 +68,7 @@ class Prior {
       const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
       for (int axis = 0; axis < 3; ++axis) add_one(first + 6 + axis, turn[axis], kRestTurn);
       if (hold)
-        for (int k = first; k < first + ScanVariables::kJoint; ++k) out_.add(k, k, kHeld);
+        for (int k = first; k < first + ScanVariables::kJoint; ++k) out_.add(k, k, kFixedInformation);
     }
   }
 
@@ -78,7 +78,8 @@ class Prior {
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i) {
       add_one(variables_.offset(i), offset_[i], kOffset);
       add_one(variables_.share(i), share_change(i), share_deviation(vertex(i)));
-      if (joints_held && in_middle_of_bone(vertex(i))) out_.add(variables_.share(i), variables_.share(i), kHeld);
+      if (joints_held && in_middle_of_bone(vertex(i)))
+        out_.add(variables_.share(i), variables_.share(i), kFixedInformation);
     }
   }
 

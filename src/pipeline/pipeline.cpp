@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-Overflow door_policy(const FrameSource& source) { return source.live() ? Overflow::drop_oldest : Overflow::block; }
+Overflow input_policy(const FrameSource& source) { return source.live() ? Overflow::drop_oldest : Overflow::block; }
 
 /// A live run holds one item between two stages, since a longer queue would only add latency.
 std::size_t capacity(const FrameSource& source, const PipelineOptions& options) {
@@ -27,7 +27,7 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
       options_(options),
       clock_(clock),
       log_(log),
-      queues_{Queue{"door", capacity(stages_.source, options), door_policy(stages_.source)},
+      queues_{Queue{"input", capacity(stages_.source, options), input_policy(stages_.source)},
               Queue{"to track", capacity(stages_.source, options), Overflow::block},
               Queue{"to sinks", capacity(stages_.source, options), Overflow::block}},
       preprocess_monitor_("preprocess", clock),
@@ -67,11 +67,11 @@ void Pipeline::run_threaded() {
 
   std::jthread preprocessor([&] {
     while (true) {
-      // Taken first: meanwhile a frame at the door can still be replaced by a newer one.
-      const HandEstimates hints = take_hints();
-      auto item = pop(kDoor);
+      // Taken first: meanwhile a frame in the input queue can still be replaced by a newer one.
+      const HandEstimates feedback = take_feedback();
+      auto item = pop(kInput);
       if (!item) break;
-      if (preprocess(*item, hints)) push(kToTrack, std::move(*item));
+      if (preprocess(*item, feedback)) push(kToTrack, std::move(*item));
     }
     queues_[kToTrack].close();
   });
@@ -79,7 +79,7 @@ void Pipeline::run_threaded() {
   // The calling thread serves the source.
   while (capture(options_.patience) != Capture::end) {
   }
-  queues_[kDoor].close();  // the other queues are closed in turn, and the threads join
+  queues_[kInput].close();  // the other queues are closed in turn, and the threads join
 }
 
 void Pipeline::run_inline() {
@@ -88,7 +88,7 @@ void Pipeline::run_inline() {
     captured = capture(options_.patience);
     if (stages_.source.live())  // as with threads, the newest of the frames that arrived meanwhile wins
       for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
-    while (auto item = try_pop(kDoor)) process(std::move(*item));
+    while (auto item = try_pop(kInput)) process(std::move(*item));
     if (captured == Capture::nothing) idle();
   }
 }
@@ -114,11 +114,11 @@ std::optional<Pipeline::Item> Pipeline::waited_for(QueueIndex queue, std::option
 }
 
 void Pipeline::process(Item item) {
-  const HandEstimates hints = take_hints();
-  if (preprocess(item, hints) && track(item)) deliver(item);
+  const HandEstimates feedback = take_feedback();
+  if (preprocess(item, feedback) && track(item)) deliver(item);
 }
 
-HandEstimates Pipeline::take_hints() {
+HandEstimates Pipeline::take_feedback() {
   return next_index_ >= kFeedbackLag ? feedback_.take(next_index_ - kFeedbackLag) : HandEstimates{};
 }
 
@@ -139,7 +139,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
     notice_at_ = kFirstNotice;
-    push(kDoor, {0, clock_.steady_us(), 0, {std::move(*frame), {}, {}}});
+    push(kInput, {0, clock_.steady_us(), 0, {std::move(*frame), {}, {}}});
     return Capture::frame;
   }
 
@@ -169,16 +169,16 @@ Pipeline::Capture Pipeline::waited(std::chrono::milliseconds patience) {
   return Capture::nothing;
 }
 
-bool Pipeline::preprocess(Item& item, const HandEstimates& hints) {
+bool Pipeline::preprocess(Item& item, const HandEstimates& feedback) {
   item.index = next_index_++;
 
-  auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, hints); });
+  auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, feedback); });
   if (observations) {
     item.data.observations = std::move(*observations);
     return true;
   }
 
-  // The tracker's estimate of this frame will be missing, so later frames get empty hints.
+  // The tracker's estimate of this frame will be missing, so later frames get empty feedback.
   feedback_.post(item.index, {});
   ++failed_;
   report(preprocess_monitor_, item, observations.error());
@@ -266,8 +266,8 @@ std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
 PipelinePulse Pipeline::pulse() const {
   // Read before the queue, so that the number of frames inside is never too small.
   const std::int64_t finished = published_ + failed_;
-  const QueueHealth door = queues_[kDoor].health();
-  return {answers_, finished, door.pushed - door.dropped - finished};
+  const QueueHealth input = queues_[kInput].health();
+  return {answers_, finished, input.pushed - input.dropped - finished};
 }
 
 PipelineHealth Pipeline::counts() const {
@@ -277,9 +277,9 @@ PipelineHealth Pipeline::counts() const {
   health.skipped = skipped_;
   health.queues = stages_.source.queues();
   for (const Queue& queue : queues_) health.queues.push_back(queue.health());
-  const QueueHealth& door = own_queues(health)[kDoor];
-  health.captured = door.pushed;
-  health.dropped = door.dropped;
+  const QueueHealth& input = own_queues(health)[kInput];
+  health.captured = input.pushed;
+  health.dropped = input.dropped;
   return health;
 }
 

@@ -28,9 +28,9 @@ inline constexpr std::int64_t kFeedbackLag = 2;
 /// The stages that the pipeline connects. The source and each function are used by one thread only.
 struct PipelineStages {
   FrameSource& source;
-  /// `hints`: the estimates of an earlier frame, see kFeedbackLag; empty for the first frames and where a stage
+  /// `feedback`: the estimates of an earlier frame, see kFeedbackLag; empty for the first frames and where a stage
   /// failed.
-  std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& hints)> preprocess;
+  std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
   std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
 };
@@ -60,7 +60,7 @@ struct PipelinePulse {
 };
 
 /// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on
-/// a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue ("door")
+/// a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue
 /// drops the oldest frames; frames of a replay are never dropped. A frame on which a stage fails is counted, reported
 /// and left out. When the source ends or fails, or the run is stopped, the frames in flight are processed and every
 /// sink is finished. A stage that keeps failing ends the run, and so does a sink of a replay; a sink of a live run
@@ -89,7 +89,7 @@ class Pipeline {
     TrackedFrame data;
   };
   using Queue = BoundedQueue<Item>;
-  enum QueueIndex { kDoor, kToTrack, kToSinks, kQueueCount };
+  enum QueueIndex { kInput, kToTrack, kToSinks, kQueueCount };
   enum class Capture { frame, nothing, end };
 
   // Queues, with the waiting time of each frame.
@@ -107,8 +107,8 @@ class Pipeline {
   void run_threaded();
   // One frame through all stages, on the calling thread.
   void process(Item item);
-  HandEstimates take_hints();
-  bool preprocess(Item& item, const HandEstimates& hints);
+  HandEstimates take_feedback();
+  bool preprocess(Item& item, const HandEstimates& feedback);
   bool track(Item& item);
   void deliver(const Item& item);
   void idle();

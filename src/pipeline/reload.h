@@ -9,7 +9,7 @@
 namespace barehand {
 
 /// Mailboxes for new parameters. Each user takes its own between two frames.
-struct NewParams {
+struct PendingParams {
   Slot<PreprocessParams> preprocess;
   Slot<TrackerParams> tracker;
   Slot<PublishParams> bus, states_log, view;
@@ -19,7 +19,7 @@ struct NewParams {
 class Reload {
  public:
   /// `in_force`: the configuration that the run was started with. `out` must outlive this object.
-  Reload(Config in_force, NewParams& out) : in_force_(std::move(in_force)), out_(out) {}
+  Reload(Config in_force, PendingParams& out) : in_force_(std::move(in_force)), out_(out) {}
 
   /// What changed, one text per value, such as "tracker.doubt: 0.15 -> 0.2".
   struct Changes {
@@ -32,7 +32,7 @@ class Reload {
 
  private:
   Config in_force_;
-  NewParams& out_;
+  PendingParams& out_;
 };
 
 }  // namespace barehand

@@ -11,7 +11,7 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
                    time.mean * 1e3, time.p50 * 1e3, time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
 }
 
-/// "dropped by transit 12, door 2", a line; empty if nothing was.
+/// "dropped by transit 12, input 2", a line; empty if nothing was.
 std::string drops(const std::vector<QueueHealth>& queues) {
   std::string text;
   for (const QueueHealth& queue : queues)

@@ -15,9 +15,9 @@ std::string networks_folder(const std::string& name) {
 
 }  // namespace
 
-TrackStages make_track_stages(const Config& config, const HandsTracker::Profiles& profiles,
+TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
-                              RepeatLog& log, NewParams* news) {
+                              RepeatLog& log, PendingParams* pending) {
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
@@ -26,13 +26,13 @@ TrackStages make_track_stages(const Config& config, const HandsTracker::Profiles
   auto tracker = std::make_shared<CommandedTracker>(
       config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers, std::move(inbox), log);
   if (initial) tracker->start_at(*initial);
-  return {[preprocessor, detection, hands, news](const FramePtr& frame, const HandEstimates& hints) {
-            if (const auto params = news ? news->preprocess.take() : std::nullopt)
+  return {[preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
+            if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
               *preprocessor = std::make_unique<Preprocessor>(*params, hands);
-            return (*preprocessor)->process(frame, hints, detection->process(*frame, hints));
+            return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
           },
-          [tracker, news](const HandObservations& observations) -> Result<HandEstimates> {
-            if (const auto params = news ? news->tracker.take() : std::nullopt) tracker->change(*params);
+          [tracker, pending](const HandObservations& observations) -> Result<HandEstimates> {
+            if (const auto params = pending ? pending->tracker.take() : std::nullopt) tracker->change(*params);
             return tracker->process(observations);
           }};
 }

@@ -28,7 +28,7 @@ FramePtr render_frame(const Skin& skin, const HandPose& pose) {
 }
 
 /// Where the preprocessor is to look.
-HandEstimates hint(const HandPose& pose, const std::shared_ptr<const HandProfile>& profile) {
+HandEstimates feedback_of(const HandPose& pose, const std::shared_ptr<const HandProfile>& profile) {
   auto estimate = std::make_shared<HandEstimate>();
   estimate->status = TrackStatus::tracking;
   estimate->profile = profile;
@@ -49,7 +49,8 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   // The palm's middle on the optical axis.
   const SE3 T_camera_palm{palm_orientation(0, 0, 0), {0, 0.5 * profile->hand_length(), kDistance}};
   const HandPose pose = forward_kinematics(*profile, T_camera_palm, {});
-  const auto seen = Preprocessor(config.preprocess).process(render_frame(*model.skin, pose), hint(pose, profile));
+  const auto seen =
+      Preprocessor(config.preprocess).process(render_frame(*model.skin, pose), feedback_of(pose, profile));
   if (!seen) return tl::unexpected(seen.error());
   if (!seen->front()->hand_present)
     return fail("the test hand is not found with these values", "preprocess", "see barehand track --print-config");

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-CommandedTracker::CommandedTracker(const TrackerParams& params, const HandsTracker::Profiles& profiles,
+CommandedTracker::CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles,
                                    std::uint64_t seed, Workers& workers, Inbox inbox, RepeatLog& log)
     : inbox_(std::move(inbox)), log_(log), tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 

@@ -6,7 +6,7 @@
 
 #include "core/log.h"
 #include "drivers/lcm/command.h"
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 namespace barehand {
 
@@ -22,7 +22,7 @@ class CommandedTracker {
   using Inbox = std::function<std::vector<Result<Command>>()>;
 
   /// `workers` and `log` outlive the tracker.
-  CommandedTracker(const TrackerParams& params, const HandsTracker::Profiles& profiles, std::uint64_t seed,
+  CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles, std::uint64_t seed,
                    Workers& workers, Inbox inbox, RepeatLog& log);
 
   HandEstimates process(const HandObservations& observations);
@@ -41,7 +41,7 @@ class CommandedTracker {
 
   const Inbox inbox_;
   RepeatLog& log_;
-  HandsTracker tracker_;
+  TwoHandTracker tracker_;
   HandEstimates last_;
   std::vector<Command> waiting_;  // one of each kind and hand at most, a profile for any hand once a hand; oldest first
   int allowed_ = kBurst;          // frames on which commands may be followed

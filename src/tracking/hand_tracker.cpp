@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "stages/segment_tracker/make_observer.h"
-#include "tracking/hypotheses/found_poses.h"
+#include "tracking/hypotheses/restart_consensus.h"
 
 namespace barehand {
 namespace {

@@ -62,7 +62,7 @@ class HandTracker {
   HandEstimatePtr process(const HandObservation& observation, std::optional<Hypothesis> found,
                           std::span<const Decision> decisions = {});
   /// The best pose that up to `attempts` searches find in the next observation, if that shows enough of a hand; fewer
-  /// do where they settle it (FoundPoses).
+  /// do where they settle it (RestartConsensus).
   std::optional<Hypothesis> search(const HandObservation& observation, Effort effort, int attempts);
   /// Before the next frame. UseParams may throw; then everything is as before.
   void apply(const TrackRequest& request);

@@ -15,7 +15,7 @@ std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfi
 
 void PersonModel::start_learning() {
   fit_.reset();
-  size_check_.reset();
+  size_verifier_.reset();
   size_in_view_ = 1;
   said_size_ = false;
   const TrackerParams& params = context_.params;
@@ -29,7 +29,7 @@ void PersonModel::start_learning() {
 }
 
 void PersonModel::expect_any_size() {
-  if (context_.params.size_check) size_check_.emplace(context_.params.refinement, model_->profile, model_->skin);
+  if (context_.params.size_check) size_verifier_.emplace(context_.params.refinement, model_->profile, model_->skin);
 }
 
 void PersonModel::reset() {
@@ -49,7 +49,7 @@ void PersonModel::change(const TrackerParams& params, std::shared_ptr<Observer> 
   auto model = std::make_unique<HandModel>(params, model_->profile, context_.workers, std::move(observer));
   model_ = std::move(model);
   if (fit_) fit_->expect_new_skin();
-  if (size_check_) size_check_.emplace(params.refinement, model_->profile, model_->skin);
+  if (size_verifier_) size_verifier_.emplace(params.refinement, model_->profile, model_->skin);
 }
 
 void PersonModel::start_track() {
@@ -59,7 +59,7 @@ void PersonModel::start_track() {
 }
 
 void PersonModel::learn(const HandObservation& observation, const RefinedPose& refined, bool good) {
-  if (size_check_) check_size(observation, refined);
+  if (size_verifier_) check_size(observation, refined);
   if (!good) return;
   if (scan_) scan_->add(observation, refined.pose);
   if (fit_ && !model_->profile->scanned_skin) fit_bones(observation, refined.pose);
@@ -67,7 +67,7 @@ void PersonModel::learn(const HandObservation& observation, const RefinedPose& r
 
 void PersonModel::check_size(const HandObservation& observation, const RefinedPose& refined) {
   if (size_in_view_ != 1) return;
-  const auto size = size_check_->look(observation, refined.pose, refined.score);
+  const auto size = size_verifier_->look(observation, refined.pose, refined.score);
   if (!size) return;
   if (!fit_) return doubt_size(*size);
   context_.log->info("the bone fit starts again with a hand of {:.2f} times the size of the last one", *size);

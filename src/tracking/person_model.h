@@ -6,7 +6,7 @@
 #include "person/person_fit.h"
 #include "person/person_scan.h"
 #include "tracking/hand_model.h"
-#include "tracking/size_check.h"
+#include "tracking/hand_size_verifier.h"
 #include "tracking/tracker_context.h"
 
 namespace barehand {
@@ -52,9 +52,9 @@ class PersonModel {
   const TrackerContext& context_;
   std::shared_ptr<const HandProfile> given_;
   std::unique_ptr<HandModel> model_;
-  std::optional<PersonFit> fit_;         // if the given hand is a mean hand
-  std::unique_ptr<PersonScan> scan_;     // if its skin was not scanned before
-  std::optional<SizeCheck> size_check_;  // of a hand that is not fitted, or no longer
+  std::optional<PersonFit> fit_;                   // if the given hand is a mean hand
+  std::unique_ptr<PersonScan> scan_;               // if its skin was not scanned before
+  std::optional<HandSizeVerifier> size_verifier_;  // of a hand that is not fitted, or no longer
   double size_in_view_ = 1;
   bool said_size_ = false;
 };

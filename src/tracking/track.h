@@ -28,12 +28,12 @@ struct Track {
   bool tentative() const { return state.phase() == TrackPhase::tentative; }
 
   /// Whether a frame is explained worse than `factor` times the baseline, and not confidently either.
-  bool worse_than_usual(double score, double factor, const ChoiceParams& choice) const {
+  bool exceeds_baseline(double score, double factor, const ChoiceParams& choice) const {
     return score >= std::max(choice.search_convincing, factor * baseline.level());
   }
   /// A hand that was lost a moment ago is known: what is explained so much worse is half of it, or something else.
   bool unlike_before(double score, const ChoiceParams& choice) const {
-    return choice.unlike > 0 && state.status() == TrackStatus::lost && worse_than_usual(score, choice.unlike, choice);
+    return choice.unlike > 0 && state.status() == TrackStatus::lost && exceeds_baseline(score, choice.unlike, choice);
   }
   /// Whether a pose of a lost hand needs the next frame's confirmation: half of a hand fits many poses a little.
   /// `confirms`: it continues a tentative pose, and so confirms it.

@@ -12,17 +12,17 @@ namespace {
 constexpr int kBesideTracked = 3;
 constexpr double kLongestPrediction = 0.2;  // s
 
-bool is_tracked(const HandEstimatePtr& hint) { return hint && hint->status == TrackStatus::tracking; }
+bool is_tracked(const HandEstimatePtr& earlier) { return earlier && earlier->status == TrackStatus::tracking; }
 
 /// Where the palm of a tracked hand should be in a frame.
-HandDetector::Expected expected(const HandEstimate& hint, const RgbdFrame& frame) {
-  const SegmentState& palm = hint.segments[kPalm];
-  const Eigen::Vector3d bone = hint.profile ? hint.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
-  const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - hint.utime)) * 1e-6);
+HandDetector::Expected expected(const HandEstimate& earlier, const RgbdFrame& frame) {
+  const SegmentState& palm = earlier.segments[kPalm];
+  const Eigen::Vector3d bone = earlier.profile ? earlier.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
+  const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - earlier.utime)) * 1e-6);
   // A velocity that is not known (NaN) moves nothing.
   const Eigen::Vector3d velocity =
       palm.velocity.allFinite() ? Eigen::Vector3d(palm.velocity.head<3>()) : Eigen::Vector3d::Zero();
-  return {palm.T_camera_segment * (0.5 * bone) + age * velocity, hint.handedness};
+  return {palm.T_camera_segment * (0.5 * bone) + age * velocity, earlier.handedness};
 }
 
 }  // namespace
@@ -40,13 +40,13 @@ DetectionStage::DetectionStage(const DetectionParams& params, const std::string&
   log_->info("hands are found by networks of version {}", detector_->version());
 }
 
-DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const HandEstimatePtr> hints) {
+DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
   const bool valid =
       frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
   if (!detector_ || !valid) return nullptr;  // preprocessing says what is wrong with the frame
   const std::int64_t turn = frame_++;
-  const auto tracked = std::ranges::count_if(hints, is_tracked);
-  const bool all_tracked = !hints.empty() && tracked == static_cast<std::ptrdiff_t>(hints.size());
+  const auto tracked = std::ranges::count_if(feedback, is_tracked);
+  const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
   const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
   const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
   if (all_tracked && !windows) return nullptr;
@@ -55,7 +55,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   if (whole)
     detection = detector_->detect(frame);
   else if (windows)
-    detection = detect_tracked(frame, hints);
+    detection = detect_tracked(frame, feedback);
   if (!detection) {
     log_->warn("hands are found without networks from now on: {}", detection.error().message());
     detector_.reset();
@@ -66,11 +66,11 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   return std::make_shared<const Detection>(std::move(*detection));
 }
 
-Result<Detection> DetectionStage::detect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> hints) {
+Result<Detection> DetectionStage::detect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
   places_.clear();
-  for (const HandEstimatePtr& hint : hints) {
-    if (!is_tracked(hint)) continue;
-    const HandDetector::Expected place = expected(*hint, frame);
+  for (const HandEstimatePtr& earlier : feedback) {
+    if (!is_tracked(earlier)) continue;
+    const HandDetector::Expected place = expected(*earlier, frame);
     if (place.centre.z() > 0) places_.push_back(place);
   }
   return detector_->detect_at(frame, places_);

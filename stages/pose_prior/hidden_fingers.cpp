@@ -37,7 +37,7 @@ bool hidden_to_its_tip(int segment, const Seen& seen) {
 
 }  // namespace
 
-HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose, const Seen& seen) {
+HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, const Seen& seen) {
   constexpr double kDistalShare = 2.0 / 3;
   HandPose result = pose;
   const auto flexion_of = [&](int s) { return std::max(0.0, joint_angles(profile, pose, s).flexion); };

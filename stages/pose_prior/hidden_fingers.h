@@ -11,7 +11,7 @@ namespace barehand {
 
 /// A pose that was found by a search, with its hidden joints at ease: a hidden finger is bent at its root like the
 /// nearest ones that are seen, a hidden joint of a finger like the joint before it, at the tip by two thirds of that.
-HandPose with_hidden_at_ease(const HandProfile& profile, const HandPose& pose,
+HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose,
                              const std::array<bool, kSegmentCount>& seen);
 
 /// `now` with every finger that is hidden, or hidden from some joint on, bent on there by as much as the nearest ones

@@ -6,13 +6,14 @@
 namespace barehand {
 namespace {
 
-constexpr float kOnModel = 0.02f;  // m between data and the moved hint that still means "this is it"
-constexpr float kOwnShare = 0.3f;  // share of a surface that must lie on the hint, unless the surface is large
+constexpr float kOnModel = 0.02f;  // m between data and the moved feedback for a match
+constexpr float kOwnShare =
+    0.3f;  // share of a surface that must lie on the predicted hand, unless the surface is large
 constexpr int kOwnCells = 8;
-constexpr float kLeakReach = 0.03f;      // m around the hint kept of a surface that runs on into table or object
-constexpr float kLeakFactor = 0.6f;      // cells off the hint against cells on it; a fist that opens stays below
-constexpr float kLoosePart = 0.12f;      // share of the hand that a finger cut off by another one may have
-constexpr float kHandRadius = 0.13f;     // m from a hand's centre to its farthest parts
+constexpr float kLeakReach = 0.03f;   // m around the predicted hand kept of a surface that runs on into table or object
+constexpr float kLeakFactor = 0.6f;   // cells off the predicted hand against cells on it; a fist that opens stays below
+constexpr float kLoosePart = 0.12f;   // share of the hand that a finger cut off by another one may have
+constexpr float kHandRadius = 0.13f;  // m from a hand's centre to its farthest parts
 constexpr float kDetectedReach = 0.17f;  // m from the middle of a palm to the farthest fingertip
 constexpr float kSearchRadius = 0.22f;   // m around the hand that is looked at cell by cell
 constexpr float kSideBySide = 0.10f;     // m of depth within which two candidates count as equally near
@@ -23,13 +24,13 @@ constexpr double kCloseBy = 0.05;       // m, motion allowed for a hand that tou
 
 }  // namespace
 
-std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints,
-                                             double hint_age, const Detection* detection) {
+std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
+                                             double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
   if (detection && !grid.coloured) leave_labelled(grid, *detection);  // of a tracked hand, colour tells more
-  const auto tracked = [&](std::size_t k) { return hints_[k] && hints[k]->status == TrackStatus::tracking; };
-  hints_.assign(hands_.size(), std::nullopt);
-  for (std::size_t k = 0; k < hints.size(); ++k) hints_[k] = PredictedHand::from(hints[k].get());
+  const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
+  predictions_.assign(hands_.size(), std::nullopt);
+  for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
   for (CoarseHand& hand : hands_) {
     hand.found = hand.followed = false;
     hand.prediction.reset();
@@ -41,9 +42,9 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     if (!tracked(k)) continue;
     candidates_ = all_candidates_;
     for (std::size_t other = 0; other < hands_.size(); ++other)
-      if (other != k && tracked(other)) leave_to(grid, *hints_[other], *hints_[k]);
+      if (other != k && tracked(other)) leave_to(grid, *predictions_[other], *predictions_[k]);
     split_surfaces(grid, candidates_, surfaces_);
-    hands_[k].found = hands_[k].followed = follow(grid, *hints_[k], hint_age, detection, hands_[k]);
+    hands_[k].found = hands_[k].followed = follow(grid, *predictions_[k], feedback_age, detection, hands_[k]);
   }
   if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
   candidates_ = all_candidates_;
@@ -51,9 +52,9 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     if (hand.followed) take_away(grid, hand);
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     CoarseHand& hand = hands_[k];
-    if (hand.found || !hints_[k] || tracked(k)) continue;
+    if (hand.found || !predictions_[k] || tracked(k)) continue;
     split_surfaces(grid, candidates_, surfaces_);
-    hand.found = hand.followed = follow(grid, *hints_[k], hint_age, detection, hand);
+    hand.found = hand.followed = follow(grid, *predictions_[k], feedback_age, detection, hand);
     if (hand.found) take_away(grid, hand);
   }
   for (CoarseHand& hand : hands_) {  // only now: a hand that is held may be the nearest of all
@@ -187,9 +188,9 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
   return translation_.find(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
-bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double hint_age, const Detection* detection,
+bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
                         CoarseHand& hand) {
-  const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(hint_age, 0.0, 0.5));
+  const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(feedback_age, 0.0, 0.5));
   if (!step) return false;
   body.translate(*step);
   const float margin = static_cast<float>(params_.wrist_margin);

@@ -15,31 +15,31 @@ namespace barehand {
 /// The hand in the coarse grid.
 struct CoarseHand {
   bool found = false;
-  bool followed = false;                    ///< found where its hint said
+  bool followed = false;                    ///< found where the feedback predicts it
   Image<std::uint8_t> cells;                ///< 1 = hand
-  std::optional<PredictedHand> prediction;  ///< the hint, moved to where the hand is now; none if it did not help
+  std::optional<PredictedHand> prediction;  ///< the feedback, moved to where the hand is now; none if that fails
   Image<float> distance;                    ///< [m] from candidates to the prediction's skin; infinite far away
   std::optional<WristPlane> wrist;          ///< what lies behind is forearm
   const DetectedHand* detected = nullptr;   ///< the detected hand that this is; null: none
 };
 
-/// Looks for one or several hands, each where its hint says, moved by up to max_speed * age of the hint: tracked ones
-/// first. Then for those that are not there, or have no hint, in what is left of the image. A cell belongs to one hand
-/// at most.
+/// Looks for one or several hands. Those with feedback are expected at its pose, moved by up to max_speed times its
+/// age, tracked ones first. Hands that are not there, or have no feedback, are searched in the rest of the image. A
+/// cell belongs to one hand at most.
 class HandSearch {
  public:
   HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
-  /// `hints`: one a hand or none at all; each may be null. `hint_age`: seconds between the hints' frame and this one.
+  /// `feedback`: one estimate per hand or none at all; each may be null. `feedback_age`: seconds since its frame.
   /// `detection`: of this frame; where it has looked, its labels tell a hand from arm, object and background, and
   /// where it has looked at everything, nothing else is a hand. Null: surfaces and colours alone decide.
-  /// One result a hand, in the order of the hints; they live until the next call and as long as `detection`.
-  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> hints, double hint_age,
-                                   const Detection* detection = nullptr);
+  /// One result a hand, in the order of the feedback; they live until the next call and as long as `detection`.
+  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
+                                   double feedback_age, const Detection* detection = nullptr);
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
   void leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
-  bool follow(const CoarseGrid& grid, PredictedHand body, double hint_age, const Detection* detection,
+  bool follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
               CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
   void leave_labelled(const CoarseGrid& grid, const Detection& detection);
@@ -62,7 +62,7 @@ class HandSearch {
   Components surfaces_;
   std::vector<Share> shares_;  // of every surface
   std::vector<CoarseHand> hands_;
-  std::vector<std::optional<PredictedHand>> hints_;
+  std::vector<std::optional<PredictedHand>> predictions_;
 };
 
 }  // namespace barehand

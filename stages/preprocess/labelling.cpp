@@ -43,26 +43,26 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand, std::span
 }
 
 void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region) {
-  own_odds_.reset(region.width, region.height);
-  tells_.reset(region.width, region.height);
-  unlike_.reset(region.width, region.height);
+  skin_log_odds_.reset(region.width, region.height);
+  coloured_.reset(region.width, region.height);
+  non_skin_.reset(region.width, region.height);
   colours_.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
     std::copy_n(colour, region.width, colours_.row(v));
     const float* nearest = lowest_.row(row_[v]);
-    float* odds = own_odds_.row(v);
-    std::uint8_t *tells = tells_.row(v), *unlike = unlike_.row(v);
+    float* odds = skin_log_odds_.row(v);
+    std::uint8_t *coloured = coloured_.row(v), *non_skin = non_skin_.row(v);
     for (int u = 0; u < region.width; ++u) {
       const bool beside_hand = nearest[column_[u]] < INFINITY;
       odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
-      tells[u] = odds[u] != 0.f;
-      unlike[u] = odds[u] < 0.f;
+      coloured[u] = odds[u] != 0.f;
+      non_skin[u] = odds[u] < 0.f;
     }
   }
-  sum_odds_.compute(own_odds_, params_.skew_px, odds_);
-  count_.compute(tells_, params_.skew_px, telling_);
-  count_.compute(unlike_, params_.skew_px, unlikes_);
+  sum_odds_.compute(skin_log_odds_, params_.skew_px, summed_log_odds_);
+  count_.compute(coloured_, params_.skew_px, coloured_count_);
+  count_.compute(non_skin_, params_.skew_px, non_skin_count_);
 }
 
 void HandMask::find_supported(const Image<float>& depth) {
@@ -101,16 +101,17 @@ void HandMask::judge_colour(const Image<float>& depth) {
   constexpr auto kNone = static_cast<std::int32_t>(Evidence::none), kHand = static_cast<std::int32_t>(Evidence::hand),
                  kOther = static_cast<std::int32_t>(Evidence::other), kOpen = static_cast<std::int32_t>(Evidence::open);
   const float least_skin = static_cast<float>(params_.skin_odds), most_other = -static_cast<float>(params_.other_odds);
-  const int window = 2 * params_.skew_px + 1, most_telling = window * window;
+  const int window = 2 * params_.skew_px + 1, most_coloured = window * window;
   const int width = depth.width();
   judged_.resize(width);
   for (int v = 0; v < depth.height(); ++v) {
-    const float *z = depth.row(v), *sum = odds_.row(v), *own = own_odds_.row(v);
-    const std::uint16_t *telling = telling_.row(v), *edges = edges_.row(v), *unlikes = unlikes_.row(v);
+    const float *z = depth.row(v), *sum = summed_log_odds_.row(v), *own = skin_log_odds_.row(v);
+    const std::uint16_t *coloured_count = coloured_count_.row(v), *edges = edges_.row(v),
+                        *non_skin_count = non_skin_count_.row(v);
     const std::uint8_t* supported = supported_.row(v);
     std::int32_t* judged = judged_.data();
     for (int u = 0; u < width; ++u) {  // everything is computed before it is chosen from: it vectorises
-      const float mean = sum[u] / static_cast<float>(telling[u]);
+      const float mean = sum[u] / static_cast<float>(coloured_count[u]);
       // Beside a colour border the mean alone would take a strip of one side for the other.
       const bool skin = (mean > least_skin) & (own[u] > 0), other = (mean < most_other) & (own[u] < most_other);
       std::int32_t e = other ? kOther : kOpen;
@@ -118,7 +119,7 @@ void HandMask::judge_colour(const Image<float>& depth) {
       e = supported[u] ? e : kOther;
       // Nothing but skin around it is more than a strip of the next surface's colour. A fingertip that shows behind an
       // object lies beside edges as a whole: it would go to the object.
-      const bool sure = skin & (unlikes[u] == 0) & (2 * telling[u] > most_telling);
+      const bool sure = skin & (non_skin_count[u] == 0) & (2 * coloured_count[u] > most_coloured);
       e = (edges[u] > 0) & !sure ? kOpen : e;
       judged[u] = z[u] > 0 ? e : kNone;
     }
@@ -150,7 +151,7 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     for (int u = 0; u < region.width; ++u) {
       const bool open = evidence[u] == Evidence::open;
       if (!(supported[u] & (open | (evidence[u] == Evidence::hand)))) continue;
-      if (open && odds_.at(u, v) < 0) continue;
+      if (open && summed_log_odds_.at(u, v) < 0) continue;
       mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, depth.at(u, v))) <= 0;
     }
   }

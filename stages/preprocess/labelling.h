@@ -4,7 +4,7 @@
 
 #include "observe/dense/pixel_rays.h"
 #include "observe/observation.h"
-#include "stages/preprocess/depth_map.h"
+#include "stages/preprocess/depth_cleaner.h"
 #include "stages/preprocess/hand_search.h"
 #include "stages/preprocess/image/specks.h"
 #include "stages/preprocess/image/window_sum.h"
@@ -37,13 +37,13 @@ class HandMask {
   Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
   std::vector<float> low_, high_;  // the same along a row of pixels
   std::vector<std::int32_t> judged_;
-  Image<std::uint8_t> supported_;  // 1 = may be hand as far as depth says
-  Image<float> own_odds_, odds_;   // of a pixel, and summed over the `skew_px` around it
-  Image<std::uint8_t> tells_;      // 1 = its colour says anything
-  Image<std::uint16_t> telling_;   // the same, counted in its surroundings
-  Image<std::uint8_t> unlike_;     // 1 = its colour rather is none of skin
-  Image<std::uint16_t> unlikes_;   // the same, counted in its surroundings
-  Image<std::uint16_t> edges_;     // depth edges in its surroundings
+  Image<std::uint8_t> supported_;                 // 1 = may be hand as far as depth says
+  Image<float> skin_log_odds_, summed_log_odds_;  // of a pixel, and summed over the `skew_px` around it
+  Image<std::uint8_t> coloured_;                  // 1 = its colour is evidence for or against skin
+  Image<std::uint16_t> coloured_count_;           // the same, counted in its surroundings
+  Image<std::uint8_t> non_skin_;                  // 1 = its colour is evidence against skin
+  Image<std::uint16_t> non_skin_count_;           // the same, counted in its surroundings
+  Image<std::uint16_t> edges_;                    // depth edges in its surroundings
   WindowSum<float> sum_odds_;
   WindowSum<std::uint16_t> count_;
   Image<Rgb> colours_;  // of the region

@@ -11,20 +11,20 @@ constexpr float kPalmRadius = 0.013f;  // half the thickness of a palm; neighbou
 
 }  // namespace
 
-std::optional<PredictedHand> PredictedHand::from(const HandEstimate* hint) {
-  if (!hint || !hint->has_pose() || !hint->profile) return std::nullopt;
-  for (const SegmentState& s : hint->segments)
+std::optional<PredictedHand> PredictedHand::from(const HandEstimate* earlier) {
+  if (!earlier || !earlier->has_pose() || !earlier->profile) return std::nullopt;
+  for (const SegmentState& s : earlier->segments)
     if (!s.T_camera_segment.all_finite()) return std::nullopt;
   PredictedHand hand;
-  const SE3& palm = hint->segments[kPalm].T_camera_segment;
+  const SE3& palm = earlier->segments[kPalm].T_camera_segment;
   hand.wrist_ = palm.t.cast<float>();
   hand.arm_axis_ = palm.R.col(2).cast<float>();
   for (int ray = 0; ray < kPalmRays; ++ray)
-    hand.capsules_[ray] = {hand.wrist_, hint->segments[segment_of(ray + 1, 0)].T_camera_segment.t.cast<float>(),
+    hand.capsules_[ray] = {hand.wrist_, earlier->segments[segment_of(ray + 1, 0)].T_camera_segment.t.cast<float>(),
                            kPalmRadius};
   for (int s = 1; s < kSegmentCount; ++s) {
-    const SegmentProfile& profile = hint->profile->segments[s];
-    const SE3& T = hint->segments[s].T_camera_segment;
+    const SegmentProfile& profile = earlier->profile->segments[s];
+    const SE3& T = earlier->segments[s].T_camera_segment;
     hand.capsules_[kPalmRays + s - 1] = {T.t.cast<float>(), (T * profile.distal).cast<float>(),
                                          static_cast<float>(0.5 * (profile.radius[0] + profile.radius[1]))};
   }

@@ -21,7 +21,7 @@ class PredictedHand {
   static constexpr int kRods = 19;
 
   /// None if the estimate has no pose or no profile.
-  static std::optional<PredictedHand> from(const HandEstimate* hint);
+  static std::optional<PredictedHand> from(const HandEstimate* earlier);
 
   /// Distance [m] from a point to the skin; negative inside.
   float distance(const Eigen::Vector3f& p) const;

@@ -47,16 +47,16 @@ void thin_cloud(int many, HandObservation& out) {
 Preprocessor::Preprocessor(const PreprocessParams& params, int hands)
     : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {}
 
-Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> hints,
+Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> feedback,
                                                const DetectionPtr& detection) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
   sample_coarsely(*frame, params_, skin_, grid_);
-  const double age = hints.empty() ? 0 : std::abs(static_cast<double>(frame->utime - hints[0]->utime)) * 1e-6;
-  const std::span<const CoarseHand> hands = search_.find(grid_, hints, age, detection.get());
+  const double age = feedback.empty() ? 0 : std::abs(static_cast<double>(frame->utime - feedback[0]->utime)) * 1e-6;
+  const std::span<const CoarseHand> hands = search_.find(grid_, feedback, age, detection.get());
   HandObservations result;
   if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
   for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands, detection));
-  learn_skin(hands, hints, result);
+  learn_skin(hands, feedback, result);
   return result;
 }
 
@@ -143,12 +143,12 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
   return region;
 }
 
-void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> hints,
+void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
                               const HandObservations& seen) {
   if (!grid_.coloured) return;
   teachers_.clear();
-  for (std::size_t k = 0; k < hints.size(); ++k)
-    if (seen[k]->followed && hints[k]->status == TrackStatus::tracking) teachers_.push_back(&hands[k]);
+  for (std::size_t k = 0; k < feedback.size(); ++k)
+    if (seen[k]->followed && feedback[k]->status == TrackStatus::tracking) teachers_.push_back(&hands[k]);
   if (teachers_.empty()) return;
   skin_colours_.clear();
   other_colours_.clear();

@@ -20,14 +20,14 @@ class Preprocessor {
  public:
   explicit Preprocessor(const PreprocessParams& params, int hands = 1);
 
-  /// `hints`: the tracker's estimates of an earlier frame, typically two before, one a hand; empty while nothing is
-  /// tracked. They may be stale: they are moved to where their hands are now, and not used if that fails. With status
-  /// `tracking` the skin model learns from them. Without hints the nearest hand-like things in the image are the hands,
-  /// whichever they are. `detection`: what networks say of this frame; null: they were not asked. One observation a
-  /// hand, in the order of the hints; no pixel is a hand in two of them. Errors: frame without valid intrinsics, or
-  /// depth or colour of another size than they say. A frame without hand is no error: hand_present is false and the
-  /// maps are empty.
-  Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> hints,
+  /// `feedback`: the tracker's estimates of an earlier frame, typically two before, one per hand; empty while nothing
+  /// is tracked. They may be stale: they are moved to where their hands are now, and not used if that fails. With
+  /// status `tracking` the skin model learns from them. Without feedback the nearest skin-like surfaces in the image
+  /// are taken, and which hand each one is stays open. `detection`: result of the networks for this frame; null: none.
+  /// Returns one observation per hand, in the order of the feedback; no pixel belongs to two hands. Errors: frame
+  /// without valid intrinsics, or depth or colour of another size than they say. A frame without hand is no error:
+  /// hand_present is false and the maps are empty.
+  Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> feedback,
                                    const DetectionPtr& detection = nullptr);
 
  private:
@@ -36,7 +36,7 @@ class Preprocessor {
   void leave_out_taken(const HandObservation& out);
   Region region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const;
   void describe_hand(HandObservation& out);
-  void learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> hints,
+  void learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
                   const HandObservations& seen);
 
   PreprocessParams params_;

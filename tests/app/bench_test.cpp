@@ -104,7 +104,7 @@ BenchReport small_report() {
 
     // Its times; the queue was not measured.
     row.result.health.stages = {{"track", {100, 0.008, 0.007, 0.009, 0.010, 0.011}, 0}};
-    row.result.health.queues = {{"door", 1, 0, 0, 0, 0, {0, kNaN, kNaN, kNaN, kNaN, kNaN}}};
+    row.result.health.queues = {{"input", 1, 0, 0, 0, 0, {0, kNaN, kNaN, kNaN, kNaN, kNaN}}};
     row.result.health.latency = {100, 0.012, 0.011, 0.013, 0.014, 0.015};
     report.rows.push_back(row);
   }

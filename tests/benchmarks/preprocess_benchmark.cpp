@@ -9,7 +9,7 @@ namespace {
 
 void whole_stage(benchmark::State& state) {
   const World& w = world();
-  const HandEstimates before = hints(w);
+  const HandEstimates before = feedback(w);
   Preprocessor preprocessor(w.preprocess);
   for (auto _ : state) benchmark::DoNotOptimize(preprocessor.process(w.frame, before));
 }
@@ -17,7 +17,7 @@ BENCHMARK(whole_stage)->Name("preprocess")->Unit(benchmark::kMicrosecond);
 
 void masks(benchmark::State& state) {
   const World& w = world();
-  const HandEstimates before = hints(w);
+  const HandEstimates before = feedback(w);
   const SkinModel skin(w.preprocess.learning_rate, w.preprocess.learned_share);
   CoarseGrid grid;
   HandSearch search(w.preprocess, 1);

@@ -22,15 +22,15 @@ World make_world() {
   w.pose = test::facing_pose(*w.profile, 0.5, 0.5);
   w.predicted = beside(w.pose);
   w.frame = test::paint_frame(*w.skin, w.pose, {640, 480, 525, 525, 319.5, 239.5});
-  w.observation = Preprocessor(w.preprocess).process(w.frame, hints(w)).value().front();
+  w.observation = Preprocessor(w.preprocess).process(w.frame, feedback(w)).value().front();
   return w;
 }
 
 }  // namespace
 
-HandEstimates hints(const World& world) { return {std::make_shared<HandEstimate>(hint(world))}; }
+HandEstimates feedback(const World& world) { return {std::make_shared<HandEstimate>(earlier_estimate(world))}; }
 
-HandEstimate hint(const World& world) {
+HandEstimate earlier_estimate(const World& world) {
   HandEstimate estimate;
   estimate.status = TrackStatus::tracking;
   estimate.profile = world.profile;

@@ -26,8 +26,8 @@ struct World {
 const World& world();
 
 /// The estimate of the frame before.
-HandEstimate hint(const World& world);
+HandEstimate earlier_estimate(const World& world);
 /// The same as the preprocess stage gets it.
-HandEstimates hints(const World& world);
+HandEstimates feedback(const World& world);
 
 }  // namespace barehand::bench

@@ -18,7 +18,7 @@ class DetectionStageTest : public ::testing::Test {
     params.enabled = true;
     return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
   }
-  HandEstimatePtr hint(TrackStatus status) const {
+  HandEstimatePtr earlier(TrackStatus status) const {
     auto estimate = std::make_shared<HandEstimate>();
     estimate->status = status;
     estimate->profile = profile_;
@@ -40,8 +40,8 @@ TEST_F(DetectionStageTest, SwitchedOffItFindsNothing) {
 TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
   DetectionStage searching = stage();
   for (const TrackStatus status : {TrackStatus::searching, TrackStatus::holding, TrackStatus::lost}) {
-    const std::vector<HandEstimatePtr> hints = {hint(status)};
-    const DetectionPtr detection = searching.process(*frame_, hints);
+    const std::vector<HandEstimatePtr> feedback = {earlier(status)};
+    const DetectionPtr detection = searching.process(*frame_, feedback);
     ASSERT_TRUE(detection);
     EXPECT_TRUE(detection->whole_frame);
     EXPECT_EQ(detection->hands.size(), 1u);
@@ -50,23 +50,23 @@ TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
 
 TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereThereIsNoColour) {
   DetectionStage tracking = stage();
-  const std::vector<HandEstimatePtr> hints = {hint(TrackStatus::tracking)};
-  const DetectionPtr without_colour = tracking.process(*frame_, hints);
+  const std::vector<HandEstimatePtr> feedback = {earlier(TrackStatus::tracking)};
+  const DetectionPtr without_colour = tracking.process(*frame_, feedback);
   ASSERT_TRUE(without_colour);
   EXPECT_FALSE(without_colour->whole_frame);
   EXPECT_EQ(without_colour->hands.size(), 1u);
   paint({200, 150, 120});
-  EXPECT_EQ(tracking.process(*frame_, hints), nullptr);
+  EXPECT_EQ(tracking.process(*frame_, feedback), nullptr);
   paint({120, 120, 120});
-  EXPECT_TRUE(tracking.process(*frame_, hints));
+  EXPECT_TRUE(tracking.process(*frame_, feedback));
 }
 
 TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
   paint({200, 150, 120});
   DetectionStage both = stage();
-  const std::vector<HandEstimatePtr> hints = {hint(TrackStatus::tracking), hint(TrackStatus::searching)};
+  const std::vector<HandEstimatePtr> feedback = {earlier(TrackStatus::tracking), earlier(TrackStatus::searching)};
   int looked = 0;
-  for (int i = 0; i < 9; ++i) looked += both.process(*frame_, hints)->hands.size() == 1;
+  for (int i = 0; i < 9; ++i) looked += both.process(*frame_, feedback)->hands.size() == 1;
   EXPECT_EQ(looked, 3);
 }
 

@@ -66,7 +66,7 @@ class RecordingSink : public Sink {
   std::atomic<int> idle_calls = 0;
 };
 
-/// Stages whose results depend on the hint and on everything tracked before, and that fail on given frames.
+/// Stages whose results depend on the feedback and on everything tracked before, and that fail on given frames.
 struct World {
   explicit World(bool threaded) { options.threaded = threaded; }
 
@@ -80,12 +80,12 @@ struct World {
   }
 
   Result<HandObservations> preprocess(const FramePtr& f, const HandEstimates& before) {
-    const HandEstimatePtr hint = before.empty() ? nullptr : before[0];
-    hints.push_back(hint ? static_cast<int>(hint->number) : -1);
+    const HandEstimatePtr earlier = before.empty() ? nullptr : before[0];
+    feedback.push_back(earlier ? static_cast<int>(earlier->number) : -1);
     if (before_preprocess) before_preprocess(f);
     auto made = std::make_shared<HandObservation>();
     made->frame = f;
-    made->noise = 1.0 / (f->number + 3) + (hint ? hint->score / 3 : 0);
+    made->noise = 1.0 / (f->number + 3) + (earlier ? earlier->score / 3 : 0);
     return HandObservations{made};
   }
 
@@ -106,7 +106,7 @@ struct World {
   RecordingSink sink;
   std::function<void(const FramePtr&)> before_preprocess;
   std::function<Result<void>(const FramePtr&)> before_track;
-  std::vector<int> hints;
+  std::vector<int> feedback;
   double memory = 0;
   std::unique_ptr<Pipeline> pipeline;
 };
@@ -144,7 +144,7 @@ TEST_P(PipelineLifecycle, FinishDrainsEverything) {
 TEST_P(PipelineLifecycle, HintIsTheEstimateTwoFramesBack) {
   ScriptedSource source(false, frames_then_end(6));
   world_.run(source);
-  EXPECT_THAT(world_.hints, ElementsAre(-1, -1, 0, 1, 2, 3));
+  EXPECT_THAT(world_.feedback, ElementsAre(-1, -1, 0, 1, 2, 3));
 }
 
 TEST_P(PipelineLifecycle, MeasuresTheWaitInEveryQueueThatWasPassed) {
@@ -173,7 +173,7 @@ TEST_P(PipelineLifecycle, HintIsNullWhereTheFrameFailed) {
     return f->number == 3 ? Result<void>(fail("bad")) : Result<void>();
   };
   const RunResult result = world_.run(source);
-  EXPECT_THAT(world_.hints, ElementsAre(-1, -1, 0, -1, 2, -1, 4));
+  EXPECT_THAT(world_.feedback, ElementsAre(-1, -1, 0, -1, 2, -1, 4));
   EXPECT_THAT(world_.sink.numbers, ElementsAre(0, 2, 4, 5, 6));
   EXPECT_EQ(result.health.failed, 2);
   expect_balanced(result.health);
@@ -422,7 +422,7 @@ TEST(PipelineRunners, ThreadedAndInlineGiveIdenticalResults) {
     };
     world->run(source);
   }
-  EXPECT_EQ(threaded.hints, single.hints);
+  EXPECT_EQ(threaded.feedback, single.feedback);
   EXPECT_EQ(threaded.sink.numbers, single.sink.numbers);
   EXPECT_EQ(threaded.sink.scores, single.sink.scores);  // exactly equal
 }
@@ -489,7 +489,7 @@ TEST(PipelineRunners, HealthNamesTheQueuesOfTheSourceFirst) {
   const PipelineHealth health = world.run(source).health;
   ASSERT_EQ(health.queues.size(), 4u);
   EXPECT_EQ(health.queues[0].name, "transit");
-  EXPECT_EQ(health.queues[1].name, "door");
+  EXPECT_EQ(health.queues[1].name, "input");
   EXPECT_EQ(health.captured, 1);
   EXPECT_EQ(health.dropped, 0) << "what was lost before it came counts apart";
 }

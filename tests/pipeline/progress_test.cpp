@@ -63,16 +63,16 @@ TEST(Summary, TellsFramesStatusAndTimes) {
   health.failed = 1;
   health.skipped = 3;
   health.stages = {{"track", {7, 0.012, 0.011, 0.02, 0.03, 0.031}, 1}, {"unused", {}, 0}};
-  health.queues = {{"transit", 0, 0, 22, 10, 12, {}}, {"inbox", 1, 0, 10, 10, 0, {}}, {"door", 4, 0, 10, 8, 2, {}}};
+  health.queues = {{"transit", 0, 0, 22, 10, 12, {}}, {"inbox", 1, 0, 10, 10, 0, {}}, {"input", 4, 0, 10, 8, 2, {}}};
   StatusCounts status;
   status.frames = {1, 5, 0, 1};
   const std::string text = summary(health, {status}, 2.0);
   EXPECT_THAT(text, HasSubstr("10 frames in 2.0 s (3.5 frames/s): 7 published, 2 dropped, 1 failed; 3 unreadable"));
-  EXPECT_THAT(text, HasSubstr("\ndropped by transit 12, door 2\n"));
+  EXPECT_THAT(text, HasSubstr("\ndropped by transit 12, input 2\n"));
   EXPECT_THAT(text, HasSubstr("tracked in 5 frames, held in 0, lost in 1, searched for in 1"));
   EXPECT_THAT(text, HasSubstr("track                   7    12.00    11.00    20.00    30.00    31.00"));
   EXPECT_EQ(text.find("unused"), std::string::npos);
-  EXPECT_THAT(health_line(health), HasSubstr("[transit 0/0, 12 dropped] [inbox 0/1] [door 0/4, 2 dropped]"));
+  EXPECT_THAT(health_line(health), HasSubstr("[transit 0/0, 12 dropped] [inbox 0/1] [input 0/4, 2 dropped]"));
 }
 
 }  // namespace

@@ -17,23 +17,23 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 TEST(Reload, HandsOutTheGroupsThatChanged) {
-  NewParams news;
-  Reload reload({}, news);
+  PendingParams pending;
+  Reload reload({}, pending);
   Config wanted;
   wanted.tracker.choice.doubt = 0.5;
   wanted.tracker.fusion.levels = 2;
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));
   EXPECT_THAT(changes.for_restart, IsEmpty());
-  EXPECT_EQ(news.tracker.take()->choice.doubt, 0.5);
-  EXPECT_FALSE(news.preprocess.take());
-  EXPECT_FALSE(news.bus.take());
+  EXPECT_EQ(pending.tracker.take()->choice.doubt, 0.5);
+  EXPECT_FALSE(pending.preprocess.take());
+  EXPECT_FALSE(pending.bus.take());
 }
 
 TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   // Change values of both kinds.
-  NewParams news;
-  Reload reload({}, news);
+  PendingParams pending;
+  Reload reload({}, pending);
   Config wanted;
   wanted.run.channel_prefix = "LEFT_";
   wanted.tracker.shape_fit.enabled = !wanted.tracker.shape_fit.enabled;
@@ -42,9 +42,9 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   EXPECT_THAT(changes.made, ElementsAre("tracker.loss.hold_time: 0.5 -> 2"));
   EXPECT_THAT(changes.for_restart,
               ElementsAre("run.channel_prefix: \"\" -> \"LEFT_\"", "tracker.shape_fit.enabled: true -> false"));
-  EXPECT_EQ(news.tracker.take()->shape_fit.enabled, Config{}.tracker.shape_fit.enabled);
-  EXPECT_EQ(news.bus.take()->hold_time, 2) << "one key serves the tracker and what is published";
-  EXPECT_EQ(news.states_log.take()->hold_time, 2);
+  EXPECT_EQ(pending.tracker.take()->shape_fit.enabled, Config{}.tracker.shape_fit.enabled);
+  EXPECT_EQ(pending.bus.take()->hold_time, 2) << "one key serves the tracker and what is published";
+  EXPECT_EQ(pending.states_log.take()->hold_time, 2);
 
   // A second call lists only what still waits for a restart.
   EXPECT_EQ(reload.apply(wanted).for_restart.size(), 2u) << "still not in force";
@@ -65,14 +65,14 @@ TEST(Reload, PreprocessWorksWithTheNewParametersFromTheNextFrameOn) {
   ManualClock clock;
   RepeatLog log(make_silent_logger(), clock);
   Workers workers(1);
-  NewParams news;
-  const TrackStages stages = make_track_stages({}, {profile}, std::nullopt, {}, workers, log, &news);
+  PendingParams pending;
+  const TrackStages stages = make_track_stages({}, {profile}, std::nullopt, {}, workers, log, &pending);
   EXPECT_TRUE(stages.preprocess(frame, {})->front()->hand_present);
 
   // With another range of depth they do not.
   PreprocessParams near;
   near.max_depth = 0.3;
-  news.preprocess.put(near);
+  pending.preprocess.put(near);
   EXPECT_FALSE(stages.preprocess(frame, {})->front()->hand_present);
 }
 
@@ -91,13 +91,13 @@ TEST(Reload, WhatIsPublishedFollowsFromTheNextFrameOn) {
   lost->status = TrackStatus::lost;
 
   // Between the frames the hold time becomes zero.
-  Slot<PublishParams> news;
+  Slot<PublishParams> pending;
   {
-    auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", false, &news).value();
+    auto sink = StatesLogSink::create({}, "", folder / "states.lcmlog", false, &pending).value();
     ASSERT_TRUE(sink->consume({nullptr, {}, {estimate}}));
     PublishParams no_hold;
     no_hold.hold_time = 0;
-    news.put(no_hold);
+    pending.put(no_hold);
     ASSERT_TRUE(sink->consume({nullptr, {}, {lost}}));
   }
 

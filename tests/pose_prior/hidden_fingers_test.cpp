@@ -62,7 +62,7 @@ TEST_P(HiddenFingers, AreAtEaseLikeTheirNeighbours) {
   const HandPose found = with_finger_of(bent(40, 50, 30), bent(0, 0, 60), kLittle);
   hide(seen_, kLittle);
   hide(seen_, kIndex, 2);
-  const HandPose eased = with_hidden_at_ease(profile_, found, seen_);
+  const HandPose eased = with_hidden_neutral(profile_, found, seen_);
   EXPECT_NEAR(flexion(eased, kLittle, 0), 40, 1e-6);
   EXPECT_NEAR(flexion(eased, kLittle, 1), 40, 1e-6);
   EXPECT_NEAR(flexion(eased, kLittle, 2), 40 * 2.0 / 3, 1e-6);

@@ -50,8 +50,8 @@ DetectionPtr detected(const PaintedScene& scene, double x = -0.1) {
 class DetectionMask : public ::testing::Test {
  protected:
   HandObservationPtr observe(const PaintedScene& scene, const DetectionPtr& detection,
-                             std::vector<HandEstimatePtr> hints = {}, int number = 0) {
-    const auto result = preprocessor_.process(scene.share(number), hints, detection);
+                             std::vector<HandEstimatePtr> feedback = {}, int number = 0) {
+    const auto result = preprocessor_.process(scene.share(number), feedback, detection);
     EXPECT_TRUE(result);
     return result->front();
   }
@@ -74,10 +74,10 @@ TEST_F(DetectionMask, AHandThatIsOneSurfaceWithArmAndBodyIsFoundByItsLabelsOnly)
 }
 
 TEST_F(DetectionMask, ItStaysSoWhileItIsTracked) {
-  const auto hint = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
+  const auto earlier = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
   const auto detection = std::make_shared<Detection>(*detected(person()));
   detection->whole_frame = false;
-  const auto observation = observe(person(), detection, {hint}, 2);
+  const auto observation = observe(person(), detection, {earlier}, 2);
   EXPECT_TRUE(observation->followed);
   expect_hand_alone(*observation);
   EXPECT_TRUE(observation->detected);

@@ -15,17 +15,17 @@ using test::PaintedScene;
 constexpr double kX = 0.0, kY = 0.06, kZ = 0.5;  // wrist
 
 /// The only hand.
-HandObservationPtr process(Preprocessor& preprocessor, const FramePtr& frame, const HandEstimate* hint = nullptr) {
-  HandEstimates hints;
-  if (hint) hints.push_back(std::make_shared<HandEstimate>(*hint));
-  const Result<HandObservations> result = preprocessor.process(frame, hints);
+HandObservationPtr process(Preprocessor& preprocessor, const FramePtr& frame, const HandEstimate* earlier = nullptr) {
+  HandEstimates feedback;
+  if (earlier) feedback.push_back(std::make_shared<HandEstimate>(*earlier));
+  const Result<HandObservations> result = preprocessor.process(frame, feedback);
   EXPECT_TRUE(result.has_value() && result->size() == 1);
   return result->front();
 }
 
-HandObservationPtr observe(const PaintedScene& scene, const HandEstimate* hint = nullptr) {
+HandObservationPtr observe(const PaintedScene& scene, const HandEstimate* earlier = nullptr) {
   Preprocessor preprocessor{PreprocessParams{}};
-  return process(preprocessor, scene.share(), hint);
+  return process(preprocessor, scene.share(), earlier);
 }
 
 TEST(Preprocess, SkinBeforeAWallIsHand) {
@@ -80,23 +80,23 @@ TEST(Preprocess, WithoutColourTheNearSurfaceIsHandAndTheForearmIsCut) {
 }
 
 TEST(Preprocess, BareForearmIsCutAtTheHintedWrist) {
-  const HandEstimate hint = painted_hand_estimate(kX, kY, kZ);
+  const HandEstimate earlier = painted_hand_estimate(kX, kY, kZ);
   for (const bool colour : {true, false}) {
     PaintedScene scene;
     scene.hand(kX, kY, kZ).forearm(kX, kY, kZ, test::kSkin);
     if (!colour) scene.no_colour();
-    const auto o = observe(scene, &hint);
+    const auto o = observe(scene, &earlier);
     EXPECT_EQ(label_at(*o, kX, kY - 0.01, kZ), PixelLabel::hand);
     EXPECT_EQ(label_at(*o, kX, kY + 0.03, kZ), PixelLabel::object);
   }
 }
 
 TEST(Preprocess, WristCutFollowsAHandThatMovedSinceTheHint) {
-  const HandEstimate hint = painted_hand_estimate(kX - 0.1, kY + 0.02, kZ + 0.03);
+  const HandEstimate earlier = painted_hand_estimate(kX - 0.1, kY + 0.02, kZ + 0.03);
   PaintedScene scene;
   scene.hand(kX, kY, kZ).forearm(kX, kY, kZ, test::kSkin);
   Preprocessor preprocessor{PreprocessParams{}};
-  const auto o = process(preprocessor, scene.share(2), &hint);
+  const auto o = process(preprocessor, scene.share(2), &earlier);
   EXPECT_EQ(label_at(*o, kX, kY - 0.01, kZ), PixelLabel::hand);
   EXPECT_EQ(label_at(*o, kX, kY + 0.035, kZ), PixelLabel::object);
   EXPECT_EQ(label_at(*o, kX + 0.0315, kY - 0.16, kZ), PixelLabel::hand);
@@ -140,10 +140,10 @@ TEST(Preprocess, GreyishSkinInShadowJoinsTheSkinAndNotTheSleeve) {
 }
 
 TEST(Preprocess, WithoutColourAPlateBeforeTheFingersIsNeitherHandNorDragsItAlong) {
-  const HandEstimate hint = painted_hand_estimate(kX, kY, kZ);
+  const HandEstimate earlier = painted_hand_estimate(kX, kY, kZ);
   PaintedScene scene;
   scene.hand(kX, kY, kZ).forearm(kX, kY, kZ, test::kSkin).patch(-0.3, -1, 0.3, -0.03, 0.42, test::kGreen).no_colour();
-  const auto o = observe(scene, &hint);
+  const auto o = observe(scene, &earlier);
   EXPECT_EQ(label_at(*o, 0, -0.06, 0.42), PixelLabel::object);
   EXPECT_EQ(label_at(*o, kX, kY - 0.01, kZ), PixelLabel::hand);
   EXPECT_EQ(label_at(*o, kX, kY + 0.04, kZ), PixelLabel::object);
@@ -201,8 +201,8 @@ TEST(Preprocess, SkinModelFollowsAShiftedWhiteBalance) {
   Preprocessor preprocessor{PreprocessParams{}};
   HandObservationPtr o;
   for (int frame = 0; frame <= 6 * kSteps; ++frame) {
-    HandEstimate hint = painted_hand_estimate(kX, kY, kZ, frame - 2);
-    o = process(preprocessor, scene(frame / 6).share(frame), &hint);
+    HandEstimate earlier = painted_hand_estimate(kX, kY, kZ, frame - 2);
+    o = process(preprocessor, scene(frame / 6).share(frame), &earlier);
   }
   ASSERT_TRUE(o->hand_present);
   EXPECT_EQ(label_at(*o, kX, kY - 0.04, kZ), PixelLabel::hand);
@@ -212,10 +212,10 @@ TEST(Preprocess, SkinModelFollowsAShiftedWhiteBalance) {
 TEST(Preprocess, SameFramesGiveSameObservations) {
   Preprocessor a{PreprocessParams{}}, b{PreprocessParams{}};
   for (int frame = 0; frame < 3; ++frame) {
-    const HandEstimate hint = painted_hand_estimate(kX, kY, kZ, frame - 2);
+    const HandEstimate earlier = painted_hand_estimate(kX, kY, kZ, frame - 2);
     const auto scene = PaintedScene().hand(kX + 0.01 * frame, kY, kZ).forearm(kX + 0.01 * frame, kY, kZ, test::kSkin);
-    const auto first = process(a, scene.share(frame), &hint);
-    const auto second = process(b, scene.share(frame), &hint);
+    const auto first = process(a, scene.share(frame), &earlier);
+    const auto second = process(b, scene.share(frame), &earlier);
     ASSERT_EQ(first->label.size(), second->label.size());
     for (std::size_t i = 0; i < first->label.size(); ++i) {
       ASSERT_EQ(first->label[i], second->label[i]);
@@ -246,13 +246,13 @@ TEST(Preprocess, ResultsSurviveThePreprocessor) {
   EXPECT_EQ(label_at(*kept, kX, kY - 0.04, kZ), PixelLabel::hand);
 }
 
-/// Two hands that are looked for; hints may be null.
+/// Two hands that are looked for; feedback may be null.
 HandObservations observe_two(const PaintedScene& scene, const HandEstimate* first, const HandEstimate* second) {
   Preprocessor preprocessor{PreprocessParams{}, 2};
-  HandEstimates hints;
-  for (const HandEstimate* hint : {first, second})
-    hints.push_back(std::make_shared<HandEstimate>(hint ? *hint : HandEstimate{}));
-  const auto result = preprocessor.process(scene.share(2), hints);
+  HandEstimates feedback;
+  for (const HandEstimate* earlier : {first, second})
+    feedback.push_back(std::make_shared<HandEstimate>(earlier ? *earlier : HandEstimate{}));
+  const auto result = preprocessor.process(scene.share(2), feedback);
   EXPECT_TRUE(result.has_value() && result->size() == 2);
   return *result;
 }

@@ -197,7 +197,7 @@ TEST(HealthMessage, CarriesStagesAndQueues) {
   health.skipped = 1;
   health.latency.p95 = 0.02;
   health.stages.push_back({"fusion", {7, 0.001, 0.002, 0.003, 0.004, 0.005}, 3});
-  health.queues.push_back({"door", 4, 1, 10, 7, 2, {}});
+  health.queues.push_back({"input", 4, 1, 10, 7, 2, {}});
   const health_t m = health_message(health, 77, "lcm");
   EXPECT_EQ(m.utime, 77);
   EXPECT_EQ(m.source, "lcm");

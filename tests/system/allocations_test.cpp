@@ -9,7 +9,7 @@
 #include "stages/publish/hand_messages.h"
 #include "support/adult_hand.h"
 #include "support/painted_frame.h"
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 namespace {
 std::atomic<std::int64_t> allocations = 0;
@@ -49,7 +49,7 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);
   Preprocessor preprocessor({}, hands);
-  HandsTracker tracker(params, HandsTracker::Profiles(hands, profile), 1, workers);
+  TwoHandTracker tracker(params, TwoHandTracker::Profiles(hands, profile), 1, workers);
   HandMessageMaker maker({});
   HandPose pose = test::facing_pose(*profile, 0.5, 0.4);
   tracker.hand(0).apply(StartAt{pose});

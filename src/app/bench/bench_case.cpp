@@ -100,7 +100,7 @@ class Reception {
 }  // namespace
 
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             const HandsTracker::Profiles& hands) {
+                             const TwoHandTracker::Profiles& hands) {
   const SystemClock clock;
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);

@@ -7,7 +7,7 @@
 #include "app/bench/memory_source.h"
 #include "core/statistics.h"
 #include "pipeline/config.h"
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 namespace barehand {
 
@@ -48,6 +48,6 @@ struct BenchResult {
 /// Runs the pipeline of `barehand track` over stored frames. Errors: an LCM network that cannot be opened, a stage
 /// that fails, a number of threads that is out of range.
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             const HandsTracker::Profiles& hands);
+                             const TwoHandTracker::Profiles& hands);
 
 }  // namespace barehand

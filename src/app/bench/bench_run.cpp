@@ -61,7 +61,7 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
 /// The frames and hands that all cases use.
 struct Input {
   FrameStore store;
-  HandsTracker::Profiles hands;
+  TwoHandTracker::Profiles hands;
 };
 
 Result<Input> read_input(const BenchOptions& options) {

@@ -25,10 +25,11 @@ struct CopyOptions {
 struct CopyResult {
   std::int64_t written = 0;
   std::int64_t skipped = 0;  ///< unreadable at the source
-  std::int64_t missing = 0;  ///< numbered by a live source but never delivered: lost on the way or dropped at the door
-  std::int64_t dropped = 0;  ///< of those: dropped here, because frames came faster than they could be written
-  std::int64_t lost = 0;     ///< delivered but not written
-  std::string lost_why;      ///< the last of them
+  std::int64_t missing =
+      0;  ///< numbered by a live source but never delivered: lost on the way or dropped from the input queue
+  std::int64_t dropped = 0;    ///< of those: dropped here, because frames came faster than they could be written
+  std::int64_t lost = 0;       ///< delivered but not written
+  std::string lost_why;        ///< the last of them
   std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
   bool stopped = false;        ///< by `stop`
 };

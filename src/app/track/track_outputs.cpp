@@ -13,7 +13,8 @@ namespace {
 using Kind = Output::Kind;
 
 /// One a hand.
-std::vector<Output> of_hands(const std::string& option, const std::string& path, const HandsTracker::Profiles& hands) {
+std::vector<Output> of_hands(const std::string& option, const std::string& path,
+                             const TwoHandTracker::Profiles& hands) {
   std::vector<Output> outputs;
   if (path.empty()) return outputs;
   for (std::size_t k = 0; k < hands.size(); ++k)
@@ -22,7 +23,7 @@ std::vector<Output> of_hands(const std::string& option, const std::string& path,
 }
 
 /// A pipe or a device takes the table or the profile of one hand.
-Result<void> check_room_for(const HandsTracker::Profiles& hands, const std::string& option, const std::string& path) {
+Result<void> check_room_for(const TwoHandTracker::Profiles& hands, const std::string& option, const std::string& path) {
   if (hands.size() < 2 || path.empty() || !target_of(path).direct) return {};
   return fail("is one pipe or device, and two hands are tracked", option + " " + path,
               "give a file, or track one hand");
@@ -38,7 +39,7 @@ Output of_network(const std::string& url) {
 /// A video, whose name ends like one, is a file; anything else is a folder of pictures.
 Kind kind_of_overlay(const std::string& path) { return video_format(path) ? Kind::file : Kind::pictures; }
 
-std::vector<Output> outputs_of(const TrackOptions& o, const HandsTracker::Profiles& hands) {
+std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Profiles& hands) {
   std::vector<Output> outputs = of_hands("--result", o.result, hands);
   outputs.push_back({"--states-log", o.states_log});
   outputs.push_back({"--log-decisions", o.decisions});
@@ -66,7 +67,7 @@ std::string free_name(const std::string& path, const IsTaken& is_taken) {
 }  // namespace
 
 Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
-                                    const HandsTracker::Profiles& hands, bool live) {
+                                    const TwoHandTracker::Profiles& hands, bool live) {
   const auto room = check_room_for(hands, "--result", options.result).and_then([&] {
     return check_room_for(hands, "--save-hand", options.save_hand);
   });

@@ -2,7 +2,7 @@
 
 #include "app/shared/outputs.h"
 #include "app/track/track_options.h"
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 namespace barehand {
 
@@ -11,7 +11,7 @@ namespace barehand {
 /// name gets the first free number: states.lcmlog becomes states-2.lcmlog. `config_path`: the configuration's file, "":
 /// none.
 Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
-                                    const HandsTracker::Profiles& hands, bool live);
+                                    const TwoHandTracker::Profiles& hands, bool live);
 
 /// Whether one of the outputs goes to the standard output. To be asked before they are written.
 bool writes_to_standard_output(const TrackOptions& options);

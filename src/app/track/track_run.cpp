@@ -56,7 +56,7 @@ class TrackRun {
         config_(config),
         reread_(std::move(reread)),
         log_(make_logger(), clock_),
-        reload_(config, news_),
+        reload_(config, pending_),
         interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()),
         sinks_(std::move(more)) {}
 
@@ -92,12 +92,12 @@ class TrackRun {
   RepeatLog log_;
   ServiceManager service_{clock_};
   std::stop_source stop_;
-  NewParams news_;
+  PendingParams pending_;
   Reload reload_;               // watcher's thread only
   InterruptWatcher interrupt_;  // before anything that starts threads
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
-  HandsTracker::Profiles profiles_;
+  TwoHandTracker::Profiles profiles_;
   std::optional<HandPose> initial_;
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
@@ -203,8 +203,8 @@ Step TrackRun::open_outputs() {
   if (!options_.no_publish) ok = open_bus();
   if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_, options_.overwrite));
   if (ok && !options_.states_log.empty())
-    ok =
-        add(StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &news_.states_log));
+    ok = add(
+        StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &pending_.states_log));
   if (ok && !options_.decisions.empty()) ok = add(DecisionSink::create(options_.decisions, options_.overwrite));
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(
@@ -242,7 +242,7 @@ Step TrackRun::open_bus() {
   BusSink::Health health{[this] { return with_view(pipeline_->take_interval_health()); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
   return add(
-      BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &news_.bus));
+      BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &pending_.bus));
 }
 
 /// What needs the LCM network. A run that waits for live frames waits for a network that is not there yet, too.
@@ -274,7 +274,7 @@ Step TrackRun::open_view() {
   view_ = std::move(*view);
   log_.logger().info("open {} in a browser to see the hand", view_->url());
   ViewSink::Input input{input_.source->name(), input_.source->live(), [this] { return pipeline_->health(); }};
-  sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &news_.view));
+  sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &pending_.view));
   return {};
 }
 
@@ -327,7 +327,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 }
 
 TrackOutcome TrackRun::run() {
-  TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &news_);
+  TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_);
   PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;

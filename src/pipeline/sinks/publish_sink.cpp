@@ -5,7 +5,7 @@
 namespace barehand {
 
 Result<void> StatePublisher::send(const HandEstimates& estimates) {
-  if (const auto params = news_ ? news_->take() : std::nullopt) {
+  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
     params_ = *params;
     makers_.clear();
   }
@@ -23,11 +23,11 @@ BusSink::BusSink(StatePublisher states, Health health, const Clock& clock)
       next_health_us_(clock.steady_us() + health_.period_us) {}
 
 Result<std::unique_ptr<Sink>> BusSink::create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
-                                              Health health, const Clock& clock, Slot<PublishParams>* news) {
+                                              Health health, const Clock& clock, Slot<PublishParams>* pending) {
   auto publisher = Publisher::create(prefix, {&bus});
   if (!publisher) return tl::unexpected(publisher.error());
   return std::unique_ptr<Sink>(
-      new BusSink(StatePublisher(params, std::move(*publisher), news), std::move(health), clock));
+      new BusSink(StatePublisher(params, std::move(*publisher), pending), std::move(health), clock));
 }
 
 Result<void> BusSink::consume(const TrackedFrame& tracked) {
@@ -44,12 +44,13 @@ Result<void> BusSink::send_health_when_due() {
 
 Result<std::unique_ptr<Sink>> StatesLogSink::create(const PublishParams& params, const std::string& prefix,
                                                     const std::string& path, bool overwrite,
-                                                    Slot<PublishParams>* news) {
+                                                    Slot<PublishParams>* pending) {
   auto log = LcmLogWriter::create(path, overwrite);
   if (!log) return tl::unexpected(log.error());
   auto publisher = Publisher::create(prefix, {log->get()});
   if (!publisher) return tl::unexpected(publisher.error());
-  return std::unique_ptr<Sink>(new StatesLogSink(std::move(*log), StatePublisher(params, std::move(*publisher), news)));
+  return std::unique_ptr<Sink>(
+      new StatesLogSink(std::move(*log), StatePublisher(params, std::move(*publisher), pending)));
 }
 
 }  // namespace barehand

@@ -18,9 +18,9 @@ namespace barehand {
 /// Sends the states of every hand, one after the other on the same channels: their ids tell them apart.
 class StatePublisher {
  public:
-  /// `news` (may be null; looked at before every frame) outlives it.
-  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* news)
-      : params_(params), publisher_(std::move(publisher)), news_(news) {}
+  /// `pending` (may be null; looked at before every frame) outlives it.
+  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
+      : params_(params), publisher_(std::move(publisher)), pending_(pending) {}
   Result<void> send(const HandEstimates& estimates);
   Result<void> send(const health_t& health) { return publisher_.send(health); }
 
@@ -28,7 +28,7 @@ class StatePublisher {
   PublishParams params_;
   std::vector<HandMessageMaker> makers_;  // one a hand
   Publisher publisher_;
-  Slot<PublishParams>* news_;
+  Slot<PublishParams>* pending_;
 };
 
 /// Sends the states of every frame, and the health now and then, to the bus.
@@ -39,10 +39,11 @@ class BusSink : public Sink {
     std::int64_t period_us = 1'000'000;
     std::string source;
   };
-  /// `bus`, `clock` and `news` (may be null; looked at before every frame) outlive the sink. Errors: a channel prefix
-  /// that is too long.
+  /// `bus`, `clock` and `pending` (may be null; looked at before every frame) outlive the sink. Errors: a channel
+  /// prefix that is too long.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
-                                              Health health, const Clock& clock, Slot<PublishParams>* news = nullptr);
+                                              Health health, const Clock& clock,
+                                              Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "publish"; }
   Result<void> consume(const TrackedFrame& tracked) override;
   /// The health goes on without frames: silence means that the program is gone.
@@ -61,10 +62,10 @@ class BusSink : public Sink {
 /// --states-log: the states alone, so that equal runs write equal bytes.
 class StatesLogSink : public Sink {
  public:
-  /// `news` as above.
+  /// `pending` as above.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
                                               const std::string& path, bool overwrite,
-                                              Slot<PublishParams>* news = nullptr);
+                                              Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "states log"; }
   Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
   /// Without a state there is no log.

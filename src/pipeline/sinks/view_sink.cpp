@@ -18,19 +18,19 @@ ViewMessage encoded(const char* channel, const Message& message) {
 }  // namespace
 
 ViewSink::ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
-                   Slot<PublishParams>* news)
+                   Slot<PublishParams>* pending)
     : params_(params),
       server_(server),
       input_(std::move(input)),
       clock_(clock),
-      news_(news),
+      pending_(pending),
       frame_us_(clock.steady_us()),
       status_us_(clock.steady_us() - kStatusPeriodUs) {}
 
 Result<void> ViewSink::consume(const TrackedFrame& tracked) {
   frame_us_ = clock_.steady_us();
   any_frame_ = true;
-  if (const auto params = news_ ? news_->take() : std::nullopt) {
+  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
     params_ = *params;
     makers_.clear();
   }

@@ -22,9 +22,9 @@ class ViewSink : public Sink {
     bool live = false;   ///< FrameSource::live()
     std::function<PipelineHealth()> health;
   };
-  /// `server`, `clock` and `news` (may be null; looked at before every frame) outlive the sink.
+  /// `server`, `clock` and `pending` (may be null; looked at before every frame) outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
-           Slot<PublishParams>* news = nullptr);
+           Slot<PublishParams>* pending = nullptr);
 
   std::string name() const override { return "view"; }
   Result<void> consume(const TrackedFrame& tracked) override;
@@ -40,7 +40,7 @@ class ViewSink : public Sink {
   ViewServer& server_;
   const Input input_;
   const Clock& clock_;
-  Slot<PublishParams>* news_;
+  Slot<PublishParams>* pending_;
   std::vector<HandMessageMaker> makers_;       // one a hand
   std::array<ViewSkinPtr, 2> skins_;           // by Handedness, of the last profiles
   std::int64_t frame_us_ = 0, status_us_ = 0;  // of the last frame, of the last status; steady clock

@@ -64,10 +64,10 @@ void visit(V& v, ChoiceParams& p) {
 }
 
 /// Advantages of a side or a size of the hand over another one.
-inline constexpr double kHandAdvantage = 0.1;       ///< in one frame
-inline constexpr double kReturningAdvantage = 0.3;  ///< over a hand that was lost a moment ago: half of it fits both
-inline constexpr double kTrialAdvantage = 0.2;      ///< over all frames of a trial
-inline constexpr double kFarBetter = 0.3;           ///< in every one of a few frames
+inline constexpr double kHandAdvantage = 0.1;          ///< in one frame
+inline constexpr double kReturningAdvantage = 0.3;     ///< over a hand that was lost a moment ago: half of it fits both
+inline constexpr double kVerificationAdvantage = 0.2;  ///< over all frames of a verification
+inline constexpr double kFarBetter = 0.3;              ///< in every one of a few frames
 
 /// Whether a score is lower than another one by the fraction `advantage`.
 inline bool clearly_better(double score, double other, double advantage = kHandAdvantage) {

@@ -5,8 +5,8 @@
 
 #include "stages/pose_prior/crossed_fingers.h"
 #include "stages/search/inverse_kinematics.h"
-#include "tracking/hypotheses/found_poses.h"
-#include "tracking/hypotheses/relaxed_pose.h"
+#include "tracking/hypotheses/neutral_pose.h"
+#include "tracking/hypotheses/restart_consensus.h"
 
 namespace barehand {
 namespace {
@@ -27,7 +27,7 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
     return best;
 
   // Search until the frame is settled.
-  FoundPoses poses(*hand.profile, params.choice.search_settled, params.loss.recovered_score);
+  RestartConsensus poses(*hand.profile, params.choice.search_settled, params.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
     auto found = searched(observation, hand, track, effort, attempt, frame);
     if (!found) continue;
@@ -42,7 +42,7 @@ std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, 
   // A tentative pose is searched thoroughly: a quick search may be wrong once more.
   const TrackerParams& params = context_.params;
   if (track.tentative()) return searched(observation, hand, track, Effort::full, 0, frame);
-  if (!track.worse_than_usual(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
+  if (!track.exceeds_baseline(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
 
   // Ambiguous: some fingers may be where their neighbours are.
   const int frames = ++track.ambiguous_frames;
@@ -116,7 +116,7 @@ std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservatio
 void Proposers::relax(const HandObservation& observation, const HandModel& hand,
                       std::optional<Hypothesis>& found) const {
   if (found && context_.params.relax)
-    found->refined = relaxed_pose(observation, found->refined, *hand.profile, hand.refinement, context_.params);
+    found->refined = neutral_pose(observation, found->refined, *hand.profile, hand.refinement, context_.params);
 }
 
 }  // namespace barehand

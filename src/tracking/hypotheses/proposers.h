@@ -17,9 +17,9 @@ class Proposers {
   /// Both outlive it.
   Proposers(const TrackerContext& context, Choice& choice) : context_(context), choice_(choice) {}
 
-  /// The best pose of up to `attempts` searches of the whole observation; fewer do where they settle it (FoundPoses),
-  /// none is needed where the detected hand is explained well. None: too little of a hand is seen, or nothing is
-  /// found. `frame`, the number of the frame, keys the random numbers.
+  /// The best pose of up to `attempts` searches of the whole observation; fewer do where they settle it
+  /// (RestartConsensus), none is needed where the detected hand is explained well. None: too little of a hand is seen,
+  /// or nothing is found. `frame`, the number of the frame, keys the random numbers.
   std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, const Track& track,
                                      Effort effort, int attempts, std::uint32_t frame) const;
 

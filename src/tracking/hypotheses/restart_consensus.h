@@ -10,11 +10,11 @@ inline constexpr double kAlike = 0.040;  ///< poses closer than this [m] differ 
 
 /// Collects the poses that repeated searches found in one frame and decides when to stop searching. If little of a
 /// hand is visible, several poses far apart may explain it fairly well, and only repetition finds the best of them.
-class FoundPoses {
+class RestartConsensus {
  public:
   /// Scores are global scores [m]. A pose below `enough` ends the search at once; if the best pose is above `worst`,
   /// there is no hand.
-  FoundPoses(const HandProfile& profile, double enough, double worst)
+  RestartConsensus(const HandProfile& profile, double enough, double worst)
       : profile_(profile), enough_(enough), worst_(worst) {}
 
   /// Adds a pose with its global score [m]; returns whether it is the best one so far.

@@ -11,28 +11,29 @@ namespace barehand {
 /// be found with a wrong pose or not be found. While the hand is searched, and in the first frames of an uncertain
 /// start, the check compares the profile with its mirror image and with smaller and larger copies, and reports in the
 /// log what fits better.
-class ProfileCheck {
+class ProfileVerifier {
  public:
   /// `workers` must outlive this object.
-  ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
-               std::shared_ptr<spdlog::logger> log);
+  ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
+                  std::shared_ptr<spdlog::logger> log);
 
   /// Call after a search of up to `attempts` found the hand with `score`. Returns whether the mirrored profile
   /// explains the observation clearly better after a similar search with fewer attempts. If it does not, but the score
-  /// is not convincing, a trial begins.
+  /// is not confident, a verification begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
-  /// Begins a trial, in which the mirrored profile is tracked, too, during the first frames of a track. `found`: the
-  /// best pose that a search found for the mirrored profile. A single frame seldom distinguishes a hand from a
-  /// distorted one of the other side; motion does.
-  void begin_trial(const HandObservation& observation, std::optional<Hypothesis> found);
-  void end_trial() { trial_.reset(); }
-  bool on_trial() const { return trial_.has_value(); }
-  /// Tracks the mirrored profile in one frame of the trial.
+  /// Begins a verification, in which the mirrored profile is tracked, too, during the first frames of a track.
+  /// `found`: the best pose that a search found for the mirrored profile. A single frame seldom distinguishes a hand
+  /// from a distorted one of the other side; motion does.
+  void begin_verification(const HandObservation& observation, std::optional<Hypothesis> found);
+  void end_verification() { verification_.reset(); }
+  bool verifying() const { return verification_.has_value(); }
+  /// Tracks the mirrored profile in one frame of the verification.
   void track_mirrored(const HandObservation& observation);
-  /// Call after that and after the profile's own frame. Returns whether the trial ends in favour of the other side.
+  /// Call after that and after the profile's own frame. Returns whether the verification ends in favour of the other
+  /// side.
   bool turns_out_other_side(const HandEstimate& own);
-  /// Pose of the hand of the other side when the trial ended (T_camera_segment).
+  /// Pose of the hand of the other side when the verification ended (T_camera_segment).
   const HandPose& mirrored_pose() const { return *mirrored_->view().whereabouts; }
 
   /// Call with an observation in which a pose of the profile was found or tracked with `score`. Returns the size of the
@@ -66,13 +67,14 @@ class ProfileCheck {
   int size_refuted_ = 0;  // sizes that detected joints showed since the last one that was confirmed
   std::optional<double> confirmed_size_;
 
-  struct Trial {
+  struct Verification {
     int frames = 0, compared = 0;          // compared: frames in which both were tracked
     double own_sum = 0, mirrored_sum = 0;  // sums of the scores of these frames [m]
     HandEstimatePtr mirrored;
   };
-  std::optional<Trial> trial_;
-  int suspected_ = 0;  // after a trial found the other side: searches that must still confirm the profile's own side
+  std::optional<Verification> verification_;
+  int to_confirm_ =
+      0;  // after a verification found the other side: searches that must still confirm the profile's own side
 };
 
 }  // namespace barehand

@@ -1,4 +1,4 @@
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 #include <algorithm>
 #include <array>
@@ -22,13 +22,13 @@ double distance(const HandPose& pose, const HandObservation& observation) {
 
 }  // namespace
 
-HandsTracker::HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
-                           std::shared_ptr<spdlog::logger> log)
+TwoHandTracker::TwoHandTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed,
+                               Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params), seed_(seed), workers_(workers), log_(std::move(log)), hands_(profiles.size()) {
   for (int k = 0; k < count(); ++k) use(k, profiles[k]);
 }
 
-void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
+void TwoHandTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
   if (hands_[k])
     hands_[k]->apply(UseProfile{std::move(profile)});
   else
@@ -37,21 +37,21 @@ void HandsTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
   check_anew();
 }
 
-void HandsTracker::change(const TrackerParams& params) {
+void TwoHandTracker::change(const TrackerParams& params) {
   for (const auto& hand : hands_) hand->apply(UseParams{params});
   params_ = params;
   check_anew();
 }
 
-void HandsTracker::check_anew() {
-  checks_.clear();
+void TwoHandTracker::check_anew() {
+  verifiers_.clear();
   for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
     if (hand)
-      checks_.push_back(std::make_unique<ProfileCheck>(params_, *hand->view().profile, seed_, workers_,
-                                                       count() == 1 ? log_ : make_silent_logger()));
+      verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, seed_, workers_,
+                                                             count() == 1 ? log_ : make_silent_logger()));
 }
 
-HandEstimates HandsTracker::process(const HandObservations& in_order) {
+HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
   // With one hand there is nothing to distribute.
   if (count() == 1) return {process_only(*in_order[0])};
   ++frame_;
@@ -69,7 +69,7 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
 
   // Search the others.
   for (const int k : tracked) {
-    judge_trial(k, *out[k]);
+    judge_verification(k, *out[k]);
     judge_size(k, *observations[k], *out[k]);
   }
   if (tracked.empty())
@@ -80,53 +80,53 @@ HandEstimates HandsTracker::process(const HandObservations& in_order) {
   return out;
 }
 
-/// Tracks the k-th hand and, during a trial, the mirrored one beside it.
-HandEstimatePtr HandsTracker::track(int k, const HandObservation& observation) {
-  if (!checks_[k]->on_trial()) return hands_[k]->process(observation);
+/// Tracks the k-th hand and, during a verification, the mirrored one beside it.
+HandEstimatePtr TwoHandTracker::track(int k, const HandObservation& observation) {
+  if (!verifiers_[k]->verifying()) return hands_[k]->process(observation);
   HandEstimatePtr estimate;
   workers_.for_each_index(2, [&](int i) {
     if (i == 0) estimate = hands_[k]->process(observation);
-    if (i == 1) checks_[k]->track_mirrored(observation);
+    if (i == 1) verifiers_[k]->track_mirrored(observation);
   });
   return estimate;
 }
 
 /// A hand that was tracked alone may turn out to be of the other side. If the other side is tracked, too, it takes
 /// over from there.
-void HandsTracker::judge_trial(int k, const HandEstimate& estimate) {
+void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
-  ProfileCheck& check = *checks_[k];
-  if (other && other->view().status == TrackStatus::tracking) check.end_trial();
-  if (!check.on_trial() || !check.turns_out_other_side(estimate)) return;
+  ProfileVerifier& check = *verifiers_[k];
+  if (other && other->view().status == TrackStatus::tracking) check.end_verification();
+  if (!check.verifying() || !check.turns_out_other_side(estimate)) return;
   hands_[k]->apply(StartAnew{});
   if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
-void HandsTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
+void TwoHandTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
   if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().doubts_size) return;
-  const auto size = checks_[k]->other_size_in_view(observation, estimate.score);
+  const auto size = verifiers_[k]->other_size_in_view(observation, estimate.score);
   if (size) hands_[k]->apply(DoubtSize{*size});
 }
 
-bool HandsTracker::judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
+bool TwoHandTracker::judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
   if (!params_.size_check || !found) return false;
-  checks_[k]->expect_any_size();
-  const auto size = checks_[k]->other_size_in_view(observation, found->score());
+  verifiers_[k]->expect_any_size();
+  const auto size = verifiers_[k]->other_size_in_view(observation, found->score());
   if (!size) return false;
   hands_[k]->apply(DoubtSize{*size});  // reported even if no track starts
   found->size = *size;
   return true;
 }
 
-HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
+HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
-  ProfileCheck& check = *checks_[0];
+  ProfileVerifier& check = *verifiers_[0];
 
-  // A track goes on; its trial may end it.
+  // A track goes on; its verification may end it.
   const TrackView before = hand.view();
   if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = track(0, observation);
-    judge_trial(0, *estimate);
+    judge_verification(0, *estimate);
     judge_size(0, observation, *estimate);
     return estimate;
   }
@@ -148,9 +148,9 @@ HandEstimatePtr HandsTracker::process_only(const HandObservation& observation) {
   return hand.process(observation, std::move(found));
 }
 
-/// Without hints, preprocessing returns the regions in no particular order, so the assignment with the smaller total
+/// Without feedback, preprocessing returns the regions in no particular order, so the assignment with the smaller total
 /// distance is taken.
-HandObservations HandsTracker::by_hand(const HandObservations& observations) const {
+HandObservations TwoHandTracker::by_hand(const HandObservations& observations) const {
   if (observations[0]->followed || observations[1]->followed) return observations;
   const auto apart = [&](int k, int j) {
     const HandPose* pose = hands_[k]->view().whereabouts;
@@ -161,12 +161,12 @@ HandObservations HandsTracker::by_hand(const HandObservations& observations) con
 }
 
 /// Whether the observation may belong to any hand, so that the k-th one is searched in it.
-bool HandsTracker::searched(int k, const HandObservation& observation) const {
+bool TwoHandTracker::searched(int k, const HandObservation& observation) const {
   const TrackView track = hands_[k]->view();
   return !observation.followed && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
 }
 
-void HandsTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
+void TwoHandTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Hypothesis> found;
   const TrackView track = hands_[k]->view();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
@@ -175,7 +175,7 @@ void HandsTracker::search_one(int k, const HandObservations& observations, HandE
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
-void HandsTracker::search_both(const HandObservations& observations, HandEstimates& out) {
+void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
   // If one side finds no hand at all, that must not count more than a bad explanation.
@@ -183,7 +183,7 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->score(), none) : none; };
 
   // Whether some side already explains the observation well enough.
-  const auto convincing = [&](int j) {
+  const auto confident = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.search_convincing;
   };
 
@@ -193,13 +193,13 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
   const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
-  // One attempt each, and more of them only where neither side is convincing.
+  // One attempt each, and more of them only where neither side is confident.
   const auto look = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
   for (int j = 0; j < 2; ++j) {
     look(j, 1);
-    if (most > 1 && !convincing(j)) look(j, most);
+    if (most > 1 && !confident(j)) look(j, most);
   }
 
   // Each side owns the observation that it explains clearly better. Two observations are assigned together.
@@ -217,12 +217,12 @@ void HandsTracker::search_both(const HandObservations& observations, HandEstimat
     }
   }
 
-  // Start the tracks. A single start is on trial against the other side.
+  // Start the tracks. A single start is verified against the other side.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
     if (j >= 0) judge_size(k, *observations[j], found[k][j]);
     if (params_.side_check && j >= 0 && owned[1 - k] < 0)
-      checks_[k]->begin_trial(*observations[j], std::move(found[1 - k][j]));
+      verifiers_[k]->begin_verification(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
                    : hands_[k]->process(*observations[j], std::move(found[k][j]));
   }

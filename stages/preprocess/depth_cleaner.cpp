@@ -1,4 +1,4 @@
-#include "stages/preprocess/depth_map.h"
+#include "stages/preprocess/depth_cleaner.h"
 
 #include <algorithm>
 #include <cmath>

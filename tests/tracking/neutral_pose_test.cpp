@@ -1,4 +1,4 @@
-#include "tracking/hypotheses/relaxed_pose.h"
+#include "tracking/hypotheses/neutral_pose.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ class RelaxedPose : public testing::Test {
   }
   double flexion(const RefinedPose& of, int s) const { return joint_angles(*profile_, of.pose, s).flexion; }
   RefinedPose relaxed(const RefinedPose& found) const {
-    return relaxed_pose(*hand_, found, *profile_, refinement_, params_);
+    return neutral_pose(*hand_, found, *profile_, refinement_, params_);
   }
 
   void expect_alike(const RefinedPose& pose) const {
@@ -83,9 +83,9 @@ TEST_F(RelaxedPose, DiffersByWhatTheSensorCannotTell) {
   pose.score = 0;  // nothing is explained better
   HandObservation noisy = *hand_;
   noisy.noise = 0.02;  // m
-  EXPECT_GT(relaxed_pose(noisy, pose, *profile_, refinement_, params_).score, 0);
+  EXPECT_GT(neutral_pose(noisy, pose, *profile_, refinement_, params_).score, 0);
   noisy.noise = 0;
-  EXPECT_EQ(relaxed_pose(noisy, pose, *profile_, refinement_, params_).score, 0);
+  EXPECT_EQ(neutral_pose(noisy, pose, *profile_, refinement_, params_).score, 0);
 }
 
 }  // namespace

@@ -11,12 +11,12 @@ namespace barehand {
 
 /// Checks whether a profile that is not fitted has the size of the tracked hand: on a few frames it compares how well
 /// smaller and larger copies of the hand explain the data.
-class SizeCheck {
+class HandSizeVerifier {
  public:
   /// `skin`: the one that was built for the profile. The copies are made at the first call of look(), since most
   /// trackers only search.
-  SizeCheck(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
-            std::shared_ptr<const Skin> skin)
+  HandSizeVerifier(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
+                   std::shared_ptr<const Skin> skin)
       : params_(params), profile_(std::move(profile)), skin_(std::move(skin)) {}
 
   /// Compares one of the copies, in turn, with the profile in a tracked frame. `pose`: the refined pose, which

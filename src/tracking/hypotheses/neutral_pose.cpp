@@ -1,4 +1,4 @@
-#include "tracking/hypotheses/relaxed_pose.h"
+#include "tracking/hypotheses/neutral_pose.h"
 
 #include <algorithm>
 
@@ -6,26 +6,26 @@
 
 namespace barehand {
 
-RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
+RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
                          const Refinement& refinement, const TrackerParams& params) {
-  constexpr double kHeld = 0.5;        // visible fraction of an observed segment; a sliver fits nearly any angle
+  constexpr double kObserved = 0.5;    // visible fraction of an observed segment; a sliver fits nearly any angle
   constexpr double kIndistinct = 0.1;  // of the sensor's noise; smaller differences of the score mean nothing
   constexpr int kPasses = 2;           // a joint may change once hidden ones that followed it no longer hold it
 
   // Joints count as observed if enough of their segment is visible.
   std::array<bool, kSegmentCount> seen;
-  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kHeld;
+  for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kObserved;
 
   // Set the others to neutral angles and refine.
-  RefinedPose relaxed = found;
+  RefinedPose neutral = found;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const HandPose pose = with_hidden_at_ease(profile, relaxed.pose, seen);
-    relaxed = refinement.refine(observation, pose, pose, params.search_iterations);
+    const HandPose pose = with_hidden_neutral(profile, neutral.pose, seen);
+    neutral = refinement.refine(observation, pose, pose, params.search_iterations);
   }
 
   // Keep the neutral pose unless it explains the data clearly worse.
   const double worse = std::max(params.choice.search_advantage * found.score, kIndistinct * observation.noise);
-  return relaxed.score < found.score + worse ? relaxed : found;
+  return neutral.score < found.score + worse ? neutral : found;
 }
 
 }  // namespace barehand

@@ -1,4 +1,4 @@
-#include "tracking/hypotheses/found_poses.h"
+#include "tracking/hypotheses/restart_consensus.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ constexpr int kMany = 8;         // poses; if all but one are alike, the hand is
 
 }  // namespace
 
-bool FoundPoses::add(const HandPose& pose, double score) {
+bool RestartConsensus::add(const HandPose& pose, double score) {
   const bool best = poses_.empty() || score < best_score_;
   if (best) {
     best_ = poses_.size();
@@ -23,12 +23,12 @@ bool FoundPoses::add(const HandPose& pose, double score) {
   return best;
 }
 
-int FoundPoses::like_best(double distance) const {
+int RestartConsensus::like_best(double distance) const {
   const auto like = [&](const HandPose& pose) { return pose_distance(profile_, poses_[best_], pose) < distance; };
   return static_cast<int>(std::ranges::count_if(poses_, like));
 }
 
-bool FoundPoses::settled() const {
+bool RestartConsensus::settled() const {
   if (poses_.empty()) return false;
 
   // The best pose is good enough, or repetition has confirmed it.

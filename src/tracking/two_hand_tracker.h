@@ -4,25 +4,24 @@
 #include <span>
 #include <vector>
 
-#include "tracking/profile_check.h"
+#include "tracking/profile_verifier.h"
 
 namespace barehand {
 
 /// Tracks one hand, or the left and the right hand of a person, each with its own HandTracker.
-/// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no hint
-/// yet, because the hands were found only a moment ago, each region is assigned to the nearer hand.
-/// (2) If both hands are searched, both sides look at every region, and the side that explains it clearly better owns
-/// it; otherwise it stays unassigned.
-/// (3) If only one hand is tracked, no track is started on a hand of the other side, and a track whose first frames
-/// show the other side is given up; both are reported in the log.
-/// The results are as deterministic as those of HandTracker.
-class HandsTracker {
+/// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no
+/// feedback yet, because the hands were found only a moment ago, each region is assigned to the nearer hand. (2) If
+/// both hands are searched, both sides look at every region, and the side that explains it clearly better owns it;
+/// otherwise it stays unassigned. (3) If only one hand is tracked, no track is started on a hand of the other side, and
+/// a track whose first frames show the other side is given up; both are reported in the log. The results are as
+/// deterministic as those of HandTracker.
+class TwoHandTracker {
  public:
   using Profiles = std::vector<std::shared_ptr<const HandProfile>>;
 
   /// One hand for each of the one or two profiles; for the other parameters see HandTracker.
-  HandsTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
-               std::shared_ptr<spdlog::logger> log = make_silent_logger());
+  TwoHandTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
+                 std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
   /// Processes one frame: one observation per hand in, one estimate per hand out, in the order of the profiles.
   HandEstimates process(const HandObservations& in_order);
@@ -38,8 +37,8 @@ class HandsTracker {
   // Creates the profile checks anew, which belong to the present profiles and parameters.
   void check_anew();
   HandEstimatePtr track(int k, const HandObservation& observation);
-  // Gives up a hand that its trial shows to be of the other side.
-  void judge_trial(int k, const HandEstimate& estimate);
+  // Gives up a hand that its verification shows to be of the other side.
+  void judge_verification(int k, const HandEstimate& estimate);
   // Doubts the size of a tracked hand if the detected joints show another one.
   void judge_size(int k, const HandObservation& observation, const HandEstimate& estimate);
   // The same for what a search found. Returns whether the size is doubted.
@@ -58,8 +57,8 @@ class HandsTracker {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::vector<std::unique_ptr<HandTracker>> hands_;
-  std::vector<std::unique_ptr<ProfileCheck>> checks_;  // one per hand
-  std::int64_t frame_ = 0;                             // number of frames so far
+  std::vector<std::unique_ptr<ProfileVerifier>> verifiers_;  // one per hand
+  std::int64_t frame_ = 0;                                   // number of frames so far
 };
 
 }  // namespace barehand

@@ -1,4 +1,4 @@
-#include "tracking/size_check.h"
+#include "tracking/hand_size_verifier.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
 
 }  // namespace
 
-void SizeCheck::make_candidates() {
+void HandSizeVerifier::make_candidates() {
   for (const double size : kSizes)
     candidates_.push_back(
         {size, std::make_unique<Refinement>(params_, std::make_shared<const HandProfile>(scaled(*profile_, size)),
@@ -43,7 +43,7 @@ std::string other_size(double size, const HandProfile& profile) {
       100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
 }
 
-std::optional<double> SizeCheck::look(const HandObservation& observation, const HandPose& pose, double score) {
+std::optional<double> HandSizeVerifier::look(const HandObservation& observation, const HandPose& pose, double score) {
   // One copy per frame, in turn, since more would delay the frame.
   if (looks_ >= kLooks) return std::nullopt;
   if (candidates_.empty()) make_candidates();
@@ -61,7 +61,7 @@ std::optional<double> SizeCheck::look(const HandObservation& observation, const 
   return conclude();
 }
 
-std::optional<double> SizeCheck::conclude() {
+std::optional<double> HandSizeVerifier::conclude() {
   const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
   const bool at_once = looks_ == kFew && best->much_better == kFew;
   if (looks_ < kLooks && !at_once) return std::nullopt;

@@ -1,11 +1,11 @@
-#include "tracking/profile_check.h"
+#include "tracking/profile_verifier.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "stages/search/inverse_kinematics.h"
-#include "tracking/size_check.h"
+#include "tracking/hand_size_verifier.h"
 
 namespace barehand {
 namespace {
@@ -23,32 +23,33 @@ constexpr int kSizeLooks = 10, kVerified = 3, kVerifiedEvery = 30;
 // Far from the size of any hand, the networks see about two thirds of the deviation (of the logarithm).
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
-// Attempts for the mirrored profile if the profile's own score is not convincing. A hand of the other side is found by
+// Attempts for the mirrored profile if the profile's own score is not confident. A hand of the other side is found by
 // the first or second attempt in most cases; a hand of the own side must not be taken for one of the other by the luck
 // of many attempts.
 constexpr int kMirroredAttempts = 2;
 
-// A trial ends when one side has the advantage kTrialAdvantage over at least kFewestFrames frames in which both are
-// tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is searched in every
-// kSearchAgain-th frame.
+// A verification ends when one side has the advantage kVerificationAdvantage over at least kFewestFrames frames in
+// which both are tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is
+// searched in every kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
-constexpr int kSuspected = 3;  // searches in a row that must find the profile's own side after a trial found the other
+// Searches in a row that must find the profile's own side after a verification found the other one.
+constexpr int kToConfirm = 3;
 
 }  // namespace
 
-ProfileCheck::ProfileCheck(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
-                           Workers& workers, std::shared_ptr<spdlog::logger> log)
+ProfileVerifier::ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
+                                 Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params), profile_(profile), seed_(seed), workers_(workers), log_(std::move(log)) {
   // Of what is only tried: neither a skin nor a GPU is worth its start.
   params_.shape_fit.scans = 0;
   params_.segment_tracker.observer = "cpu";
 }
 
-std::unique_ptr<HandTracker> ProfileCheck::tracker_of(const HandProfile& profile) const {
+std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(const HandProfile& profile) const {
   return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
-void ProfileCheck::say_side() {
+void ProfileVerifier::say_side() {
   if (said_side_) return;
   said_side_ = true;
   const auto seen = to_string(mirrored_->view().profile->handedness);
@@ -56,66 +57,66 @@ void ProfileCheck::say_side() {
              to_string(profile_.handedness), seen);
 }
 
-HandTracker& ProfileCheck::other_side() {
+HandTracker& ProfileVerifier::other_side() {
   if (!mirrored_) mirrored_ = tracker_of(mirrored(profile_));
   return *mirrored_;
 }
 
-void ProfileCheck::begin_trial(const HandObservation& observation, std::optional<Hypothesis> found) {
+void ProfileVerifier::begin_verification(const HandObservation& observation, std::optional<Hypothesis> found) {
   other_side().apply(StartAnew{});
   other_side().process(observation, std::move(found));
-  trial_.emplace();
+  verification_.emplace();
 }
 
-bool ProfileCheck::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
+bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   // Search with the mirrored profile in the same observation.
-  trial_.reset();
-  const bool convincing = score < params_.choice.search_convincing;
-  auto other = other_side().search(observation, effort, convincing ? 1 : std::min(attempts, kMirroredAttempts));
+  verification_.reset();
+  const bool confident = score < params_.choice.search_convincing;
+  auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
 
   // Once the other side was seen, the own side must win several searches in a row.
   const bool worse = clearly_better(other_score, score);
   if (worse) say_side();
-  if (suspected_ > 0) suspected_ = clearly_better(score, other_score) ? suspected_ - 1 : kSuspected;
-  if (worse || suspected_ > 0) return true;
+  if (to_confirm_ > 0) to_confirm_ = clearly_better(score, other_score) ? to_confirm_ - 1 : kToConfirm;
+  if (worse || to_confirm_ > 0) return true;
 
-  // An unconvincing start is put on trial.
-  if (!convincing) begin_trial(observation, std::move(other));
+  // An uncertain start is verified over the next frames.
+  if (!confident) begin_verification(observation, std::move(other));
   return false;
 }
 
-void ProfileCheck::track_mirrored(const HandObservation& observation) {
-  Trial& trial = *trial_;
+void ProfileVerifier::track_mirrored(const HandObservation& observation) {
+  Verification& verification = *verification_;
   const bool followed = mirrored_->view().status == TrackStatus::tracking;
-  if (!followed && trial.frames % kSearchAgain != 0) return;
-  trial.mirrored = followed ? mirrored_->process(observation)
-                            : mirrored_->process(observation, mirrored_->search(observation, Effort::quick, 1));
+  if (!followed && verification.frames % kSearchAgain != 0) return;
+  verification.mirrored = followed ? mirrored_->process(observation)
+                                   : mirrored_->process(observation, mirrored_->search(observation, Effort::quick, 1));
 }
 
-bool ProfileCheck::turns_out_other_side(const HandEstimate& own) {
+bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
   // Add up the scores of frames in which both sides are tracked.
-  Trial& trial = *trial_;
+  Verification& verification = *verification_;
   const bool lost = !own.has_pose();  // the hand will be searched again
   if (own.status == TrackStatus::tracking && mirrored_->view().status == TrackStatus::tracking) {
-    ++trial.compared;
-    trial.own_sum += own.score;
-    trial.mirrored_sum += trial.mirrored->score;
+    ++verification.compared;
+    verification.own_sum += own.score;
+    verification.mirrored_sum += verification.mirrored->score;
   }
 
   // One side must be clearly better over enough frames.
-  const bool enough = trial.compared >= kFewestFrames;
-  const bool other = enough && clearly_better(trial.mirrored_sum, trial.own_sum, kTrialAdvantage);
-  const bool same = enough && clearly_better(trial.own_sum, trial.mirrored_sum, kTrialAdvantage);
+  const bool enough = verification.compared >= kFewestFrames;
+  const bool other = enough && clearly_better(verification.mirrored_sum, verification.own_sum, kVerificationAdvantage);
+  const bool same = enough && clearly_better(verification.own_sum, verification.mirrored_sum, kVerificationAdvantage);
 
-  if (++trial.frames == kMostFrames || lost || other || same) trial_.reset();
+  if (++verification.frames == kMostFrames || lost || other || same) verification_.reset();
   if (!other) return false;
-  suspected_ = kSuspected;
+  to_confirm_ = kToConfirm;
   say_side();
   return true;
 }
 
-std::optional<double> ProfileCheck::other_size_in_view(const HandObservation& observation, double score) {
+std::optional<double> ProfileVerifier::other_size_in_view(const HandObservation& observation, double score) {
   // The detected joints show the size of the hand; a mean hand is fitted to the person instead.
   if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_looks_ >= kSizeLooks) return std::nullopt;
   ++size_looks_;
@@ -127,7 +128,8 @@ std::optional<double> ProfileCheck::other_size_in_view(const HandObservation& ob
   return verified_size(observation, score, std::log(seen->scale));
 }
 
-std::optional<double> ProfileCheck::verified_size(const HandObservation& observation, double score, double log_size) {
+std::optional<double> ProfileVerifier::verified_size(const HandObservation& observation, double score,
+                                                     double log_size) {
   if (++size_refuted_ > kVerified && size_refuted_ % kVerifiedEvery != 0) return std::nullopt;
 
   // A copy of this size, or of the size that it may stand for, must explain the observation clearly better.
@@ -147,7 +149,7 @@ std::optional<double> ProfileCheck::verified_size(const HandObservation& observa
   return best;
 }
 
-void ProfileCheck::nothing_found(const HandObservation& observation, double score) {
+void ProfileVerifier::nothing_found(const HandObservation& observation, double score) {
   // A try costs a search, so it is made only now and then.
   if (said_size_ || !observation.hand_present) return;
   ++failures_;

@@ -5,9 +5,9 @@
 namespace barehand {
 
 /// Improves a pose that a search found: a search leaves joints without data at random angles. Unobserved joints are
-/// set to a neutral pose (with_hidden_at_ease) and the pose is refined again. The pose is returned unchanged if its
+/// set to a neutral pose (with_hidden_neutral) and the pose is refined again. The pose is returned unchanged if its
 /// score is lower by more than `search_advantage` and by more than a fraction of the noise.
-RefinedPose relaxed_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
+RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
                          const Refinement& refinement, const TrackerParams& params);
 
 }  // namespace barehand

@@ -1,4 +1,4 @@
-#include "tracking/hands_tracker.h"
+#include "tracking/two_hand_tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace barehand {
 namespace {
 
 /// A right and a left hand, and what a camera sees of each of them.
-class HandsTrackerTest : public ::testing::Test {
+class TwoHandTrackerTest : public ::testing::Test {
  protected:
   enum Side { kRight, kLeft };
   static constexpr double kRightX = 0.1, kLeftX = -0.1;
@@ -31,8 +31,8 @@ class HandsTrackerTest : public ::testing::Test {
     copy->followed = followed;
     return copy;
   }
-  /// Processes the next frame; `followed`: preprocessing found the k-th hand where its hint said.
-  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& first, const HandObservationPtr& second,
+  /// Processes the next frame; `followed`: preprocessing found the k-th hand where the feedback predicted it.
+  HandEstimates next(TwoHandTracker& tracker, const HandObservationPtr& first, const HandObservationPtr& second,
                      std::array<bool, 2> followed) {
     utime_ += 33'000;
     HandObservations observations;
@@ -40,10 +40,10 @@ class HandsTrackerTest : public ::testing::Test {
       observations.push_back(at(utime_, *o, followed[observations.size()]));
     return tracker.process(observations);
   }
-  HandEstimates next(HandsTracker& tracker, const HandObservationPtr& only) {
+  HandEstimates next(TwoHandTracker& tracker, const HandObservationPtr& only) {
     return tracker.process({at(utime_ += 33'000, *only, false)});
   }
-  HandEstimates next_times(int frames, HandsTracker& tracker, const HandObservationPtr& first,
+  HandEstimates next_times(int frames, TwoHandTracker& tracker, const HandObservationPtr& first,
                            const HandObservationPtr& second, std::array<bool, 2> followed = {}) {
     HandEstimates last;
     for (int i = 0; i < frames; ++i) last = next(tracker, first, second, followed);
@@ -54,11 +54,11 @@ class HandsTrackerTest : public ::testing::Test {
   const std::shared_ptr<const HandProfile> left_ = test::adult_hand(Handedness::left);
   const HandObservationPtr right_hand_ = seen(*right_, 0.2, kRightX), left_hand_ = seen(*left_, 0.5, kLeftX);
   Workers workers_{1};
-  HandsTracker tracker_{test::quick_tracker(), {right_, left_}, 1, workers_};
+  TwoHandTracker tracker_{test::quick_tracker(), {right_, left_}, 1, workers_};
   std::int64_t utime_ = 1'000'000;
 };
 
-TEST_F(HandsTrackerTest, EveryHandFindsItsSideWhateverTheOrder) {
+TEST_F(TwoHandTrackerTest, EveryHandFindsItsSideWhateverTheOrder) {
   HandEstimates found;
   for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
     found = next_times(1, tracker_, left_hand_, right_hand_);
@@ -71,7 +71,7 @@ TEST_F(HandsTrackerTest, EveryHandFindsItsSideWhateverTheOrder) {
   EXPECT_NE(found[kRight]->hand_id, found[kLeft]->hand_id);
 }
 
-TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
+TEST_F(TwoHandTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
   HandEstimates found;
   for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i) {
     found = next_times(1, tracker_, left_hand_, nothing());
@@ -80,7 +80,7 @@ TEST_F(HandsTrackerTest, AHandAloneIsNotTakenForTheOtherOne) {
   EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
 }
 
-TEST_F(HandsTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
+TEST_F(TwoHandTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
   HandEstimates found;
   for (int i = 0; i < 6 && (i == 0 || found[kLeft]->status != TrackStatus::tracking); ++i)
     found = next(tracker_, left_hand_, nothing(), {});
@@ -95,8 +95,8 @@ TEST_F(HandsTrackerTest, AHandStaysWithItsSideUntilItIsFollowed) {
   EXPECT_NEAR(found[kLeft]->segments[kPalm].T_camera_segment.t.x(), kLeftX, 0.04);
 }
 
-TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
-  HandsTracker only_left(test::quick_tracker(), {left_}, 1, workers_),
+TEST_F(TwoHandTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
+  TwoHandTracker only_left(test::quick_tracker(), {left_}, 1, workers_),
       only_right(test::quick_tracker(), {right_}, 1, workers_);
   HandEstimates refused, taken;
   for (int i = 0; i < 4; ++i) {
@@ -107,12 +107,12 @@ TEST_F(HandsTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
   EXPECT_EQ(taken[0]->status, TrackStatus::tracking);
 }
 
-TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
+TEST_F(TwoHandTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   // Track a right hand with its profile.
   TrackerParams params = test::quick_tracker();
-  params.choice.search_convincing = 0;  // every start is put on trial
+  params.choice.search_convincing = 0;  // every start is put on verification
   std::ostringstream said;
-  HandsTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
+  TwoHandTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
   HandEstimates last;
   for (int i = 0; i < 4; ++i) last = next(only_right, right_hand_);
   ASSERT_EQ(last[0]->status, TrackStatus::tracking);
@@ -129,7 +129,7 @@ TEST_F(HandsTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   EXPECT_GT(frames, 10);
 }
 
-TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater) {
+TEST_F(TwoHandTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater) {
   HandEstimates last;
   for (int i = 0; i < 6 && (i == 0 || last[kRight]->status != TrackStatus::tracking); ++i)
     last = next(tracker_, right_hand_, nothing(), {});
@@ -144,7 +144,7 @@ TEST_F(HandsTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLater)
   EXPECT_GT(frames, 10);
 }
 
-TEST_F(HandsTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
+TEST_F(TwoHandTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
   auto patch = std::make_shared<HandObservation>(*left_hand_);
   patch->hand_pixels.resize(50);  // fewer than any search uses
   HandEstimates found;
@@ -153,7 +153,7 @@ TEST_F(HandsTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStart
   EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
 }
 
-TEST_F(HandsTrackerTest, AnotherPersonsHandGetsAnIdOfItsOwn) {
+TEST_F(TwoHandTrackerTest, AnotherPersonsHandGetsAnIdOfItsOwn) {
   const HandEstimates before = next_times(4, tracker_, right_hand_, left_hand_);
   tracker_.use(kRight, right_);
   const HandEstimates after = next_times(4, tracker_, right_hand_, left_hand_);
@@ -163,7 +163,7 @@ TEST_F(HandsTrackerTest, AnotherPersonsHandGetsAnIdOfItsOwn) {
   EXPECT_NE(after[kRight]->hand_id, after[kLeft]->hand_id);
 }
 
-TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
+TEST_F(TwoHandTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
   next_times(4, tracker_, right_hand_, nothing());
   const HandEstimates alone = next_times(2, tracker_, right_hand_, nothing(), {true, false});
   EXPECT_EQ(alone[kRight]->status, TrackStatus::tracking);
@@ -174,9 +174,9 @@ TEST_F(HandsTrackerTest, BesideATrackedHandTheOtherOneIsFoundLater) {
   EXPECT_EQ(both[kLeft]->status, TrackStatus::tracking);
 }
 
-TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
+TEST_F(TwoHandTrackerTest, OneThreadAndTwoGiveTheSame) {
   Workers two(2);
-  HandsTracker other(test::quick_tracker(), {right_, left_}, 1, two);
+  TwoHandTracker other(test::quick_tracker(), {right_, left_}, 1, two);
   const HandEstimates one = next_times(4, tracker_, right_hand_, left_hand_);
   utime_ = 1'000'000;
   const HandEstimates same = next_times(4, other, right_hand_, left_hand_);
@@ -185,14 +185,14 @@ TEST_F(HandsTrackerTest, OneThreadAndTwoGiveTheSame) {
       EXPECT_EQ(one[k]->segments[s].T_camera_segment.t, same[k]->segments[s].T_camera_segment.t);
 }
 
-class ProfileOfAnotherSize : public HandsTrackerTest, public ::testing::WithParamInterface<double> {
+class ProfileOfAnotherSize : public TwoHandTrackerTest, public ::testing::WithParamInterface<double> {
  protected:
   /// What the log says while the right hand is tracked with a measured profile scaled by `size`.
   std::string said(double size) {
     auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
     profile->origin = ProfileOrigin::measured;
     std::ostringstream out;
-    HandsTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
+    TwoHandTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
     HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
     for (SE3& T : pose) T.t.x() += kRightX;
     tracker.hand(0).apply(StartAt{pose});
@@ -217,7 +217,7 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
 }
 
 /// A hand whose joints are detected.
-class StartOfDetectedHand : public HandsTrackerTest {
+class StartOfDetectedHand : public TwoHandTrackerTest {
  protected:
   static HandObservationPtr detected(const HandProfile& profile, double flexion) {
     const HandPose pose = test::facing_pose(profile, 0.5, flexion);
@@ -262,7 +262,7 @@ TEST_P(DetectedSizeOfStart, IsDoubtedAtOnceUnlessItIsTheProfilesOrFitted) {
     auto profile = std::make_shared<HandProfile>(*right_);
     profile->origin = GetParam().origin;
     std::ostringstream out;
-    HandsTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
+    TwoHandTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
     const HandObservationPtr hand = detected(scaled(*right_, GetParam().size), flexion);
     for (int frame = 0; frame < 3; ++frame) {
       const HandEstimates estimates = next(tracker, hand);
@@ -282,7 +282,7 @@ TEST_F(StartOfDetectedHand, KeepsItsSizeWhereNoCopyExplainsItBetter) {
   const auto wrong = detected(scaled(*right_, 0.8), 0.15);
   hand->detected = wrong->detected;
   std::ostringstream out;
-  HandsTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
+  TwoHandTracker tracker(params(), {profile}, 1, workers_, test::text_logger(out));
   for (int frame = 0; frame < 3; ++frame) next(tracker, hand);
   EXPECT_EQ(out.str(), "");
 }

@@ -1,4 +1,4 @@
-#include "tracking/hypotheses/found_poses.h"
+#include "tracking/hypotheses/restart_consensus.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-class FoundPosesTest : public ::testing::Test {
+class RestartConsensusTest : public ::testing::Test {
  protected:
   void add(double metres, double score) {
     HandPose pose = upright_;
@@ -27,45 +27,45 @@ class FoundPosesTest : public ::testing::Test {
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   const HandPose upright_ = test::facing_pose(*profile_, 0.5);
-  FoundPoses found_{*profile_, 0.0015, 0.004};
+  RestartConsensus found_{*profile_, 0.0015, 0.004};
 };
 
-TEST_F(FoundPosesTest, NothingIsNotSettled) { EXPECT_FALSE(found_.settled()); }
+TEST_F(RestartConsensusTest, NothingIsNotSettled) { EXPECT_FALSE(found_.settled()); }
 
-TEST_F(FoundPosesTest, OneThatIsGoodEnoughSettlesIt) {
+TEST_F(RestartConsensusTest, OneThatIsGoodEnoughSettlesIt) {
   add_unsettled(1, 0, 0.0016);
   add_settling(0.1, 0.0014);
 }
 
-TEST_F(FoundPosesTest, TheBestOneFoundThreeTimesIsEnough) {
+TEST_F(RestartConsensusTest, TheBestOneFoundThreeTimesIsEnough) {
   add_unsettled(2, 0, 0.002);
   add_settling(0.004, 0.0021);
 }
 
-TEST_F(FoundPosesTest, AWorseOneFoundThreeTimesIsNot) {
+TEST_F(RestartConsensusTest, AWorseOneFoundThreeTimesIsNot) {
   add_unsettled(1, 0, 0.002);
   add_unsettled(5, 0.1, 0.0021);
 }
 
-TEST_F(FoundPosesTest, ABetterOneIsToBeFoundAgain) {
+TEST_F(RestartConsensusTest, ABetterOneIsToBeFoundAgain) {
   add_unsettled(2, 0, 0.002);
   add_unsettled(2, 0.1, 0.0019);
   add_settling(0.1, 0.0019);
 }
 
-TEST_F(FoundPosesTest, EightOfWhichSevenDifferInFingersOnlyAreEnough) {
+TEST_F(RestartConsensusTest, EightOfWhichSevenDifferInFingersOnlyAreEnough) {
   add_unsettled(1, 0.5, 0.003);
   add_unsettled(1, 0, 0.002);
   for (int i = 1; i < 6; ++i) add_unsettled(1, 0.006 * i, 0.003);
   add_settling(0.036, 0.003);
 }
 
-TEST_F(FoundPosesTest, EightThatExplainNothingAreEnough) {
+TEST_F(RestartConsensusTest, EightThatExplainNothingAreEnough) {
   for (int i = 0; i < 7; ++i) add_unsettled(1, 0.1 * i, 0.005);
   add_settling(0.9, 0.005);
 }
 
-TEST_F(FoundPosesTest, TwoElsewhereKeepTheSearchGoing) {
+TEST_F(RestartConsensusTest, TwoElsewhereKeepTheSearchGoing) {
   add_unsettled(2, 0.5, 0.003);
   add_unsettled(1, 0, 0.002);
   for (int i = 1; i < 13; ++i) add_unsettled(1, 0.006 + 0.0025 * i, 0.003);
