@@ -1,5 +1,7 @@
 #include "core/stage_monitor.h"
 
+#include <exception>
+
 namespace barehand {
 
 StageHealth StageMonitor::health() const {
@@ -17,6 +19,16 @@ StageHealth StageMonitor::take_interval() {
 int StageMonitor::failures_in_a_row() const {
   std::unique_lock lock(mutex_);
   return failures_in_a_row_;
+}
+
+tl::unexpected<Error> StageMonitor::thrown() const {
+  try {
+    throw;
+  } catch (const std::exception& e) {
+    return fail(std::string("threw: ") + e.what(), name_);
+  } catch (...) {
+    return fail("threw an object that is not a std::exception", name_);
+  }
 }
 
 void StageMonitor::record(std::int64_t duration_us, bool ok) {

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <exception>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/clock.h"
@@ -17,11 +18,16 @@ class StageMonitor {
  public:
   StageMonitor(std::string name, const Clock& clock) : name_(std::move(name)), clock_(clock) {}
 
-  /// Runs fn() -> Result<T>, timed and counted.
-  template <typename Fn>
-  auto run(Fn&& fn) -> decltype(fn()) {
+  /// Calls fn(args...) -> Result<T>, timed and counted.
+  template <typename Fn, typename... Args, typename Outcome = std::invoke_result_t<Fn, Args...>>
+  Outcome run(Fn&& fn, Args&&... args) {
     const std::int64_t start = clock_.steady_us();
-    auto result = guarded(std::forward<Fn>(fn));
+    Outcome result = tl::unexpected(Error());
+    try {
+      result = std::invoke(std::forward<Fn>(fn), std::forward<Args>(args)...);
+    } catch (...) {
+      result = thrown();
+    }
     record(clock_.steady_us() - start, result.has_value());
     return result;
   }
@@ -38,14 +44,14 @@ class StageMonitor {
   auto guarded(Fn&& fn) const -> decltype(fn()) {
     try {
       return fn();
-    } catch (const std::exception& e) {
-      return fail(std::string("threw: ") + e.what(), name_);
     } catch (...) {
-      return fail("threw an object that is not a std::exception", name_);
+      return thrown();
     }
   }
 
  private:
+  // Says what the exception that is being handled was.
+  tl::unexpected<Error> thrown() const;
   void record(std::int64_t duration_us, bool ok);
 
   const std::string name_;

@@ -172,7 +172,7 @@ Pipeline::Capture Pipeline::waited(std::chrono::milliseconds patience) {
 bool Pipeline::preprocess(Item& item, const HandEstimates& feedback) {
   item.index = next_index_++;
 
-  auto observations = preprocess_monitor_.run([&] { return stages_.preprocess(item.data.frame, feedback); });
+  auto observations = preprocess_monitor_.run(stages_.preprocess, item.data.frame, feedback);
   if (observations) {
     item.data.observations = std::move(*observations);
     return true;
@@ -187,7 +187,7 @@ bool Pipeline::preprocess(Item& item, const HandEstimates& feedback) {
 }
 
 bool Pipeline::track(Item& item) {
-  auto estimates = track_monitor_.run([&] { return stages_.track(item.data.observations); });
+  auto estimates = track_monitor_.run(stages_.track, item.data.observations);
   if (estimates) item.data.estimates = std::move(*estimates);
   feedback_.post(item.index, item.data.estimates);
   if (estimates) return true;
@@ -202,7 +202,7 @@ void Pipeline::deliver(const Item& item) {
   for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // a failing sink does not keep the frame from the others
     StageMonitor& monitor = *sink_monitors_[i];
     const int missed = monitor.failures_in_a_row();
-    const auto consumed = monitor.run([&] { return stages_.sinks[i]->consume(item.data); });
+    const auto consumed = monitor.run(&Sink::consume, stages_.sinks[i], item.data);
     if (consumed) {
       if (missed > 0) log_.logger().info("{} works again; it missed {} frames", monitor.name(), missed);
       continue;

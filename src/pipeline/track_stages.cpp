@@ -23,18 +23,16 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
   auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
                                                     config.preprocess.use_colour, log.shared_logger());
-  auto tracker = std::make_shared<CommandedTracker>(
-      config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers, std::move(inbox), log);
+  auto tracker =
+      std::make_shared<CommandedTracker>(config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers,
+                                         std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
   return {[preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
             if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
               *preprocessor = std::make_unique<Preprocessor>(*params, hands);
             return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
           },
-          [tracker, pending](const HandObservations& observations) -> Result<HandEstimates> {
-            if (const auto params = pending ? pending->tracker.take() : std::nullopt) tracker->change(*params);
-            return tracker->process(observations);
-          }};
+          std::bind_front(&CommandedTracker::process, tracker)};
 }
 
 }  // namespace barehand

@@ -9,10 +9,15 @@
 namespace barehand {
 
 CommandedTracker::CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles,
-                                   std::uint64_t seed, Workers& workers, Inbox inbox, RepeatLog& log)
-    : inbox_(std::move(inbox)), log_(log), tracker_(params, profiles, seed, workers, log.shared_logger()) {}
+                                   std::uint64_t seed, Workers& workers, Inbox inbox, RepeatLog& log,
+                                   Slot<TrackerParams>* params)
+    : inbox_(std::move(inbox)),
+      log_(log),
+      params_(params),
+      tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 
-HandEstimates CommandedTracker::process(const HandObservations& observations) {
+Result<HandEstimates> CommandedTracker::process(const HandObservations& observations) {
+  if (const auto changed = params_ ? params_->take() : std::nullopt) tracker_.change(*changed);
   if (inbox_) collect(observations[0]->frame->sensor);
   if (++frames_ % kPause == 0) allowed_ = std::min(allowed_ + 1, kBurst);
   if (allowed_ > 0 && !waiting_.empty()) follow_waiting();

@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/error.h"
 #include "core/log.h"
+#include "core/slot.h"
 #include "drivers/lcm/command.h"
 #include "tracking/two_hand_tracker.h"
 
@@ -21,15 +23,16 @@ class CommandedTracker {
   /// What arrived since the last call; asked before every frame, on the thread of `process`. Empty: no commands.
   using Inbox = std::function<std::vector<Result<Command>>()>;
 
-  /// `workers` and `log` outlive the tracker.
+  /// `params`: where changed parameters arrive; looked at before every frame; may be null. It, `workers` and `log`
+  /// outlive the tracker.
   CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles, std::uint64_t seed,
-                   Workers& workers, Inbox inbox, RepeatLog& log);
+                   Workers& workers, Inbox inbox, RepeatLog& log, Slot<TrackerParams>* params = nullptr);
 
-  HandEstimates process(const HandObservations& observations);
+  /// Follows what arrived, and tracks the hands in this frame. An error never comes from here: it is the type that the
+  /// pipeline wants of a stage.
+  Result<HandEstimates> process(const HandObservations& observations);
   /// Of the first hand.
   void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }
-  /// See UseParams.
-  void change(const TrackerParams& params) { tracker_.change(params); }
 
  private:
   void collect(const std::string& sensor);
@@ -41,6 +44,7 @@ class CommandedTracker {
 
   const Inbox inbox_;
   RepeatLog& log_;
+  Slot<TrackerParams>* const params_;
   TwoHandTracker tracker_;
   HandEstimates last_;
   std::vector<Command> waiting_;  // one of each kind and hand at most, a profile for any hand once a hand; oldest first

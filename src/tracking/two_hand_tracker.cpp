@@ -64,7 +64,8 @@ HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
     if (!searched(k, *observations[k])) tracked.push_back(k);
   workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
     const int k = tracked[i];
-    out[k] = track(k, *observations[k]);
+    out[k] =
+        verifiers_[k]->verifying() ? track_with_mirrored(k, *observations[k]) : hands_[k]->process(*observations[k]);
   });
 
   // Search the others.
@@ -80,9 +81,7 @@ HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
   return out;
 }
 
-/// Tracks the k-th hand and, during a verification, the mirrored one beside it.
-HandEstimatePtr TwoHandTracker::track(int k, const HandObservation& observation) {
-  if (!verifiers_[k]->verifying()) return hands_[k]->process(observation);
+HandEstimatePtr TwoHandTracker::track_with_mirrored(int k, const HandObservation& observation) {
   HandEstimatePtr estimate;
   workers_.for_each_index(2, [&](int i) {
     if (i == 0) estimate = hands_[k]->process(observation);
@@ -125,7 +124,7 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   // A track goes on; its verification may end it.
   const TrackView before = hand.view();
   if (before.status != TrackStatus::searching || before.start_is_given) {
-    HandEstimatePtr estimate = track(0, observation);
+    HandEstimatePtr estimate = check.verifying() ? track_with_mirrored(0, observation) : hand.process(observation);
     judge_verification(0, *estimate);
     judge_size(0, observation, *estimate);
     return estimate;

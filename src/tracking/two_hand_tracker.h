@@ -36,7 +36,8 @@ class TwoHandTracker {
  private:
   // Creates the profile checks anew, which belong to the present profiles and parameters.
   void check_anew();
-  HandEstimatePtr track(int k, const HandObservation& observation);
+  // Tracks the k-th hand and, beside it, the mirrored one of its verification.
+  HandEstimatePtr track_with_mirrored(int k, const HandObservation& observation);
   // Gives up a hand that its verification shows to be of the other side.
   void judge_verification(int k, const HandEstimate& estimate);
   // Doubts the size of a tracked hand if the detected joints show another one.

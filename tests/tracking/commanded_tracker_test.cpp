@@ -22,7 +22,7 @@ using ::testing::Not;
 class CommandedTrackerTest : public ::testing::Test {
  protected:
   HandObservationPtr seen(const HandObservation& what) { return test::stamped(what, utime_ += 33'000); }
-  HandEstimatePtr next() { return tracker_.process({seen(*hand_)}).front(); }
+  HandEstimatePtr next() { return tracker_.process({seen(*hand_)})->front(); }
   void send(Command command) { waiting_.push_back(std::move(command)); }
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
@@ -32,8 +32,9 @@ class CommandedTrackerTest : public ::testing::Test {
   RepeatLog log_{make_silent_logger(), clock_};
   Workers workers_{1};
   std::vector<Result<Command>> waiting_;
+  Slot<TrackerParams> params_;
   CommandedTracker tracker_{
-      test::quick_tracker(), {profile_}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_};
+      test::quick_tracker(), {profile_}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log_, &params_};
   std::int64_t utime_ = 1'000'000;
 };
 
@@ -107,7 +108,7 @@ TEST_F(CommandedTrackerTest, OtherParametersKeepTheHand) {
   const HandEstimatePtr before = next();
   TrackerParams params = test::quick_tracker();
   params.refinement.iterations += 1;
-  tracker_.change(params);
+  params_.put(params);
   const HandEstimatePtr after = next();
   EXPECT_EQ(after->status, TrackStatus::tracking);
   EXPECT_EQ(after->hand_id, before->hand_id);
@@ -120,7 +121,7 @@ TEST_F(CommandedTrackerTest, OtherParametersAreInForceAtOnce) {
   EXPECT_EQ(next()->status, TrackStatus::tracking);
   TrackerParams params = test::quick_tracker();
   params.loss.min_hand_pixels = 1'000'000;
-  tracker_.change(params);
+  params_.put(params);
   EXPECT_EQ(next()->status, TrackStatus::holding);
 }
 
@@ -139,7 +140,7 @@ TEST_F(CommandedTrackerTest, AProfileGoesToTheHandOfItsSide) {
     CommandedTracker tracker(
         test::quick_tracker(), {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
     HandEstimates hands;
-    const auto step = [&] { hands = tracker.process({seen(*hand_), seen(HandObservation())}); };
+    const auto step = [&] { hands = *tracker.process({seen(*hand_), seen(HandObservation())}); };
     if (late) step();
     for (const char* side : {"left", "right"}) {
       Command command;
