@@ -23,6 +23,10 @@ deploy/fetch_hand_mesh.sh
 if [ "${1:-}" = --tests ]; then
   cmake --preset release -DBAREHAND_TESTS=ON -DBAREHAND_WERROR=ON
   cmake --build --preset release
+  # The tests of memory and parsing once more with sanitizers.
+  cmake --preset asan-fast
+  cmake --build --preset asan-fast
+  ctest --preset asan-fast
   ctest --preset release
 else
   cmake --preset release -DBAREHAND_TESTS=OFF -DBAREHAND_WERROR=OFF
