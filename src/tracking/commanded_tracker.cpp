@@ -10,14 +10,14 @@ namespace barehand {
 
 CommandedTracker::CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles,
                                    std::uint64_t seed, Workers& workers, Inbox inbox, RepeatLog& log,
-                                   Slot<TrackerParams>* params)
+                                   Slot<TrackerParams>* changed)
     : inbox_(std::move(inbox)),
       log_(log),
-      params_(params),
+      changed_(changed),
       tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 
 Result<HandEstimates> CommandedTracker::process(const HandObservations& observations) {
-  if (const auto changed = params_ ? params_->take() : std::nullopt) tracker_.change(*changed);
+  if (const auto params = changed_ ? changed_->take() : std::nullopt) tracker_.change(*params);
   if (inbox_) collect(observations[0]->frame->sensor);
   if (++frames_ % kPause == 0) allowed_ = std::min(allowed_ + 1, kBurst);
   if (allowed_ > 0 && !waiting_.empty()) follow_waiting();

@@ -23,10 +23,10 @@ class CommandedTracker {
   /// What arrived since the last call; asked before every frame, on the thread of `process`. Empty: no commands.
   using Inbox = std::function<std::vector<Result<Command>>()>;
 
-  /// `params`: where changed parameters arrive; looked at before every frame; may be null. It, `workers` and `log`
+  /// `changed`: where changed parameters arrive; looked at before every frame; may be null. It, `workers` and `log`
   /// outlive the tracker.
   CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles, std::uint64_t seed,
-                   Workers& workers, Inbox inbox, RepeatLog& log, Slot<TrackerParams>* params = nullptr);
+                   Workers& workers, Inbox inbox, RepeatLog& log, Slot<TrackerParams>* changed = nullptr);
 
   /// Follows what arrived, and tracks the hands in this frame. An error never comes from here: it is the type that the
   /// pipeline wants of a stage.
@@ -44,7 +44,7 @@ class CommandedTracker {
 
   const Inbox inbox_;
   RepeatLog& log_;
-  Slot<TrackerParams>* const params_;
+  Slot<TrackerParams>* const changed_;
   TwoHandTracker tracker_;
   HandEstimates last_;
   std::vector<Command> waiting_;  // one of each kind and hand at most, a profile for any hand once a hand; oldest first
