@@ -14,7 +14,7 @@ struct Kernel {
   Vector6d half_width = Vector6d::Zero();
 };
 /// The distributions from which each local tracker draws its samples: one around the predicted pose at level 0, then
-/// one around each of the best samples of the level before (Sec. 4.4).
+/// one around each of the best samples of the previous level (Sec. 4.4).
 using Proposals = std::array<std::vector<Kernel>, kSegmentCount>;
 
 /// Samples of the pose of every segment at one level and their log-likelihoods (Eq. 3): a discretised local pdf.
