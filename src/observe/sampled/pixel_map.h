@@ -22,15 +22,15 @@ struct PixelMap {
   float fx = 0, fy = 0;              ///< [pixel]
   float cx = 0, cy = 0;              ///< principal point in coordinates of this map
   std::vector<Cell> cells;           ///< row-major
-  std::vector<std::int32_t> hidden;  ///< bit s: hidden from segment s by another part of the hand
+  std::vector<std::int32_t> hidden;  ///< bit s: another part of the hand hides segment s here
   PixelRays rays;                    ///< rays of the region of interest, without the border
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * width + u; }
 };
 
-/// `missing_is_background`: a pixel without depth counts as not hand, as in the paper; otherwise it gives no evidence.
-/// Pixels outside the camera's image give no evidence; pixels outside the region of interest only are not hand.
-/// `reused`: an earlier map whose memory the new one takes over.
+/// Builds the map of an observation. `missing_is_background`: a pixel without depth counts as not hand, as in the
+/// paper; otherwise it gives no evidence. Pixels outside the camera's image give no evidence; pixels in the image but
+/// outside the region of interest are not hand. `reused`: an earlier map whose memory the new one takes over.
 PixelMap make_pixel_map(const HandObservation& observation, bool missing_is_background, Workers& workers,
                         PixelMap reused = {});
 
