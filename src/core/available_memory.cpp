@@ -28,9 +28,8 @@ std::int64_t available_memory(const std::string& meminfo, const std::string& own
 
   // Apply the limits of the control group and of all groups above it.
   for (std::string group = group_path(own_group);; group.resize(group.rfind('/'))) {
-    if (std::int64_t limit = 0;
-        std::ifstream(groups + group + "/memory.max") >> limit)  // "max" (no limit) is not a number
-      bytes = std::min(bytes, limit);
+    // A group without a limit has "max" in place of a number.
+    if (std::int64_t limit = 0; std::ifstream(groups + group + "/memory.max") >> limit) bytes = std::min(bytes, limit);
     if (group.find('/') == std::string::npos) break;
   }
 

@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// Quotes texts for messages and command lines, and checks UTF-8.
+
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 /// Length in bytes of the UTF-8 character at the start of `text`, which must not be empty; 0 if there is no valid one.

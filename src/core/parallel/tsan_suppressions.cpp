@@ -4,8 +4,8 @@
 //  - liblcm's memq:// passes a message from publisher to receiver under GLib's locks, which are bare futexes. LcmBus
 //    declares this order for our handlers, but liblcm compares the message's channel before it calls them.
 //  - libOpenNI2 and its file driver libOniFile call drivers, and are called by them, holding their own locks in either
-//    order; they pass memory between their threads, and at the end of the program unlock mutexes that are not locked. A
-//    report with one of their functions anywhere on its stack is suppressed.
+//    order; they pass memory between their threads, and at the end of the program unlock mutexes that they have not
+//    locked. A report with one of their functions anywhere on its stack is suppressed.
 //  - FFmpeg's encoders, and umockdev with libudev and GLib, pass memory between their own threads.
 extern "C" const char* __tsan_default_suppressions() {
   return "called_from_lib:libtbb.so\n"
