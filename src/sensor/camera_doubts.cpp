@@ -10,6 +10,8 @@
 namespace barehand {
 namespace {
 
+// Finds unlikely intrinsics and their probable cause.
+
 struct Size {
   int width, height;
 };

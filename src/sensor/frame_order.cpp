@@ -9,6 +9,8 @@
 namespace barehand {
 namespace {
 
+// Checks the order and the unit of time stamps, and numbers the frames.
+
 constexpr std::size_t kSteps = 15;  // intervals between frames from which the unit of the stamps is checked
 // Intervals that suffice for this check at the end of a short recording.
 constexpr std::size_t kFewestSteps = 2;

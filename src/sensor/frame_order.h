@@ -8,8 +8,10 @@
 
 namespace barehand {
 
-/// Latest time that is believed of a stamp [us], before or after the epoch: beyond it stamps are in another unit, and a
-/// table could not hold them with its precision.
+// Checks the time stamps of a source's frames, and numbers the frames.
+
+/// Time stamps farther from the epoch than this [us], before or after it, are rejected: they are in another unit, and a
+/// result table could not represent them with its precision.
 inline constexpr std::int64_t kLatestUtime = 100'000'000'000'000'000;
 
 /// If a time stamp is earlier than the previous one by at least this [us], the recorder was restarted; if by less, the
@@ -25,12 +27,10 @@ std::string too_late(double stamp, StampUnit unit);
 
 /// The one rule for time stamps and frame numbers (docs/formats.md, "Time"). Every source calls number() for every
 /// frame of a channel, in the order in which the frames were recorded or arrive.
-///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or arrived
-///  late:
-///    it is not used.
+///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or late: it is
+///    not used.
 ///  - A stamp that is earlier by a second or more is a restart: the recorder was started again, or its clock was set.
-///  - Frame numbers increase. If they do not, the sender has restarted its count, and the numbers continue from the
-///  last.
+///  - Frame numbers increase. If they do not, the sender has restarted its count; the numbers continue from the last.
 ///  - Stamps are used unchanged. If they look like another unit, the user is warned, but they are never converted; a
 ///    frame whose stamp cannot be a time in the unit is not used.
 class FrameOrder {

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// The interface of all sources of frames.
+
 /// Events that a source returns instead of a frame.
 struct EndOfStream {};
 struct Timeout {};  ///< no frame arrived in time; call next() again

@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// Detects depth images without usable content.
+
 // A depth image with a larger fraction of jumps between neighbours (see jump_share()) is noise.
 constexpr double kSenseless = 0.4;
 constexpr int kRowStep = 4;       // every fourth row is enough

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// Depth sensors on the USB bus.
+
 /// A device on the USB bus, valid until it is unplugged.
 struct UsbAddress {
   std::uint16_t vendor = 0, product = 0;
