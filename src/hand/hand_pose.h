@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// The pose of a hand, and a tracker's estimate of it.
+
 /// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). The ends of neighbouring segments need not
 /// meet exactly.
 using HandPose = std::array<SE3, kSegmentCount>;

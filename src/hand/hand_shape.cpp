@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// Applies the components of a HandShape to a profile, and differentiates the skin with respect to them.
+
 using Eigen::Vector3d;
 
 // Index of the first component of each kind in a HandShape.

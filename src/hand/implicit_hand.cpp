@@ -10,6 +10,8 @@
 namespace barehand {
 namespace {
 
+// Builds the hand's implicit surface from elliptic tubes.
+
 // How an average hand deviates from linear interpolation between the cross-sections that a profile states. The numbers
 // were fitted to depth images of several hands in known poses; factors multiply the profile's own sections.
 

@@ -6,6 +6,8 @@
 
 namespace barehand {
 
+// Joint angles, their limits, and forward kinematics.
+
 /// Rotation of a joint away from its rest pose [rad]: flexion towards the palm, abduction about the segment's +y, twist
 /// about its z. In the order R = Ry(abduction) Rz(twist) Rx(-flexion) there is no gimbal lock at 90 degrees of flexion,
 /// and combined flexion and abduction have no twist.

@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Finds unlikely values in a hand profile and their probable cause.
+
 // Shortest and longest plausible hand, from the wrist joint to the tip of the middle finger [m]: a two-year-old child's
 // and the largest adults', with a margin.
 constexpr double kSmallest = 0.1, kLargest = 0.25;

@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Data of the sampling stages: where samples are drawn, the samples, and their beliefs.
+
 /// A uniform distribution in a box around a pose. The box lies along the segment's own axes: offsets (x, y, z) [m] and
 /// rotations (about x: flexion, y: abduction, z: twist) [rad] within +-half_width.
 struct Kernel {

@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// Builds the skin as a mesh of the implicit hand, binds its vertices to segments, and poses, thins and samples it.
+
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 

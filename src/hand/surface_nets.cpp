@@ -5,6 +5,8 @@
 namespace barehand {
 namespace {
 
+// Extracts a triangle mesh from a signed distance on a regular grid.
+
 using Distance = std::function<double(const Eigen::Vector3d&)>;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
