@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Results of the networks that detect hands.
+
 /// The classes that the detection networks assign to pixels.
 enum class SurfaceLabel : std::uint8_t { background = 0, hand = 1, arm = 2, object = 3 };
 inline constexpr int kSurfaceLabelCount = 4;
@@ -69,8 +71,8 @@ struct Detection {
   /// windows around them were searched.
   bool whole_frame = false;
   std::vector<DetectedHand> hands;  ///< most probable first; no two at the same place
-  std::vector<LabelMap>
-      frame_labels;  ///< coarse labels that together cover the whole frame; empty if only windows were searched
+  /// Coarse labels that together cover the whole frame; empty if only windows were searched.
+  std::vector<LabelMap> frame_labels;
 };
 using DetectionPtr = std::shared_ptr<const Detection>;
 

@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// A software rasteriser for the skin, which draws several cells at once with SIMD.
+
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Compares a rendered hand with an observation cell by cell, and finds where the model should move.
+
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// Comparison of a rendered hand with an observation, pixel by pixel.
+
 /// The area of skin that a correspondence of weight 1 represents [m^2]: a cell of 2 x 2 pixels at 0.6 m with a focal
 /// length of 525 px.
 inline constexpr float kReferenceArea = 5e-6f;

@@ -4,6 +4,8 @@
 
 namespace barehand {
 
+// The compute shader that compares samples with the data, and its interface.
+
 /// Bindings of the shader's storage buffers.
 enum ShaderBuffer {
   kSkinBuffer,    ///< per point: (x, y, z, area), (nx, ny, nz, 0), segment frame

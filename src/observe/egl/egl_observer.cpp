@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// Copies sample batches to the device's buffers, has them compared, and reads the distances.
+
 void write_skin(const HandSurface& surface, float* out) {
   for (const SegmentSurface& skin : surface)
     for (std::size_t i = 0; i < skin.size(); ++i, out += kFloatsPerPoint) {

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// The observer that uses a graphics device through EGL and OpenGL ES.
+
 struct Egl;
 
 /// Time limits after which a driver is given up. Each is far longer than a working device needs, and their sum is below

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Creates and fills the shader's buffers; they stay mapped if the driver supports this.
+
 constexpr GLbitfield kStaysMapped = GL_MAP_PERSISTENT_BIT_EXT | GL_MAP_COHERENT_BIT_EXT;
 
 /// Adds a reserve, because regions of interest and numbers of samples change a little from frame to frame.

@@ -11,6 +11,8 @@ namespace barehand {
 
 namespace {
 
+// Robust ICP (iterative closest points) with point-to-plane and point-to-point residuals.
+
 using Eigen::Vector3d;
 
 constexpr std::size_t kCoarseStride = 2;  // the first half of the iterations uses every second model point

@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Rigid registration of a hand's surface to the depth data of a frame (ICP, iterative closest points).
+
 /// Settings of the rigid registration of a posed hand surface to a frame (paper Sec. 4.4 and its reference [2]).
 struct RegistrationParams {
   bool enabled = true;

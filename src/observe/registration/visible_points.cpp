@@ -7,8 +7,9 @@ namespace barehand {
 
 namespace {
 
-constexpr double kCell =
-    0.006;  // size of a z-buffer cell at the hand's distance [m]; larger than the spacing of the points
+// Chooses points of a posed surface that face the camera and are not hidden.
+
+constexpr double kCell = 0.006;    // size of a z-buffer cell at the hand [m]; larger than the spacing of the points
 constexpr double kBehind = 0.012;  // a point this far behind its cell's front-most point is hidden [m]
 
 }  // namespace

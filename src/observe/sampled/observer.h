@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Interfaces that compare samples of the segments' poses with the data.
+
 /// Result of comparing one sample's skin with the data (paper Sec. 4.1, 4.2). A skin point's weight is the number of
 /// pixels that it covers.
 struct PatchDistance {
