@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Compares a result with the truth frame by frame, and summarises the errors.
+
 using FramesByNumber = std::map<std::int64_t, const TableFrame*>;
 
 FramesByNumber by_number(const ResultTable& table) {

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// Errors of a tracking result compared with the truth.
+
 /// A frame with a larger error counts as lost [m].
 inline constexpr double kLostFrameError = 0.020;
 /// A segment counts as seen if its visible fraction in the truth is above kSeen, as hidden if it is below kHidden, and

@@ -10,6 +10,8 @@
 namespace barehand {
 namespace {
 
+// Compares the fingertips of results with fingertips that were labelled in images.
+
 /// Parses one line of the table. Returns false if it is malformed.
 bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
   // Split the line.

@@ -29,8 +29,7 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
 /// the bone.
 struct FingertipEvaluation {
   std::size_t labels = 0;
-  std::size_t missing =
-      0;  ///< labels in frames without a tracked hand, or whose tracked fingertip is behind the camera
+  std::size_t missing = 0;  ///< labels in frames without a tracked hand, or with the fingertip behind the camera
   Distribution all;
   std::array<Distribution, kFingerCount> per_finger;
 };

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Compares stated covariances and confidences with actual errors.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 

@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// Checks how well the stated uncertainties of a result agree with its actual errors.
+
 /// The pose of one segment in an estimate, with the stated uncertainty. Camera frame, metres.
 struct StatedSegment {
   Eigen::Vector3d proximal, distal;
