@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// Collects frames of a tracked hand, and scans the hand from them.
+
 constexpr int kSettling = 8, kMost = 32;  // tracked frames left out at first; most frames kept
 constexpr int kPasses = 4;                // passes over all frames to fit a mean hand to them
 constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement of a pose

@@ -9,6 +9,8 @@
 namespace barehand {
 namespace {
 
+// Builds the normal equations of one frame of a scan from skin distances and joints.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;

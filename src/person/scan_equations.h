@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Normal equations of a scan: those of the shared unknowns, and those of one frame.
+
 /// One frame of a scan: its observation and the pose of the model's segments in it.
 struct ScanFrame {
   HandObservationPtr observation;

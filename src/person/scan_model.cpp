@@ -9,6 +9,8 @@
 namespace barehand {
 namespace {
 
+// The model that a scan optimises, and its conversion from and to a hand profile.
+
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 

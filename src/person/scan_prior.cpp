@@ -5,6 +5,8 @@
 namespace barehand {
 namespace {
 
+// Prior knowledge about a scanned hand as terms of the normal equations.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -65,7 +67,7 @@ class Prior {
       out_.add<6>(first, J.transpose() * J / sq(kBetweenBones));
       out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
 
-      // The axes of the joint hardly turn.
+      // The axes of the joint stay near their initial directions.
       const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
       for (int axis = 0; axis < 3; ++axis) add_one(first + 6 + axis, turn[axis], kRestTurn);
       if (hold)

@@ -3,6 +3,8 @@
 namespace barehand {
 namespace {
 
+// Solves the equations of a scan by preconditioned conjugate gradients.
+
 constexpr double kDamping = 1e-3;      // Levenberg-Marquardt, relative to the diagonal
 constexpr double kTolerance = 1e-6;    // size of the final residual, relative to the right-hand side
 constexpr int kMostIterations = 1000;  // about a hundred are usual

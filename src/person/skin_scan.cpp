@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// Runs the Gauss-Newton rounds of a scan.
+
 constexpr int kRounds = 40, kRoundsOfSkin = 16;  // rounds of a scan; fewer if joints are fixed
 constexpr int kSkinRounds = 2;                   // the first rounds move only the skin, which has the largest errors
 // Upper limits of the total weight of all frames: more frames add no information, because their errors are correlated.
