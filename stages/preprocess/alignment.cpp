@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Finds the translation of a predicted hand by moving its silhouette over the candidate cells.
+
 constexpr int kBlock = 4;            // the first search works on blocks of this many cells per side
 constexpr float kRing = 0.035f;      // width of a ring around the silhouette that should show no candidates [m]
 constexpr float kOutside = -0.6f;    // weight of a candidate in the ring; inside the silhouette it is 1
@@ -180,8 +182,7 @@ Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int ra
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
       const float cost = kMotionCost * motion;
       const Eigen::AlignedBox2i inside = shape.inside.translated(Eigen::Vector2i(shape.u0 + x, shape.v0 + y));
-      if (scene.possible_in(inside) / shape.total - cost <= best.score)
-        continue;  // an upper bound of the score is not better
+      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // upper bound: not better
       const float score = overlap(shape, scene, x, y) / shape.total - cost;
       if (score > best.score) best = {x, y, score};
     }

@@ -9,9 +9,10 @@
 namespace barehand {
 namespace {
 
+// Samples a frame into the cells of a coarse grid.
+
 constexpr int kCellsAcross = 160;  // columns of the grid; fingers at arm's length are still two cells wide
-constexpr float kClearOdds =
-    2.f;  // if the log odds of a cell's median pixel exceed this, its other samples are not needed
+constexpr float kClearOdds = 2.f;  // log odds of a cell's median pixel above which it decides for the whole cell
 
 constexpr int kSamples = 5;
 

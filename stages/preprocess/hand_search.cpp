@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Finds the hands in the coarse grid: first near their predictions, then in the rest of the image.
+
 constexpr float kOnModel = 0.02f;  // largest distance of a matching cell from the moved prediction [m]
 
 // A surface belongs to the hand if this fraction of its cells, or this number of cells, matches the prediction.

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Search for hands in the coarse grid.
+
 /// One hand in the coarse grid.
 struct CoarseHand {
   bool found = false;

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Decides by depth, colour and detection which pixels of the region of interest show the hand.
+
 constexpr float kInFront = 0.005f;  // data in front of the nearest hand pixel by more than this is an object [m]
 
 bool joined(float a, float b, float fx) { return std::abs(a - b) < same_surface_step(std::min(a, b), fx); }

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// Labels of the pixels in the region of interest.
+
 /// Decides pixel by pixel what belongs to the hand that was found in the coarse grid.
 class HandMask {
  public:

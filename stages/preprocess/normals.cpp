@@ -9,6 +9,8 @@
 namespace barehand {
 namespace {
 
+// Fits normals to the hand's surface, and estimates the depth noise.
+
 constexpr int kFewestSamples = 6;      // fewer samples do not determine a plane
 constexpr float kSteepest = 1.2f;      // slope up to which samples away from the centre count as the same surface
 constexpr float kLeastFacing = 0.05f;  // smallest cosine to the view ray; at grazing angles the fit is mostly noise

@@ -6,6 +6,8 @@
 
 namespace barehand {
 
+// Normals and depth noise of the hand's pixels.
+
 /// Computes the normals of the hand pixels in `mask` from least-squares planes through the depth around them: a grid of
 /// 5 x 5 samples that spans +-radius [m]. Only hand samples on the same surface are used, so that neither edges nor
 /// objects affect a normal. It is zero where fewer than six samples agree. fit() fills `out.normal`; it needs frame,

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Approximates an earlier estimate of a hand by capsules.
+
 constexpr int kPalmRays = 4;           // capsules of the palm, from the wrist to each knuckle but the thumb's
 constexpr float kPalmRadius = 0.013f;  // half the thickness of a palm [m]; neighbouring capsules leave no gaps
 

@@ -6,11 +6,13 @@
 namespace barehand {
 namespace {
 
+// Runs the steps of preprocessing, and learns the skin colour from tracked hands.
+
 constexpr float kSurelySkin = 0.004f;  // cells this near to the predicted skin certainly show skin [m]
 // Cells farther than this from the predicted skin do not show the hand [m]: no finger can have moved that far
 // unnoticed.
 constexpr float kSurelyOther = 0.045f;
-constexpr float kSurroundings = 0.22f;  // radius of a hand's surroundings [m]
+constexpr float kSurroundings = 0.22f;  // cells farther than this from a hand's centre do not show it [m]
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Learns histograms of skin and other colours, and computes the log odds of skin from them.
+
 constexpr std::size_t kFewestColours = 30;  // fewer pixels do not determine a distribution
 constexpr double kLeastSpread = 0.35;  // smallest deviation of skin's log brightness, as it may get into shade any time
 constexpr double kUsualSpread = 2;     // brightness is no evidence down to this many standard deviations below the mean

@@ -55,9 +55,8 @@ class SkinModel {
   void rebuild();
 
   double rate_, share_;
-  std::array<int, 256> log_{};  // fixed-point log of a channel
-  std::array<float, 256>
-      trust_{};  // weight of the chroma by the brightest channel, as the chroma of dark pixels is noise
+  std::array<int, 256> log_{};      // fixed-point log of a channel
+  std::array<float, 256> trust_{};  // weight of the chroma by the brightest channel: in the dark, chroma is noise
   Histogram prior_skin_{}, prior_other_{}, skin_{}, other_{}, odds_{};
   double skin_mass_ = 0, other_mass_ = 0;      // [0, 1): how much has been learned
   double brightness_ = 0, brightness_sq_ = 0;  // moments of the log of skin's brightest channel, times skin_mass_

@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Finds the wrist from the width of hand and forearm along their axis.
+
 constexpr float kBin = 0.005f;         // width is measured in bins of this length along the axis [m]
 constexpr int kBins = 64;              // number of bins, beginning at the fingertips
 constexpr float kLongestHand = 0.21f;  // distance from fingertip to wrist of the longest hand [m]

@@ -17,8 +17,8 @@ enum class Evidence : std::uint8_t { none = 0, hand = 1, other = 2, open = 3 };
 /// order in which they were reached.
 class Flood {
  public:
-  /// `joined(i, j)`: neighbours i and j lie on one surface. Colour: black = none. Pixels that no decided one
-  /// reaches stay open.
+  /// `joined(i, j)`: neighbours i and j lie on one surface. Colour: black = none. Pixels that are joined to no decided
+  /// pixel stay open.
   template <class Joined>
   void run(Image<Evidence>& evidence, const Image<Rgb>& colour, const Joined& joined) {
     for (std::vector<Step>& bucket : buckets_) bucket.clear();
