@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Penalises overlaps of capsules within the fingers and the palm.
+
 using Eigen::Vector3d;
 using Axis = std::array<Vector3d, 2>;
 

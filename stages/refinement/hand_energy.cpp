@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// The terms of the energy that refinement minimises: data, joints and prior.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;

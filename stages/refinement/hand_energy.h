@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The energy of a hand's pose in a frame, as terms of normal equations.
+
 class ShapeMoments;
 
 /// Weights of the continuous energy that refinement minimises: the negative logarithm of the paper's likelihood

@@ -10,6 +10,8 @@
 namespace barehand {
 namespace {
 
+// Computes the covariances of the segments of a refined pose.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 

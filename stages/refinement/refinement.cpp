@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Minimises the energy of a pose by Gauss-Newton steps, with a coarse and then a fine comparison.
+
 // EnergyParams::palm_trust while the shape is fitted: the palm's skin is being corrected, so it gets more weight than
 // in tracking.
 constexpr double kShapePalmTrust = 0.3;
@@ -155,8 +157,8 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
-    // The silhouette of a mean hand has larger errors than the surface's turning away causes, so unexplained data keeps
-    // its full pull (see hand_energy.cpp).
+    // The last steps avoid the pull along the surface that is wrong near the silhouette (see hand_energy.cpp). A mean
+    // hand's silhouette has larger errors than that, so the full pull is kept.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds affect only fine steps
 

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// Continuous refinement of a hand's pose.
+
 // Settings of the continuous refinement.
 struct RefinementParams {
   bool enabled = true;

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Normal equations of a hand's shape together with its pose.
+
 /// Normal equations of a hand's shape (y) together with its pose (x) in one frame:
 ///   tree.H x + H_pose_shape y = tree.g,   H_pose_shape^T x + H_shape y = g_shape
 struct ShapeEquations {
