@@ -9,7 +9,7 @@
 namespace barehand {
 namespace {
 
-/// Path of the control group (version 2), for example "/system.slice/barehand.service"; "" if there is none.
+/// Path of this process's control group (version 2), for example "/system.slice/barehand.service"; "" if there is none.
 std::string group_path(const std::string& own_group) {
   std::ifstream lines(own_group);
   for (std::string line; std::getline(lines, line);)
@@ -20,20 +20,20 @@ std::string group_path(const std::string& own_group) {
 }  // namespace
 
 std::int64_t available_memory(const std::string& meminfo, const std::string& own_group, const std::string& groups) {
-  // What the kernel calls available.
+  // Read how much memory the kernel considers available.
   std::int64_t bytes = std::numeric_limits<std::int64_t>::max();
   std::ifstream info(meminfo);
   for (std::string key; info >> key; info.ignore(1024, '\n'))
     if (std::int64_t kilobytes = 0; key == "MemAvailable:" && info >> kilobytes) bytes = kilobytes * 1024;
 
-  // The limits of the control group and of all groups above it.
+  // Apply the limits of the control group and of all groups above it.
   for (std::string group = group_path(own_group);; group.resize(group.rfind('/'))) {
-    if (std::int64_t limit = 0; std::ifstream(groups + group + "/memory.max") >> limit)  // the alternative is "max"
-      bytes = std::min(bytes, limit);
+    // A group without a limit has "max" in place of a number.
+    if (std::int64_t limit = 0; std::ifstream(groups + group + "/memory.max") >> limit) bytes = std::min(bytes, limit);
     if (group.find('/') == std::string::npos) break;
   }
 
-  // The limit of the address space.
+  // Apply the limit of the address space (ulimit -v).
   if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
     bytes = std::min(bytes, static_cast<std::int64_t>(limit.rlim_cur));
   return bytes;

@@ -17,7 +17,7 @@ class Clock {
   virtual std::int64_t utime() const = 0;
 };
 
-/// The clocks of the machine.
+/// The operating system's clocks.
 class SystemClock : public Clock {
  public:
   std::int64_t steady_us() const override { return count(std::chrono::steady_clock::now().time_since_epoch()); }

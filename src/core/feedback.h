@@ -8,7 +8,8 @@
 namespace barehand {
 
 /// Hands the results of a later stage back to an earlier one, frame by frame. Taking the result of frame k waits until
-/// it is there, so what the earlier stage gets does not depend on the speed of the threads. Each result is taken once.
+/// it is there, so what the earlier stage gets does not depend on the speed of the threads. Each result can be taken
+/// only once.
 template <typename T>
 class Feedback {
  public:

@@ -7,9 +7,8 @@
 
 namespace barehand {
 
-/// Memory for the results that frames carry from stage to stage. What the last owner frees, on whatever thread, is
-/// reused for a later frame, so that a running stream allocates nothing from the heap. It lives as long as the
-/// process.
+/// Memory for the results that frames carry from stage to stage. Memory that the last owner frees, on any thread, is
+/// reused for a later frame, so that a running stream allocates nothing from the heap. It lives as long as the process.
 std::pmr::memory_resource& frame_memory();
 
 /// Allocator over frame_memory(). Throws std::bad_alloc.

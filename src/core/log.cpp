@@ -11,7 +11,8 @@
 namespace barehand {
 namespace {
 
-/// systemd names the journal's stream by device and inode; standard error may have been led elsewhere since.
+/// Whether standard error goes to systemd's journal. JOURNAL_STREAM identifies the journal's stream by device and
+/// inode; it must be compared because standard error may have been redirected since systemd set the variable.
 bool journal_listens() {
   const char* stream = std::getenv("JOURNAL_STREAM");
   struct stat error_output {};

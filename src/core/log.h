@@ -9,10 +9,10 @@
 
 namespace barehand {
 
-/// The run's log, on standard error: standard output belongs to results. Where systemd has led standard error to the
-/// journal, it goes there in the journal's own form, with priorities.
+/// Returns the run's logger. It writes to standard error, because standard output is reserved for results. If systemd
+/// has connected standard error to the journal, messages go there in the journal's native format, with priorities.
 std::shared_ptr<spdlog::logger> make_logger();
-/// Throws everything away.
+/// Returns a logger that discards all messages.
 std::shared_ptr<spdlog::logger> make_silent_logger();
 
 /// A logger whose repeated messages are held back (see RepeatFilter).

@@ -6,12 +6,12 @@
 
 namespace barehand {
 
-/// Lends scratch objects of arbitrary content, so that several threads can work at once and nothing is allocated any
-/// more once as many objects exist as are in use at the same time. It must outlive what it lends.
+/// Lends scratch objects with arbitrary content to any number of threads. It allocates a new object only when all
+/// existing ones are in use. It must outlive its leases.
 template <typename T>
 class Pool {
  public:
-  // Deleter that gives the object back.
+  // Deleter that returns the object to the pool.
   struct Return {
     Pool* pool;
     void operator()(T* used) const { pool->give_back(std::unique_ptr<T>(used)); }

@@ -12,10 +12,10 @@ struct MemoryUsage {
   std::int64_t resident = 0;
   std::int64_t peak = 0;  ///< largest `resident` since the start or the last reset_peak_memory()
 };
-/// The memory in use now.
+/// Reads the present memory usage.
 MemoryUsage memory_usage();
 
-/// Sets the peak to the present resident memory; false if the system does not allow it.
+/// Sets the peak to the present resident memory. Returns false if the system does not allow it.
 bool reset_peak_memory();
 
 }  // namespace barehand

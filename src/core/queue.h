@@ -44,14 +44,14 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for an item; none if the queue is closed and empty.
+  /// Waits for an item; returns none if the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     item_.wait(lock, [&] { return !items_.empty() || closed_; });
     return take();
   }
 
-  /// Waits for an item, but no longer than `patience`.
+  /// Like pop(), but waits no longer than `patience`; returns none after that.
   std::optional<T> pop_within(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     item_.wait_for(lock, patience, [&] { return !items_.empty() || closed_; });

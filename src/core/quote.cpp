@@ -7,9 +7,11 @@
 namespace barehand {
 namespace {
 
+// Quotes texts for messages and command lines, and checks UTF-8.
+
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
-/// Bytes of the character of UTF-8 that `text` begins with; 0: there is none.
+/// Length in bytes of the UTF-8 character at the start of `text`, which must not be empty; 0 if there is no valid one.
 std::size_t first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -18,7 +20,7 @@ std::size_t first_character(std::string_view text) {
   if (first < 0xc2 || first > 0xf4 || text.size() < size) return 0;
   for (std::size_t i = 1; i < size; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  // Longer than need be, halves of UTF-16 pairs, and beyond the last character.
+  // Reject overlong encodings, UTF-16 surrogates, and code points beyond U+10FFFF.
   const bool wrong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f) ||
                      (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f);
   return wrong ? 0 : size;

@@ -5,15 +5,15 @@
 
 namespace barehand {
 
-/// "text" with its quotes: names in messages, where spaces and commas would blur them. Control characters, which a
-/// terminal would follow, double quotes and back slashes are escaped so that YAML, too, reads it as it was.
+/// Puts `text` in double quotes, for names in messages, which may contain spaces and commas. Double quotes, backslashes
+/// and control characters (which a terminal would obey) are escaped; YAML reads the result back as `text`.
 std::string in_quotes(std::string_view text);
 
-/// 'text' as one word of a shell's command line, whatever is in it; without quotes where it needs none.
+/// Writes `text` as one word of a (bash) command line, in quotes if it needs them.
 std::string shell_word(std::string_view text);
 
 bool is_utf8(std::string_view text);
-/// With U+FFFD in place of every byte that is no UTF-8.
+/// Replaces every byte that is not part of valid UTF-8 by U+FFFD.
 std::string as_utf8(std::string_view text);
 
 }  // namespace barehand

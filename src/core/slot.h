@@ -14,7 +14,7 @@ class Slot {
     const std::lock_guard lock(mutex_);
     value_ = std::move(value);
   }
-  /// The value put since the last call, if any.
+  /// Returns the last value put since the previous call, if any.
   std::optional<T> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(value_, std::nullopt);

@@ -18,7 +18,7 @@ class StageMonitor {
  public:
   StageMonitor(std::string name, const Clock& clock) : name_(std::move(name)), clock_(clock) {}
 
-  /// Calls fn(args...) -> Result<T>, timed and counted.
+  /// Calls fn(args...), which must return a Result<T>. Measures its time and counts its failures.
   template <typename Fn, typename... Args, typename Outcome = std::invoke_result_t<Fn, Args...>>
   Outcome run(Fn&& fn, Args&&... args) {
     const std::int64_t start = clock_.steady_us();
@@ -39,7 +39,7 @@ class StageMonitor {
   /// Number of failures since the last success.
   int failures_in_a_row() const;
   const std::string& name() const { return name_; }
-  /// Like run(), but neither timed nor counted.
+  /// Calls fn() like run(), but neither measures its time nor counts its failures.
   template <typename Fn>
   auto guarded(Fn&& fn) const -> decltype(fn()) {
     try {
@@ -50,7 +50,7 @@ class StageMonitor {
   }
 
  private:
-  // Says what the exception that is being handled was.
+  // Describes the exception that is being handled.
   tl::unexpected<Error> thrown() const;
   void record(std::int64_t duration_us, bool ok);
 

@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Statistics of durations, queues and stages.
+
 /// Summary of durations in seconds; NaN if nothing was recorded.
 struct TimeSummary {
   std::int64_t count = 0;

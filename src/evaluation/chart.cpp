@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kGroupWidth = 0.7;  // of the width of one category
+constexpr double kGroupWidth = 0.7;  // width of a group of boxes, relative to that of a category
 
 /// Draws one box with its whiskers; `half_width` in units of x.
 void draw_box(ChartCanvas& canvas, double x, double half_width, const Distribution& d, const cv::Scalar& colour) {
@@ -36,7 +36,7 @@ Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
     for (const Distribution& box : series.boxes)
       if (box.count > 0) top = std::max(top, box.max);
 
-  // Every category gets the same width, which its series share.
+  // Every category gets the same width, which is divided among the series.
   const auto categories = static_cast<double>(chart.categories.size());
   ChartCanvas canvas(chart.text, -0.6, categories - 0.4, top, chart.categories);
   const double room = kGroupWidth / static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));

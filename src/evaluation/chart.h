@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// Charts that are drawn into PNG files.
+
 /// Title and axis labels of a chart.
 struct ChartText {
   std::string title, x_label, y_label;

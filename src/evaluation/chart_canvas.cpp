@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 1120, kHeight = 620;
 constexpr int kLeft = 90, kRight = 30, kTop = 84;
-constexpr double kLabel = 0.5, kUprightLabel = 0.42;  // font sizes
+constexpr double kLabel = 0.5, kUprightLabel = 0.42;  // font scales of horizontal and upright labels
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225);
 /// BGR; colours that most colour-blind people can distinguish (Okabe and Ito).
@@ -44,18 +44,18 @@ double round_step(double range, int count) {
 ChartCanvas::ChartCanvas(const ChartText& text, double x_lo, double x_hi, double y_hi,
                          const std::vector<std::string>& categories)
     : image_(kHeight, kWidth, CV_8UC3, cv::Scalar::all(255)), x_lo_(x_lo), x_hi_(x_hi > x_lo ? x_hi : x_lo + 1) {
-  // The range of y ends at a full step.
+  // Let the range of y end at a full step.
   const double top = y_hi > 0 ? y_hi : 1;
   y_step_ = round_step(top, 7);
   y_hi_ = y_step_ * std::ceil(top / y_step_ - 1e-9);
 
-  // Long names of categories stand upright and need more room.
+  // Write long category names upright, which needs more space below the frame.
   const int room = (kWidth - kLeft - kRight) / static_cast<int>(std::max<std::size_t>(categories.size(), 1));
   upright_ = std::any_of(categories.begin(), categories.end(),
                          [&](const std::string& name) { return text_size(name, kLabel).width > room - 8; });
   bottom_ = upright_ ? 150 : 66;
 
-  // Title and axes.
+  // Draw the title and the axes.
   text_centred(text.title, {kWidth / 2, 24}, 0.7);
   text_centred(text.x_label, {(kLeft + kWidth - kRight) / 2, kHeight - 18}, 0.55);
   y_axis(text.y_label);
@@ -136,12 +136,12 @@ void ChartCanvas::text_centred(const std::string& text, cv::Point centre, double
 
 void ChartCanvas::text_upright(const std::string& text, cv::Point top_centre, double scale) {
   const cv::Size size = text_size(text, scale);
-  // The text is drawn on a strip of its own, which is then rotated.
+  // Draw the text on a separate strip, and rotate the strip.
   cv::Mat strip(size.height + 10, size.width + 2, CV_8UC3, cv::Scalar::all(255));
   cv::putText(strip, text, {1, size.height + 3}, kFont, scale, kInk, 1, cv::LINE_AA);
   cv::rotate(strip, strip, cv::ROTATE_90_COUNTERCLOCKWISE);
 
-  // Only the part within the image is copied.
+  // Copy only the part that lies within the image.
   const cv::Rect place(top_centre.x - strip.cols / 2, top_centre.y, strip.cols, strip.rows);
   const cv::Rect inside = place & cv::Rect(0, 0, image_.cols, image_.rows);
   strip(inside - place.tl()).copyTo(image_(inside));

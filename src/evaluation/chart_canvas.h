@@ -13,12 +13,12 @@ namespace barehand {
 /// coordinates, y points upwards.
 class ChartCanvas {
  public:
-  /// x runs from `x_lo` to `x_hi`, y from 0 to at least `y_hi`. Category i is written below x = i, upright if there
-  /// are many; without categories x has round numbers.
+  /// x runs from `x_lo` to `x_hi`, y from 0 to at least `y_hi`. Category i is written below x = i, upright if the names
+  /// are too long; without categories, the x axis shows round numbers.
   ChartCanvas(const ChartText& text, double x_lo, double x_hi, double y_hi,
               const std::vector<std::string>& categories = {});
 
-  /// The pixel at data coordinates.
+  /// The pixel at the data coordinates (x, y).
   cv::Point at(double x, double y) const;
   void line(cv::Point a, cv::Point b, const cv::Scalar& colour, int thickness = 1);
   /// A box filled with a light tint of its outline's colour.

@@ -23,7 +23,7 @@ Distribution summarise(std::vector<double> values) {
     return {0, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
   }
 
-  // Moments.
+  // Compute the moments.
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
   Distribution d;
@@ -33,7 +33,7 @@ Distribution summarise(std::vector<double> values) {
   for (double value : values) squares += (value - d.mean) * (value - d.mean);
   d.deviation = std::sqrt(squares / count);
 
-  // Order statistics.
+  // Compute the order statistics.
   d.min = values.front();
   d.quartile1 = quantile(values, 0.25);
   d.median = quantile(values, 0.5);

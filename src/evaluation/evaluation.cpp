@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Compares a result with the truth frame by frame, and summarises the errors.
+
 using FramesByNumber = std::map<std::int64_t, const TableFrame*>;
 
 FramesByNumber by_number(const ResultTable& table) {
@@ -33,7 +35,7 @@ std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const E
   std::vector<const TableFrame*> frames;
   if (truth.frames.empty()) return frames;
 
-  // Without a start the run begins at the first or the last frame.
+  // If no start is given, the run begins at the first frame, or at the last one if it is played backwards.
   const auto [first, last] =
       std::minmax_element(truth.frames.begin(), truth.frames.end(),
                           [](const TableFrame& a, const TableFrame& b) { return a.number < b.number; });
@@ -47,7 +49,7 @@ std::vector<const TableFrame*> expected_frames(const ResultTable& truth, const E
   return frames;
 }
 
-/// All single values of an evaluation before they are summarised.
+/// All individual values of an evaluation before they are summarised.
 struct Collected {
   std::vector<double> frame, without_palm, all, seen, hidden, gap;
   std::array<std::vector<double>, kSegmentCount> segment;
@@ -60,7 +62,7 @@ struct Collected {
       segment[s].push_back(errors.segments[s]);
       if (truth.rows[s].visible > kSeen) seen.push_back(errors.segments[s]);
       if (truth.rows[s].visible < kHidden) hidden.push_back(errors.segments[s]);
-      // The palm's distal end is the knuckle of the middle finger; the other knuckles are no end of a bone.
+      // Leave out the joints of the palm: only the middle finger's knuckle is at the palm's distal end.
       if (s != kPalm && parent_of(s) != kPalm)
         gap.push_back((result.rows[parent_of(s)].distal - result.rows[s].proximal).norm());
     }
@@ -148,7 +150,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     evaluation.frames.push_back(errors);
   }
 
-  // Tables that do not belong together are an error.
+  // Report tables that do not belong together.
   if (collected.frame.empty() && !result.frames.empty())
     return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
   if (evaluation.frames.empty()) return fail("the truth has none of the requested frames", {}, "check start and step");

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// Errors of a tracking result compared with the truth.
+
 /// A frame with a larger error counts as lost [m].
 inline constexpr double kLostFrameError = 0.020;
 /// A segment counts as seen if its visible fraction in the truth is above kSeen, as hidden if it is below kHidden, and
@@ -34,7 +36,7 @@ struct FrameErrors {
   bool lost() const { return !tracked || mean > kLostFrameError; }
 };
 
-/// A hand that came back into view.
+/// One return of a hand into view.
 struct Return {
   std::int64_t number = 0;    ///< first frame in which half of the hand is visible
   std::optional<int> frames;  ///< number of frames until one is not lost; none: the hand left the view first
@@ -45,18 +47,18 @@ struct Return {
 struct Evaluation {
   std::vector<FrameErrors> frames;  ///< all expected frames of the truth, in its order
   std::size_t untracked = 0;        ///< number of frames without rows
-  std::vector<std::int64_t> lost;   ///< numbers of the frames that are lost
+  std::vector<std::int64_t> lost;   ///< numbers of the lost frames
   Distribution frame_error, frame_error_without_palm;
   Distribution segment_error;  ///< over all segments of all frames
   Distribution seen, hidden;   ///< over the segments that are visible and hidden in the truth
   std::array<Distribution, kSegmentCount> per_segment;
-  std::vector<Return> returns;         ///< of the hand after frames for which the truth has no rows
+  std::vector<Return> returns;         ///< returns of the hand after frames for which the truth has no rows
   std::vector<std::int64_t> phantoms;  ///< frames with rows in the result but none in the truth
-  Distribution joint_gap;              ///< between adjacent ends in the result, without the joints of the palm
+  Distribution joint_gap;              ///< distances of adjacent ends in the result, without the joints of the palm
 };
 
-/// Compares a result with the truth. Errors: the tables have no frame in common, or the time stamps of a frame differ
-/// by more than 1 ms.
+/// Compares a result with the truth. Errors: the tables have no frame in common, the truth has none of the expected
+/// frames, or the time stamps of a frame differ by more than 1 ms.
 Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result, const ExpectedFrames& expected = {});
 
 /// Mean distance of the two ends of a segment from the truth [m].

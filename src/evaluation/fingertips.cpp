@@ -10,7 +10,9 @@
 namespace barehand {
 namespace {
 
-/// Parses one line of the table; false if it is malformed.
+// Compares the fingertips of results with fingertips that were labelled in images.
+
+/// Parses one line of the table. Returns false if it is malformed.
 bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
   // Split the line.
   std::istringstream line(text);
@@ -23,7 +25,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
     return error == std::errc{} && end == f.data() + f.size();
   };
 
-  // The finger is named; everything else is a number.
+  // The finger is given by its name, everything else by a number.
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
   label.finger = static_cast<int>(finger - kFingerNames.begin());
@@ -31,7 +33,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
   const bool good = number(field[0], label.frame) && number(field[2], label.pixel.x()) &&
                     number(field[3], label.pixel.y()) && number(field[4], shown);
   visible = shown != 0;
-  constexpr double kFarthest = 1e6;  // px; the comparison is false for NaN, too
+  constexpr double kFarthest = 1e6;  // largest coordinate [px]; the comparison is false for NaN, too
   return good && (label.pixel.array().abs() <= kFarthest).all();
 }
 
@@ -70,7 +72,7 @@ Eigen::Vector3d fingertip(const TableFrame& frame, const HandProfile& profile, i
 FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& labels,
                                         const std::vector<ResultTable>& results, const HandProfile& profile,
                                         const Intrinsics& camera) {
-  // The tracked frames of all runs.
+  // Collect the tracked frames; if several runs tracked a frame, the first run counts.
   std::map<std::int64_t, const TableFrame*> tracked;
   for (const ResultTable& result : results)
     for (const TableFrame& frame : result.frames) tracked.try_emplace(frame.number, &frame);
@@ -81,7 +83,7 @@ FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& label
   std::vector<double> all;
   std::array<std::vector<double>, kFingerCount> fingers;
   for (const FingertipLabel& label : labels) {
-    // The fingertip in the frame of the label.
+    // Find the fingertip in the image that the label belongs to.
     const auto found = tracked.find(label.frame);
     const Eigen::Vector3d tip =
         found == tracked.end() ? Eigen::Vector3d::Zero() : fingertip(*found->second, profile, label.finger);

@@ -29,11 +29,12 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
 /// the bone.
 struct FingertipEvaluation {
   std::size_t labels = 0;
-  std::size_t missing = 0;  ///< labels in frames without a tracked hand
+  std::size_t missing = 0;  ///< labels in frames without a tracked hand, or with the fingertip behind the camera
   Distribution all;
   std::array<Distribution, kFingerCount> per_finger;
 };
-/// `results` may be several runs over the same recording; of those that tracked a frame, the first one counts.
+/// Compares labels with results. `results` may be several runs over the same recording; if several tracked a frame, the
+/// first one counts.
 FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& labels,
                                         const std::vector<ResultTable>& results, const HandProfile& profile,
                                         const Intrinsics& camera);

@@ -6,12 +6,14 @@
 namespace barehand {
 namespace {
 
+// Compares stated covariances and confidences with actual errors.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kNinetyPercent = 1.6449;  // standard deviations to either side of a 90 % interval
+constexpr double kNinetyPercent = 1.6449;  // half width of a 90 % interval, in standard deviations
 constexpr int kConfidenceBins = 10;
-// First bin's lower bound [m]; each bin is half an octave wide.
+// Lower bound of the first bin [m], and ratio of the bounds of each bin (half an octave).
 constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;
 constexpr int kErrorBins = 14;
 
@@ -36,7 +38,7 @@ class CoverageSum {
   double stated_ = 0, actual_ = 0;
 };
 
-/// Accumulates everything over all sequences.
+/// Accumulates the statistics of all sequences.
 class Judge {
  public:
   void add(const TableRow& truth, const StatedSegment& stated) {
@@ -92,7 +94,7 @@ Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, S
       for (int s = 0; s < kSegmentCount; ++s) judge.add(frame.rows[s], said->second[s]);
     }
 
-  // Nothing in common is an error.
+  // It is an error if no frame has a pose in both tables.
   Reliability result = judge.result();
   if (result.frames == 0)
     return fail("have no frame with a pose in common with the truth", "the states",

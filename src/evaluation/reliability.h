@@ -8,7 +8,9 @@
 
 namespace barehand {
 
-/// The pose of one segment as an estimate states it, with its uncertainty. Camera frame, metres.
+// Checks how well the stated uncertainties of a result agree with its actual errors.
+
+/// The pose of one segment in an estimate, with the stated uncertainty. Camera frame, metres.
 struct StatedSegment {
   Eigen::Vector3d proximal, distal;
   Eigen::Matrix3d proximal_covariance, distal_covariance;  ///< of the two ends [m^2]
@@ -18,15 +20,16 @@ struct StatedSegment {
 /// The stated poses of all segments, by frame number.
 using StatedPoses = std::map<std::int64_t, std::array<StatedSegment, kSegmentCount>>;
 
-/// How often the truth lies within the stated 90 % interval along one axis of the camera.
+/// Agreement of the stated covariances of segment ends with their actual errors. The covariance of an end yields a 90 %
+/// interval along each of the three axes of the camera frame.
 struct Coverage {
-  std::size_t intervals = 0;  ///< three for each end of each segment
+  std::size_t intervals = 0;  ///< number of intervals, three for each end of each segment
   double covered = 0;         ///< fraction of the intervals that contain the truth
-  double stated = 0;          ///< root mean square of the stated errors of an end [m]
-  double actual = 0;          ///< root mean square of its actual errors [m]
+  double stated = 0;          ///< root mean square error of an end according to the covariances [m]
+  double actual = 0;          ///< actual root mean square error of an end [m]
 };
 
-/// Stated against actual values of everything whose stated value falls into one bin.
+/// Average stated and actual value of all samples whose stated value falls into one bin.
 struct ReliabilityBin {
   std::size_t count = 0;
   double stated = 0, actual = 0;
@@ -41,8 +44,8 @@ struct Reliability {
   std::vector<ReliabilityBin> confidences;
 };
 
-/// Evaluates several sequences, each the truth and the stated poses, over the frames that both contain. Error: there
-/// is no such frame.
+/// Evaluates several sequences, each given by the truth and the stated poses, over the frames that both contain. Error:
+/// there is no such frame.
 Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences);
 
 }  // namespace barehand

@@ -6,15 +6,17 @@
 
 namespace barehand {
 
-/// A hand by its palm pose and joint angles: every joint closed, within limits.
+/// A hand pose described by the pose of the palm and the joint angles, so that all joints are closed exactly.
 struct ArticulatedPose {
   SE3 T_camera_palm;
   std::array<JointAngles, kSegmentCount> angles{};
 };
+/// The poses of all segments, by forward kinematics.
 HandPose posed(const HandProfile& profile, const ArticulatedPose& articulated);
-/// Joint angles read off a pose, clamped to the limits.
+/// The palm pose and the joint angles of a pose. The angles are clamped to the limits.
 ArticulatedPose articulated_from(const HandProfile& profile, const HandPose& pose,
                                  const std::array<JointLimits, kSegmentCount>& limits);
+/// Clamps flexion and abduction to the limits and sets all twists to 0.
 void clamp_angles(std::array<JointAngles, kSegmentCount>& angles, const std::array<JointLimits, kSegmentCount>& limits);
 
 }  // namespace barehand

@@ -5,8 +5,8 @@
 namespace barehand {
 namespace {
 
-// Result of the pass towards the palm: the equations of each segment after its children were eliminated, and the
-// linear dependence of each segment on its parent.
+// Result of eliminate(): the equations of each segment after its children were eliminated, and the linear dependence of
+// each segment on its parent.
 struct Elimination {
   std::array<Matrix6d, kSegmentCount> H;
   std::array<Vector6d, kSegmentCount> g;
@@ -14,7 +14,7 @@ struct Elimination {
   std::array<Matrix6d, kSegmentCount> gain;  // x_s = factor^-1 g - gain x_parent
 };
 
-/// The pass towards the palm; false if H is not positive definite.
+/// Eliminates the segments from the fingertips to the palm. Returns false if H is not positive definite.
 bool eliminate(const GaussianTree& tree, Elimination& e) {
   e.H = tree.H_self;
   e.g = tree.g;
@@ -43,7 +43,7 @@ void GaussianTree::set_zero() {
 bool GaussianTree::solve(std::array<Vector6d, kSegmentCount>& x) const {
   Elimination e;
   if (!eliminate(*this, e)) return false;
-  // The pass from the palm back to the fingertips.
+  // Substitute back from the palm to the fingertips.
   std::array<Vector6d, kSegmentCount> result;
   for (int s = 0; s < kSegmentCount; ++s) {
     result[s] = e.factor[s].solve(e.g[s]);
@@ -57,7 +57,7 @@ bool GaussianTree::solve(std::array<Vector6d, kSegmentCount>& x) const {
 bool GaussianTree::marginals(std::array<Matrix6d, kSegmentCount>& covariance) const {
   Elimination e;
   if (!eliminate(*this, e)) return false;
-  // The covariance of a segment is its own plus what it inherits from its parent.
+  // The covariance of a segment is its covariance given its parent plus the covariance that its parent passes on.
   std::array<Matrix6d, kSegmentCount> result;
   for (int s = 0; s < kSegmentCount; ++s) {
     result[s] = e.factor[s].solve(Matrix6d::Identity());

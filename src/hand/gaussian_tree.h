@@ -16,10 +16,10 @@ struct GaussianTree {
   std::array<Matrix6d, kSegmentCount> H_parent;  ///< rows: segment, columns: its parent; unused for the palm
   std::array<Vector6d, kSegmentCount> g;
 
-  /// Removes all residuals.
+  /// Sets all blocks to zero: there are no residuals.
   void set_zero();
-  /// Adds residuals r with the information matrix W that depend on the segment `child`, which is not the palm, and on
-  /// its parent.
+  /// Adds residuals r with the information matrix W that depend on the segment `child`, which must not be the palm, and
+  /// on its parent.
   template <int N>
   void add(int child, const Eigen::Matrix<double, N, 6>& J_child, const Eigen::Matrix<double, N, 6>& J_parent,
            const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& W) {

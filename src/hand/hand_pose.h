@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// The pose of a hand, and a tracker's estimate of it.
+
 /// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). The ends of neighbouring segments need not
 /// meet exactly.
 using HandPose = std::array<SE3, kSegmentCount>;
@@ -20,25 +22,26 @@ using HandPose = std::array<SE3, kSegmentCount>;
 /// the probability of that.
 inline constexpr double kConfidenceRadius = 0.010;
 
-/// State of the track of one hand. searching: no hand was found yet, or it has been lost for long; tracking: the pose
-/// follows the data; holding: the hand is hardly seen, so its last pose is kept for a moment; lost: the data was
-/// missing or explained badly for too long, and the hand is searched, its last good pose being one of the starts.
+/// State of the track of one hand. searching: no hand was found yet, or it has been lost for a long time; tracking: the
+/// pose follows the data; holding: the hand is hardly visible, so its last pose is kept for a short time; lost: the
+/// data was missing or fitted badly for too long, so the hand is searched for, its last good pose being one of the
+/// initial poses.
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
-/// A velocity needs two poses of one track, not too far apart in time.
+/// NaN, for a velocity that is not known: it needs two poses of one track that are not too far apart in time.
 inline Vector6d unknown_velocity() { return Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
 /// The estimate of one segment in one frame. Camera frame, metres, radians.
 struct SegmentState {
   SE3 T_camera_segment;
-  Vector6d velocity = unknown_velocity();      ///< per second: linear of the origin, then angular; NaN: not known
+  Vector6d velocity = unknown_velocity();      ///< [m/s, rad/s]: linear (of the origin), then angular; NaN: not known
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
   double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius of the truth
   double visible = 0;                          ///< fraction of its projected pixels where it is front-most
   bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
 };
 
-/// The pose alone.
+/// The poses of the segments without velocities and uncertainties.
 inline HandPose pose_of(const std::array<SegmentState, kSegmentCount>& segments) {
   HandPose pose;
   for (int s = 0; s < kSegmentCount; ++s) pose[s] = segments[s].T_camera_segment;
@@ -58,13 +61,13 @@ struct HandEstimate {
   double score = 0;      ///< global score: mean mismatch of model and data [m], lower is better
   double joint_gap = 0;  ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
   std::shared_ptr<const HandProfile> profile;
-  Decisions decisions;  ///< how the tracker came to this estimate, in order
+  Decisions decisions;  ///< the decisions that led to this estimate, in order
 
   /// Whether there is a pose that may be displayed and published as tracked.
   bool has_pose() const { return status == TrackStatus::tracking || status == TrackStatus::holding; }
 };
 using HandEstimatePtr = std::shared_ptr<const HandEstimate>;
-/// One estimate per hand that is looked for, always in the same order, all of one frame.
+/// The estimates of one frame: one for each configured hand, always in the same order.
 using HandEstimates = FrameVector<HandEstimatePtr>;
 
 }  // namespace barehand

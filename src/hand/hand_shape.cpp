@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// Applies the components of a HandShape to a profile, and differentiates the skin with respect to them.
+
 using Eigen::Vector3d;
 
 // Index of the first component of each kind in a HandShape.
@@ -74,18 +76,18 @@ void reshape_palm(SegmentProfile& palm, const HandShape& shape) {
 }
 
 void reshape_phalanx(SegmentProfile& bone, int segment, const HandShape& shape) {
-  // Length.
+  // Scale the length.
   const int finger = finger_of(segment);
   const double longer = std::exp(shape[kSize] + shape[kFingerLength + finger] + shape[kBoneLength + segment - 1]);
   bone.length *= longer;
   bone.distal *= longer;
 
-  // Thickness, and how far the flesh lies on the palm's side.
+  // Scale the cross-sections and shift the flesh in the direction of the thickness.
   const double wider = shape[kSize] + shape[kFingersThickness] + shape[kFingerThickness + finger];
   scale_section(bone, std::exp(wider), std::exp(wider + shape[kFlatness]));
   for (int end = 0; end < 2; ++end) bone.flesh_offset_y[end] += shape[kFlesh] * bone.half_thickness[end];
 
-  // The root of the thumb and the roots of the fingers have components of their own.
+  // The base of the thumb and the bases of the fingers have additional components.
   if (segment == segment_of(0, 0)) {
     const double thenar = std::exp(shape[kThenarThickness]);
     scale_section(bone, thenar, thenar);
@@ -132,7 +134,7 @@ HandProfile reshaped(const HandProfile& mean, const HandShape& shape) {
 }
 
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin) {
-  constexpr double kStep = 0.01;  // in standard deviations: small against the curvature of the skin
+  constexpr double kStep = 0.01;  // in standard deviations; small compared with the skin's radius of curvature
   ShapeBasis basis;
   basis.outward.resize(static_cast<Eigen::Index>(skin.vertices.size()), Eigen::NoChange);
 
@@ -141,22 +143,23 @@ ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Sk
 
   // Distance of a vertex from the surface of another shape.
   const auto distance_at = [&](const ImplicitHand& other, const SkinVertex& v) {
-    // A vertex follows its segments like any posed skin.
+    // Blend the vertex between its two segments as pose_skin() does.
     const Vector3d a = other.pose()[v.a] * v.in_a.cast<double>(), b = other.pose()[v.b] * v.in_b.cast<double>();
     return other.distance(a + v.weight_b * (b - a));
   };
 
-  // The unchanged skin: its distances, and the normals in the vertices' second segments.
+  // For the unchanged hand, compute the distances of the vertices, and their normals in the frames of their second
+  // segments.
   std::vector<double> before(skin.vertices.size());
   for (std::size_t i = 0; i < before.size(); ++i) before[i] = distance_at(surface, skin.vertices[i]);
   for (const SkinVertex& v : skin.vertices)
     basis.normal_in_b.push_back(
         (surface.pose()[v.b].R.transpose() * surface.pose()[v.a].R * v.normal_in_a.cast<double>()).cast<float>());
 
-  // Finite differences, one shape component after the other.
+  // Compute finite differences, one shape component after the other.
   basis.joint[kPalm].setZero();
   for (int k = 0; k < kShapeCount; ++k) {
-    // A slightly changed hand, and how its joints moved.
+    // Change the component slightly, and measure how far the joints move.
     const double step = kStep * shape_parameters()[k].deviation;
     HandShape changed = shape;
     changed[k] += step;
@@ -164,7 +167,7 @@ ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Sk
     for (int s = 1; s < kSegmentCount; ++s)
       basis.joint[s].col(k) = (other.rest_relative(s).t - hand.rest_relative(s).t) / step;
 
-    // How far the surface moved outward from each vertex.
+    // Measure how far the surface moves outward at each vertex.
     const ImplicitHand grown(other);
     for (std::size_t i = 0; i < before.size(); ++i)
       basis.outward(static_cast<Eigen::Index>(i), k) =

@@ -10,8 +10,8 @@
 
 namespace barehand {
 
-/// The shape of a person's hand relative to a mean hand: logarithms of size factors, and shifts of the knuckles [m].
-/// Zero is the mean hand.
+/// The shape of a person's hand relative to a mean hand: logarithms of size factors, shifts of the flesh relative to
+/// the thickness, and shifts of the knuckles [m]. Zero is the mean hand.
 inline constexpr int kShapeCount = 51;
 using HandShape = Eigen::Matrix<double, kShapeCount, 1>;
 
@@ -23,7 +23,7 @@ struct ShapeParameter {
 /// The meaning of all components, in the order of HandShape.
 const std::array<ShapeParameter, kShapeCount>& shape_parameters();
 
-/// Applies a shape to the mean hand; rest rotations and joint limits stay.
+/// Applies a shape to the mean hand; rest rotations and joint limits stay the same.
 HandProfile reshaped(const HandProfile& mean, const HandShape& shape);
 
 /// First-order change of a hand's skin and joints with its shape.
@@ -36,7 +36,7 @@ struct ShapeBasis {
 };
 /// The derivative at `shape`; `skin` must be the skin of reshaped(mean, shape).
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin);
-/// The skin after the small change `change` of the shape, to first order: much faster than building it anew.
+/// The skin after the small change `change` of the shape, to first order: much faster than rebuilding it.
 Skin morphed(const Skin& skin, const ShapeBasis& basis, const HandShape& change);
 
 }  // namespace barehand

@@ -10,53 +10,71 @@
 namespace barehand {
 namespace {
 
-// How an average hand deviates from straight lines between the sections that a profile states. The numbers were fitted
-// to depth images of several hands in known poses; factors multiply the profile's own sections.
-constexpr double kPalmBlend = 0.0072;     // m, between the metacarpals
-constexpr double kThenarBlend = 0.0158;   // m, between thumb and palm: the fold of skin
-constexpr double kFingerBlend = 0.00342;  // m, between fingers and palm: the webs
-constexpr double kWristSpread = 0.255;    // relative to the wrist's half width: where the outer metacarpals begin
-constexpr double kWristWidth = 0.603;     // width of one metacarpal tube relative to the wrist's
-constexpr double kWristThickness = 0.476;
-constexpr double kWristOffset = 0.182;
-constexpr double kWristShift = -0.0423;  // relative to the wrist's half width, towards the little finger
-// Slopes are added below the little finger and subtracted below the index finger.
+// Builds the hand's implicit surface from elliptic tubes.
+
+// How an average hand deviates from linear interpolation between the cross-sections that a profile states. The numbers
+// were fitted to depth images of several hands in known poses; factors multiply the profile's own sections.
+
+// Widths of the smooth transitions between tubes [m] (see smooth_min()).
+constexpr double kPalmBlend = 0.0072;     // between neighbouring metacarpals
+constexpr double kThenarBlend = 0.0158;   // between thumb and palm: the fold of skin
+constexpr double kFingerBlend = 0.00342;  // between fingers and palm
+
+// The proximal ends of the four metacarpal tubes, relative to the profile's section at the wrist.
+constexpr double kWristSpread = 0.255;     // spread of the tubes to either side, relative to the wrist's half width
+constexpr double kWristWidth = 0.603;      // width of one tube
+constexpr double kWristThickness = 0.476;  // its thickness
+constexpr double kWristOffset = 0.182;     // its flesh offset
+constexpr double kWristShift = -0.0423;    // shift towards the little finger, relative to the wrist's half width
+
+// Changes of these factors across the palm: added at the little finger and subtracted at the index finger.
 constexpr double kWristThicknessSlope = -0.0794;
 constexpr double kWristOffsetSlope = -0.12;
 constexpr double kHeelThicknessSlope = 0.0268;
-constexpr double kHeelWidth = 1.03;
-constexpr double kHeelAt = 0.362;         // the heel of the hand, as a fraction of the metacarpals
+
+// The heel of the hand: the middle section of each metacarpal tube.
+constexpr double kHeelWidth = 1.03;       // factor on the interpolated width
+constexpr double kHeelAt = 0.362;         // position, as a fraction of the tube's length
 constexpr double kHeelThickness = 0.719;  // relative to the wrist's section, which includes the root of the thumb
-constexpr double kHeelOffset = 0.753;
+constexpr double kHeelOffset = 0.753;     // relative to the wrist's flesh offset
+
+// The distal ends of the metacarpal tubes, relative to the finger's section at the knuckle.
 constexpr double kKnuckleThickness = 0.867;
 constexpr double kKnuckleOffset = 0.863;
-constexpr double kThenarTaper = 0.649;  // the far section is mostly palm: it moves this far towards the next bone's
-constexpr double kThenarRootShift = 0.0426;  // relative to its half width, away from the palm
-constexpr double kThenarCap = 0.367;         // relative to the rounding at its far end
-constexpr double kBorderThumb = 1.03;        // the palm's borders lie outside the outer knuckles' sections
+
+// The thumb's metacarpal. The distal section of the profile is mostly palm, so it is moved by the fraction kThenarTaper
+// towards the section of the next bone.
+constexpr double kThenarTaper = 0.649;
+constexpr double kThenarRootShift = 0.0426;  // shift of the root away from the palm, relative to its half width
+constexpr double kThenarCap = 0.367;         // factor on the rounding at the distal end
+
+// Distances of the palm's two borders from the outer knuckles, relative to the knuckles' half width.
+constexpr double kBorderThumb = 1.03;
 constexpr double kBorderLittle = 1.13;
-constexpr double kWebBlend = 0.00427;    // m, between a web and its fingers
-constexpr double kWebAt = 0.232;         // position of the fold of skin along the proximal phalanges
-constexpr double kWebHalfLength = 1.14;  // along the fingers, relative to their thickness at the next joint
-constexpr double kWebThickness = 0.94;
-constexpr double kWebOffset = 1.54;  // towards the palm, relative to the knuckles' flesh offset
 
-constexpr double kThumbWebAlongThumb = 0.799;  // where the thumb's web begins, as a fraction of the metacarpal
-// Where it ends, as a fraction of the way from the wrist to the index knuckle.
-constexpr double kThumbWebAlongPalm = 0.661;
-constexpr double kThumbWebThickness = 0.484;  // relative to the thumb's next joint
-constexpr double kThumbWebHalfLength = 1.18;
-constexpr double kThumbWebOffset = -0.35;   // out of the back of the hand, at the palm's end
-constexpr double kThumbWebBlend = 0.00821;  // m
+// The webs between neighbouring fingers.
+constexpr double kWebBlend = 0.00427;    // width of the smooth transition [m]
+constexpr double kWebAt = 0.232;         // position, as a fraction of the proximal phalanges
+constexpr double kWebHalfLength = 1.14;  // along the fingers, relative to their half thickness at the next joint
+constexpr double kWebThickness = 0.94;   // half thickness, relative to the same
+constexpr double kWebOffset = 1.54;      // along y, relative to the knuckles' flesh offset, which is towards the palm
 
-// A section of a phalanx relative to the profile's section at an end, or to a mixture of both ends.
+// The web between thumb and index finger.
+constexpr double kThumbWebAlongThumb = 0.799;  // where it begins, as a fraction of the thumb's metacarpal
+constexpr double kThumbWebAlongPalm = 0.661;   // where it ends, as a fraction of the way from wrist to index knuckle
+constexpr double kThumbWebThickness = 0.484;   // half thickness, relative to that of the thumb's next joint
+constexpr double kThumbWebHalfLength = 1.18;   // half extent along the bones, relative to the same
+constexpr double kThumbWebOffset = -0.35;      // shift of its end towards the back of the hand, relative to the same
+constexpr double kThumbWebBlend = 0.00821;     // width of the smooth transition [m]
+
+// A section of a phalanx relative to the profile's section at an end or, in the middle, to one interpolated from both.
 struct SectionShape {
   double width = 1, thickness = 1;  // factors on the half axes
   double rise = 0;                  // shift towards the back of the hand, as a fraction of the half thickness
 };
 struct PhalanxShape {
-  double middle;                         // position of the middle section, as a fraction of the length
-  double taper;                          // how far the section there has changed from the proximal to the distal one
+  double middle;  // position of the middle section, as a fraction of the length
+  double taper;   // interpolation of the middle section: 0 is the proximal section, 1 the distal one
   std::array<SectionShape, 3> sections;  // at the proximal end, in the middle, at the distal end
 };
 constexpr std::array<PhalanxShape, 3> kThumb = {{
@@ -113,20 +131,20 @@ EllipticTube phalanx_tube(const HandProfile& profile, const HandPose& pose, int 
   const bool thumb = finger_of(segment) == 0;
   const PhalanxShape& shape = (thumb ? kThumb : kFinger)[(segment - 1) % 3];
 
-  // The frame of the tube.
+  // Place the tube along the bone.
   EllipticTube tube;
   tube.T_tube_hand = pose[segment].inverse();
   tube.length = s.length;
   tube.middle = shape.middle;
 
-  // The profile's sections at the ends, and one interpolated between them.
+  // Take the profile's sections at the ends, and interpolate the middle section between them.
   const EllipticSection proximal = section_at(s, 0);
   EllipticSection distal = section_at(s, 1);
   if (segment == segment_of(0, 0))
     distal = mix(distal, section_at(profile.segments[segment_of(0, 1)], 0), kThenarTaper);
   tube.sections = {proximal, mix(proximal, distal, shape.taper), distal};
 
-  // The fitted deviations from the profile.
+  // Apply the fitted deviations from the profile.
   for (int i = 0; i < 3; ++i) {
     EllipticSection& section = tube.sections[i];
     const SectionShape& change = shape.sections[i];
@@ -158,19 +176,19 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
 
   const double side = side_sign(profile.handedness);  // sign of x at the little finger
 
-  // Towards a neighbour the tube reaches the neighbour's bone, which avoids grooves between the metacarpals.
+  // On the side of a neighbour, the tube extends to the neighbour's bone, which avoids grooves between the metacarpals.
   const double reach_little =
       finger < 4 ? std::abs(knuckle(finger + 1).x() - knuckle(finger).x()) : root.half_x * kBorderLittle;
   const double reach_thumb =
       finger > 1 ? std::abs(knuckle(finger).x() - knuckle(finger - 1).x()) : root.half_x * kBorderThumb;
 
-  // At the wrist, the four tubes share the wrist's section.
+  // At the wrist, the four tubes begin side by side within the wrist's section.
   const double across = (finger - 2.5) / 1.5;  // -1 below the index finger, 1 below the little finger
   const double slot = (0.75 * across * kWristSpread + kWristShift) * wrist.half_x * side;
   const Eigen::Vector3d start(wrist.centre_x + slot, 0, 0);
   const Eigen::Vector3d end = knuckle(finger);
 
-  // The sections at the wrist and at the knuckle.
+  // Set the sections at the wrist and at the knuckle.
   EllipticTube tube;
   tube.T_tube_hand = (T_hand_palm * frame_along(start, end, Eigen::Vector3d::UnitY())).inverse();
   tube.length = (end - start).norm();
@@ -189,7 +207,7 @@ EllipticTube metacarpal_tube(const HandProfile& profile, const HandPose& pose, i
   return tube;
 }
 
-// A tube of constant section between two points of the hand.
+// A tube with a constant cross-section between two points in the hand frame. The section's y axis is close to `up`.
 EllipticTube uniform_tube(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const Eigen::Vector3d& up,
                           const EllipticSection& section) {
   EllipticTube tube;
@@ -228,14 +246,15 @@ Web thumb_web(const HandProfile& profile, const HandPose& pose) {
 }  // namespace
 
 double EllipticTube::distance(const Eigen::Vector3d& p_hand) const {
-  // The section at this position along the bone.
+  // Interpolate the section at the point's position along the bone.
   const Eigen::Vector3d p = T_tube_hand * p_hand;
   const double along = -p.z();
   const double u = std::clamp(along / length, 0.0, 1.0);
   const EllipticSection e = u < middle ? mix(sections[0], sections[1], u / middle)
                                        : mix(sections[1], sections[2], (u - middle) / (1 - middle));
 
-  // The ellipsoidal norm of the point: 1 on the surface, where the caps shorten the distance beyond an end.
+  // Compute the ellipsoidal norm of the point, which is 1 on the surface. Beyond an end, the cap's length is the third
+  // half axis.
   const double beyond = along < 0 ? along / cap[0] : (along > length ? (along - length) / cap[1] : 0.0);
   const double cap_here = along < 0 ? cap[0] : cap[1];
   const Eigen::Vector3d q((p.x() - e.centre_x) / e.half_x, (p.y() - e.centre_y) / e.half_y, beyond);

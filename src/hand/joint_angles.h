@@ -6,9 +6,11 @@
 
 namespace barehand {
 
-/// Rotation of a joint away from its rest pose [rad]: flexion towards the palm, abduction about the segment's +y,
-/// twist about its z. In the order R = Ry(abduction) Rz(twist) Rx(-flexion) there is no gimbal lock at 90 degrees of
-/// flexion and no false twist.
+// Joint angles, their limits, and forward kinematics.
+
+/// Rotation of a joint away from its rest pose [rad]: flexion towards the palm, abduction about the segment's +y, twist
+/// about its z. In the order R = Ry(abduction) Rz(twist) Rx(-flexion) there is no gimbal lock at 90 degrees of flexion,
+/// and combined flexion and abduction have no twist.
 struct JointAngles {
   double flexion = 0, abduction = 0, twist = 0;
 };
@@ -28,14 +30,14 @@ struct JointLimits {
 /// ranges). A joint without abduction keeps the range [0, 0] for it.
 std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile, double widening);
 
-/// The pose with these joint angles and exactly closed joints.
+/// The pose with the given palm pose and joint angles. All joints are closed exactly.
 HandPose forward_kinematics(const HandProfile& profile, const SE3& T_camera_palm,
                             const std::array<JointAngles, kSegmentCount>& angles);
 /// The ends of a segment in the camera frame [m].
 Eigen::Vector3d proximal_end(const HandPose& pose, int segment);
 Eigen::Vector3d distal_end(const HandProfile& profile, const HandPose& pose, int segment);
-/// The place of the joint of `segment` according to its parent, in the camera frame [m]. The joint gap is the distance
-/// from there to the segment's proximal end.
+/// Position of the joint of `segment` as given by the parent's pose, in the camera frame [m]. The joint gap is the
+/// distance from there to the segment's proximal end.
 Eigen::Vector3d joint_in_parent(const HandProfile& profile, const HandPose& pose, int segment);
 
 }  // namespace barehand

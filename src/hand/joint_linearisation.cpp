@@ -14,7 +14,7 @@ JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& p
 JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment) {
   const SE3& parent = pose[parent_of(segment)];
 
-  // The joint as seen from the parent.
+  // Compute the joint's position and orientation as given by the parent's pose.
   JointLinearisation joint;
   joint.lever = parent.R * rest.t;
   joint.gap = parent.t + joint.lever - pose[segment].t;

@@ -8,10 +8,15 @@
 namespace barehand {
 namespace {
 
-// Wrist joint to fingertip [m]: of a child of two and of the largest adults, with some room.
+// Finds unlikely values in a hand profile and their probable cause.
+
+// Shortest and longest plausible hand, from the wrist joint to the tip of the middle finger [m]: a two-year-old child's
+// and the largest adults', with a margin.
 constexpr double kSmallest = 0.1, kLargest = 0.25;
-constexpr double kGap = 0.0005;             // m
-constexpr double kRadians = 3.2 * kDegree;  // half a turn in radians, taken for degrees
+// Largest gap between a joint and the end of its parent bone that needs no warning [m].
+constexpr double kGap = 0.0005;
+// Largest possible joint limit (half a turn) if radians were read as degrees: pi, rounded up.
+constexpr double kRadians = 3.2 * kDegree;
 
 }  // namespace
 
@@ -25,7 +30,8 @@ std::vector<std::string> profile_doubts(const HandProfile& profile) {
                   "lengths right, and in metres?",
                   1e3 * length));
 
-  // A finger's joint is the end of the bone before it; the knuckles lie somewhere on the palm.
+  // Find the largest gap between a joint and the distal end of its parent bone. Joints on the palm are left out, since
+  // they need not lie at its distal end.
   double widest = kGap;
   int at = -1;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -47,7 +53,7 @@ bool limits_look_like_radians(const HandProfile& profile) {
   int joints = 0, stiff = 0;
   for (const SegmentProfile& segment : profile.segments) {
     for (const JointDof& dof : segment.dofs) {
-      if (dof.upper <= dof.lower) continue;  // fixed on purpose
+      if (dof.upper <= dof.lower) continue;  // a fixed joint
       ++joints;
       stiff += std::abs(dof.lower) <= kRadians && std::abs(dof.upper) <= kRadians;
     }

@@ -7,11 +7,11 @@
 
 namespace barehand {
 
-/// What looks wrong about a profile that is possible, in sentences with the likely cause: a hand of a size that nobody
-/// has, joints beside the bones they belong to. Empty: nothing.
+/// Warnings about a profile that is valid but unlikely, as sentences with the likely cause: a hand of a size that
+/// nobody has, or joints that are not at the ends of their bones. Empty if nothing looks wrong.
 std::vector<std::string> profile_doubts(const HandProfile& profile);
 
-/// Whether most joints may bend by so little that their limits must be radians that were taken for degrees.
+/// Whether most joints can bend so little that their limits must be radians that were read as degrees.
 bool limits_look_like_radians(const HandProfile& profile);
 
 }  // namespace barehand

@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Data of the sampling stages: where samples are drawn, the samples, and their beliefs.
+
 /// A uniform distribution in a box around a pose. The box lies along the segment's own axes: offsets (x, y, z) [m] and
 /// rotations (about x: flexion, y: abduction, z: twist) [rad] within +-half_width.
 struct Kernel {
@@ -14,7 +16,7 @@ struct Kernel {
   Vector6d half_width = Vector6d::Zero();
 };
 /// The distributions from which each local tracker draws its samples: one around the predicted pose at level 0, then
-/// one around each of the best samples of the level before (Sec. 4.4).
+/// one around each of the best samples of the previous level (Sec. 4.4).
 using Proposals = std::array<std::vector<Kernel>, kSegmentCount>;
 
 /// Samples of the pose of every segment at one level and their log-likelihoods (Eq. 3): a discretised local pdf.

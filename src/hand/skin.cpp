@@ -11,10 +11,12 @@
 namespace barehand {
 namespace {
 
+// Builds the skin as a mesh of the implicit hand, binds its vertices to segments, and poses, thins and samples it.
+
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kWristCut = 0.012;  // m, the skin ends this far behind the wrist joint
+constexpr double kWristCut = 0.012;  // the skin ends this far behind the wrist joint [m]
 
 HandPose rest_pose(const HandProfile& profile) {
   HandPose rest;
@@ -27,7 +29,7 @@ double smoothstep(double x) {
   return x * x * (3 - 2 * x);
 }
 
-/// Segments and weight of a vertex.
+/// The segments `a` and `b` that a vertex is bound to, and the weight of `b`.
 struct Binding {
   int a, b;
   double weight_b;
@@ -37,9 +39,11 @@ struct Binding {
 // blend is wider at a knuckle, and there the palm's skin reaches farther along the palm side of the finger than along
 // its back.
 double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
-  constexpr double kReach = 0.82, kKnuckleReach = 1.79;  // relative to the joint's size, to either side
+  // Half widths of the blend at a joint and at a knuckle, relative to the joint's size.
+  constexpr double kReach = 0.82, kKnuckleReach = 1.79;
 
-  // Relative to the joint's size: mean shift towards the tip, and its change from the palm side to the back.
+  // Shift of the blend at a knuckle towards the fingertip, and how much smaller the shift is on the back of the hand
+  // and larger on the palm side; both relative to the joint's size.
   constexpr double kKnuckleShift = 0.173, kKnuckleSlant = 0.226;
   const Vector3d q = pose[distal].inverse() * p;
   const SegmentProfile& s = profile.segments[distal];
@@ -62,9 +66,10 @@ Binding blended(int parent, int child, double share_child) {
   return share_child < 0.5 ? Binding{parent, child, share_child} : Binding{child, parent, 1 - share_child};
 }
 
-// Thumb and palm blend over a wide fold, so a point there is bound by how deep it lies in one relative to the other.
+// Binds a point near the wide fold of skin between thumb and palm, by the difference of its distances to their
+// surfaces.
 Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
-  constexpr double kRange = 0.0104;
+  constexpr double kRange = 0.0104;  // half width of the blend [m]
   const int thumb = segment_of(0, 0);
   const double difference = hand.segment_distance(kPalm, p) - hand.segment_distance(thumb, p);
   return blended(kPalm, thumb, smoothstep(0.5 + difference / (2 * kRange)));
@@ -72,7 +77,7 @@ Binding bind_thenar(const ImplicitHand& hand, const Vector3d& p) {
 
 /// Chooses the segments and the weight of a skin point in the hand frame, in the pose of the implicit hand.
 Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3d& p) {
-  // The segment whose surface is nearest.
+  // Find the segment whose surface is nearest.
   int nearest = kPalm;
   double best = hand.segment_distance(kPalm, p);
   for (int s = 1; s < kSegmentCount; ++s) {
@@ -80,7 +85,7 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
     if (d < best) best = d, nearest = s;
   }
 
-  // Skin of the palm: the nearest knuckle decides whether a finger already carries the point.
+  // Skin of the palm blends into the nearest finger, but the palm keeps at least half of the weight.
   if (nearest == kPalm) {
     int finger = 0;
     double nearest_finger = hand.segment_distance(segment_of(0, 0), p);
@@ -93,13 +98,13 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
     return blended(kPalm, child, std::min(0.5, share_across_joint(profile, hand.pose(), child, p)));
   }
 
-  // Skin of the thumb's metacarpal blends into the next phalanx or into the palm.
+  // Skin of the thumb's metacarpal blends into the next phalanx near their joint, and otherwise into the palm.
   if (nearest == segment_of(0, 0)) {
     const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
     return share_next > 0 ? blended(nearest, nearest + 1, share_next) : bind_thenar(hand, p);
   }
 
-  // Skin of any other segment blends into its child or its parent.
+  // Skin of any other segment blends into its child near their joint, and otherwise into its parent.
   if (!is_tip(nearest)) {
     const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
     if (share_next > 0) return blended(nearest, nearest + 1, share_next);
@@ -113,7 +118,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
   const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
 
-  // A box around all bones with a margin for the flesh.
+  // Extract the surface in a box around all bones, with a margin for the flesh.
   Vector3d lower = hand.pose()[kPalm].t, upper = lower;
   for (int s = 0; s < kSegmentCount; ++s) {
     for (const Vector3d& end : {proximal_end(hand.pose(), s), distal_end(profile, hand.pose(), s)}) {
@@ -135,7 +140,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
     v.a = static_cast<std::int16_t>(binding.a);
     v.b = static_cast<std::int16_t>(binding.b);
     v.weight_b = static_cast<float>(binding.weight_b);
-    // The vertex in the frames of its segments.
+    // Express the vertex in the frames of its segments.
     v.in_a = (hand.pose()[binding.a].inverse() * p).cast<float>();
     v.in_b = (hand.pose()[binding.b].inverse() * p).cast<float>();
     v.normal_in_a = (hand.pose()[binding.a].R.transpose() * surface_normal(distance, p)).cast<float>();
@@ -161,7 +166,7 @@ void compute_normals(const HandProfile& profile, Skin& skin) {
   // Average the normals of the triangles around each vertex.
   std::vector<Vector3f> normals(posed.size(), Vector3f::Zero());
   for (const auto& t : skin.triangles) {
-    // Its length is twice the area, the weight.
+    // The cross product is as long as twice the triangle's area, which is its weight in the average.
     const Vector3f normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]);
     for (int corner : t) normals[corner] += normal;
   }
@@ -190,7 +195,7 @@ Skin scaled(const Skin& skin, double size) {
 }
 
 void pose_skin(const Skin& skin, const HandPose& pose, std::vector<Vector3f>& posed) {
-  // Rotations and translations in single precision.
+  // Convert the pose to single precision.
   std::array<Eigen::Matrix3f, kSegmentCount> R;
   std::array<Vector3f, kSegmentCount> t;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -212,7 +217,7 @@ Skin coarsened(const Skin& skin, double cell) {
   struct Cluster {
     Vector3f sum = Vector3f::Zero();
     int count = 0, vertex = -1;
-    float distance = 0;  // of that vertex from the mean
+    float distance = 0;  // distance of `vertex` from the mean [m]
   };
 
   // Assign every vertex to the cluster of its cube.
@@ -282,7 +287,7 @@ HandSurface surface_points(const Skin& skin, const HandProfile& profile, int poi
       kept_area += area[i];
     }
 
-    // The kept points stand for the area of all.
+    // Scale the areas so that the kept points represent the whole surface.
     for (float& a : out.area) a *= total / kept_area;
   }
   return surface;

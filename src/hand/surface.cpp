@@ -8,6 +8,8 @@
 namespace barehand {
 namespace {
 
+// Spreads points evenly over the tapered cylinders of the paper's hand model.
+
 constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 fill an interval evenly
 
 /// The surface between two ellipses with the common axis directions e1 and e2: P(t, a) = c(t) + r1(t) cos(a) e1 +
@@ -48,7 +50,7 @@ class InverseCdf {
   std::vector<double> cumulative_;
 };
 
-/// Maps the unit square to a loft such that equal areas get equal shares.
+/// Maps the unit square to a loft such that equal areas of the square become equal areas of the loft.
 class LoftSampler {
  public:
   explicit LoftSampler(const Loft& loft) : loft_(loft) {
@@ -130,7 +132,7 @@ SegmentSurface segment_surface(const SegmentProfile& s, int segment, int points)
   assert(s.distal.norm() > 0 && "a segment without length has no skin");
   const Loft loft = segment == kPalm ? palm_loft(s) : phalanx_loft(s);
   const LoftSampler sampler(loft);
-  // A fingertip's cap gets its share of the points by area.
+  // Divide the points between the sides and a fingertip's cap in proportion to their areas.
   const double cap_area = is_tip(segment) ? 2 * std::numbers::pi * s.radius[1] * s.radius[1] : 0;
   const int cap_points = static_cast<int>(std::lround(points * cap_area / (cap_area + sampler.area())));
   SegmentSurface skin;

@@ -7,9 +7,10 @@
 
 namespace barehand {
 
-/// The skin of one segment as surface points in the segment frame [m], laid out for SIMD. A point stands for `area` of
-/// skin and covers area * max(0, -n.view) / z^2 pixels in an image. With this weight, a mean over points equals the
-/// paper's mean over rendered pixels (Sec. 4.1).
+/// The skin of one segment as surface points in the segment frame [m], laid out for SIMD. A point represents `area` of
+/// skin and covers about fx fy area max(0, -n . view) / z^2 pixels of an image, where `view` is the unit vector from
+/// the camera to the point. With this weight, a mean over points equals the paper's mean over rendered pixels (Sec.
+/// 4.1).
 struct SegmentSurface {
   std::vector<float> x, y, z;     ///< position
   std::vector<float> nx, ny, nz;  ///< outward unit normal

@@ -5,11 +5,13 @@
 namespace barehand {
 namespace {
 
+// Extracts a triangle mesh from a signed distance on a regular grid.
+
 using Distance = std::function<double(const Eigen::Vector3d&)>;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr double kStep = 1e-4;  // m, of the finite differences
+constexpr double kStep = 1e-4;  // step of the finite differences [m]
 
 /// Signed distances at the nodes of a regular grid.
 class Grid {
@@ -29,8 +31,8 @@ class Grid {
   const Vector3i& nodes() const { return nodes_; }
   std::size_t size() const { return value_.size(); }
 
-  // Computes the mean of the points where the surface crosses the edges of the cell at `n`; false if it does not cross
-  // the cell.
+  // Computes the mean of the points where the surface crosses the edges of the cell at `n`. Returns false if the
+  // surface does not cross the cell.
   bool cell_vertex(const Vector3i& n, Vector3d& vertex) const {
     // Find the sign changes along the twelve edges.
     Vector3d sum = Vector3d::Zero();
@@ -108,7 +110,7 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
       const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
       if (n[(axis + 1) % 3] == 0 || n[(axis + 2) % 3] == 0) continue;
 
-      // The orientation follows from the side that is inside.
+      // The orientation depends on which end of the edge is inside.
       const bool inside = grid.value(n) < 0;
       if (inside == (grid.value(n + Vector3i::Unit(axis)) < 0)) continue;
       const std::array<int, 4> quad = {vertex_of[grid.index(n - u - v)], vertex_of[grid.index(n - v)],

@@ -11,8 +11,7 @@ namespace barehand {
 /// results depend neither on the number of threads nor on the order of draws.
 class Philox {
  public:
-  /// `seed` is that of the run; the words of the counter state what the numbers are for: frame, segment, level,
-  /// sample.
+  /// `seed` is the seed of the run; the words of the counter identify the draw: frame, segment, level, sample.
   static std::array<std::uint32_t, 4> block(std::uint64_t seed, std::array<std::uint32_t, 4> counter) {
     std::uint32_t k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
     for (int round = 0; round < 10; ++round) {
@@ -29,8 +28,7 @@ class Philox {
   static double uniform(std::uint32_t bits) { return bits * (1.0 / 4294967296.0); }
 };
 
-/// A stream of random numbers for one purpose, which the key words a, b and c name. It is cheap to construct on
-/// demand.
+/// A stream of random numbers for one purpose, which the key words a, b and c identify. It is cheap to construct.
 class KeyedRandom {
  public:
   KeyedRandom(std::uint64_t seed, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0)

@@ -32,7 +32,7 @@ Eigen::Matrix3d exp_so3(const Eigen::Vector3d& w) {
 }
 
 Eigen::Vector3d log_so3(const Eigen::Matrix3d& R) {
-  // Going through the quaternion is well conditioned at angles of both 0 and pi.
+  // The logarithm by way of the quaternion is well conditioned at angles of both 0 and pi.
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();

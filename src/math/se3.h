@@ -35,7 +35,7 @@ Eigen::Vector3d log_so3(const Eigen::Matrix3d& R);
 SE3 boxplus(const SE3& T, const Vector6d& twist);
 /// The twist for which boxplus(a, twist) = b.
 Vector6d boxminus(const SE3& b, const SE3& a);
-/// The rotation nearest to R; removes the drift of repeated products.
+/// A rotation close to R, which must be nearly orthonormal. Removes the rounding drift of repeated products.
 Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R);
 
 }  // namespace barehand

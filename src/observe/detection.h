@@ -12,15 +12,17 @@
 
 namespace barehand {
 
-/// What the detection networks call a pixel.
+// Results of the networks that detect hands.
+
+/// The classes that the detection networks assign to pixels.
 enum class SurfaceLabel : std::uint8_t { background = 0, hand = 1, arm = 2, object = 3 };
 inline constexpr int kSurfaceLabelCount = 4;
 
-/// The labels of a window of the frame, on a grid coarser than its pixels. Frame pixel of the centre of cell (c, r):
+/// The labels of a window of the frame, on a grid coarser than its pixels. The centre of cell (c, r) is the frame pixel
 /// (u0 + c * step_u, v0 + r * step_v).
 struct LabelMap {
   Image<SurfaceLabel> label;
-  Image<float> hand_log_odds;  ///< of hand against all the rest
+  Image<float> hand_log_odds;  ///< log odds of the hand against all other classes
   double u0 = 0, v0 = 0, step_u = 1, step_v = 1;
 
   /// Whether frame pixel (u, v) lies in the window.
@@ -28,11 +30,11 @@ struct LabelMap {
     const double c = (u - u0) / step_u, r = (v - v0) / step_v;
     return c >= -0.5 && r >= -0.5 && c < label.width() - 0.5 && r < label.height() - 0.5;
   }
-  /// Of the cell that frame pixel (u, v) lies in; the window must cover it.
+  /// The label of the cell that contains frame pixel (u, v), which the window must cover.
   SurfaceLabel at(double u, double v) const {
     return label.at(static_cast<int>(std::lround((u - u0) / step_u)), static_cast<int>(std::lround((v - v0) / step_v)));
   }
-  /// Interpolated at frame pixel (u, v); outside of the window that of its border.
+  /// The hand's log odds interpolated at frame pixel (u, v); outside the window, those at its border.
   float hand_odds_at(double u, double v) const;
 };
 
@@ -45,7 +47,7 @@ inline constexpr int kMiddleKnuckleLandmark = 9;
 /// Landmark `k` (0 nearest the wrist, 3 the tip) of a finger (0 the thumb).
 constexpr int landmark_of(int finger, int k) { return 1 + 4 * finger + k; }
 
-/// Where the detection says that a joint is, hidden or not. Camera frame.
+/// Position of a joint, visible or not, as estimated by the detection. Camera frame.
 struct DetectedJoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< [m]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< [m^2]
@@ -53,20 +55,24 @@ struct DetectedJoint {
 
 /// One hand that a detection found. Camera frame, metres.
 struct DetectedHand {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the palm, between wrist and middle knuckle
-  double palm = 0;            ///< probability of a palm in the whole frame's heat map; 1 where a hand was followed
-  double right_log_odds = 0;  ///< of a right hand against a left one
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the palm, between wrist and middle knuckle
+  /// Probability of a palm from the whole frame's heat map; 1 if the hand was found where tracking predicted it.
+  double palm = 0;
+  double right_log_odds = 0;  ///< log odds of a right hand against a left one
   std::array<DetectedJoint, kLandmarkCount> joints;
-  LabelMap labels;  ///< of a window of about 0.34 m around the hand
+  LabelMap labels;  ///< labels of a window of about 0.34 m around the hand
 
   Handedness side() const { return right_log_odds >= 0 ? Handedness::right : Handedness::left; }
 };
 
-/// What the detection says of one frame. Immutable once shared.
+/// Result of the detection networks for one frame. Immutable once shared.
 struct Detection {
-  bool whole_frame = false;            ///< what is not among `hands` is no hand; false: it was not looked at
-  std::vector<DetectedHand> hands;     ///< most probable first; apart from each other
-  std::vector<LabelMap> frame_labels;  ///< coarse, of the whole frame; empty where only windows were looked at
+  /// True: only `hands` may be taken for hands that are not tracked yet. False: all hands are tracked, so that only
+  /// windows around them were searched.
+  bool whole_frame = false;
+  std::vector<DetectedHand> hands;  ///< most probable first; no two at the same place
+  /// Coarse labels that together cover the whole frame; empty if only windows were searched.
+  std::vector<LabelMap> frame_labels;
 };
 using DetectionPtr = std::shared_ptr<const Detection>;
 

@@ -19,16 +19,17 @@ enum class PixelLabel : std::uint8_t { unknown = 0, background = 1, hand = 2, ob
 struct HandObservation {
   FramePtr frame;
   bool hand_present = false;  ///< false: no hand-like data in this frame; the maps may be empty
-  bool followed = false;  ///< the hand was found where the tracker predicted it; false: any hand-like region was taken
-  int u0 = 0, v0 = 0;     ///< top-left corner of the region of interest in the frame
-  Image<float> depth;     ///< z [m]; 0 = no measurement
+  /// The hand was found where the tracker predicted it; false: it may be any hand-like region of the frame.
+  bool followed = false;
+  int u0 = 0, v0 = 0;  ///< top-left corner of the region of interest in the frame
+  Image<float> depth;  ///< z [m]; 0 = no measurement
   Image<PixelLabel> label;
   Image<Eigen::Vector3f> normal;     ///< unit normals of hand pixels, towards the camera; zero where undefined
   Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
   Image<std::int32_t> nearest_object;            ///< the same for the nearest object pixel
   std::vector<std::int32_t> hand_pixels;         ///< indices of the hand pixels
-  std::vector<Eigen::Vector3f> cloud;            ///< evenly thinned hand points for ICP
-  std::shared_ptr<const DetectedHand> detected;  ///< what the detection says of this hand; null: nothing
+  std::vector<Eigen::Vector3f> cloud;            ///< hand points for ICP, thinned evenly
+  std::shared_ptr<const DetectedHand> detected;  ///< the detection of this hand; null if there is none
   double noise = 0.001;                          ///< 1-sigma axial noise of this sensor at the hand's distance [m]
 
   /// The 3D point of pixel (u, v), or of the pixel with index i, in the camera frame [m]; zero without measurement.
@@ -40,7 +41,7 @@ struct HandObservation {
   Eigen::Vector3f point(std::int32_t i) const { return point(i % depth.width(), i / depth.width()); }
 };
 using HandObservationPtr = std::shared_ptr<const HandObservation>;
-/// One observation per hand that is looked for, always in the same order.
+/// One observation per configured hand, always in the same order.
 using HandObservations = FrameVector<HandObservationPtr>;
 
 }  // namespace barehand

@@ -5,7 +5,7 @@ namespace barehand {
 PersonFit::PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandProfile> mean)
     : params_(params), mean_(mean), profile_(std::move(mean)), fit_(params), next_skin_(params.first_rebuild) {}
 
-// Early looks teach most; later ones only follow slow changes.
+// The first looks contribute most. Later ones only follow slow changes, so they are less frequent.
 bool PersonFit::due() {
   const int every = fit_.looks() < params_.eager_looks ? params_.every : params_.every_later;
   return frames_++ % every == 0;
@@ -15,6 +15,7 @@ PersonFit::Change PersonFit::look(const HandObservation& observation, const Hand
                                   const Refinement& refinement, const std::shared_ptr<const Skin>& skin) {
   if (!due()) return Change::none;
 
+  // After a new skin was built, compute how it changes with the shape.
   if (!basis_) {
     made_skin_ = skin;
     made_shape_ = shape_;
@@ -27,7 +28,7 @@ PersonFit::Change PersonFit::look(const HandObservation& observation, const Hand
   shape_ = fit_.estimate();
   profile_ = std::make_shared<const HandProfile>(reshaped(*mean_, shape_));
 
-  // From time to time the skin is built anew; in between it is changed to first order.
+  // Have the skin rebuilt at doubling intervals; in between, change it to first order.
   if (fit_.looks() >= next_skin_) {
     next_skin_ *= 2;
     basis_.reset();

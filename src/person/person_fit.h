@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Adapts a mean hand to the person in view. It looks at frames that the hand explains well and, after each look, says
-/// how the tracked hand should change.
+/// Adapts a mean hand to the person in view. It evaluates frames that the tracked hand fits well and returns how that
+/// hand should change.
 class PersonFit {
  public:
   /// `mean`: the mean hand that is to be adapted.
@@ -30,7 +30,7 @@ class PersonFit {
   const ShapeFit& fit() const { return fit_; }
 
  private:
-  // Whether the shape should be looked at in this frame.
+  // Counts a frame, and returns whether it should contribute to the shape.
   bool due();
 
   ShapeFitParams params_;
@@ -40,7 +40,7 @@ class PersonFit {
   HandShape shape_ = HandShape::Zero(), made_shape_ = HandShape::Zero();  // the current shape, and that of made_skin_
   std::optional<ShapeBasis> basis_;                                       // belongs to made_skin_
   ShapeEquations equations_;
-  int frames_ = 0, next_skin_;  // next_skin_: looks until a skin is built anew
+  int frames_ = 0, next_skin_;  // next_skin_: number of looks at which the skin is rebuilt next
 };
 
 }  // namespace barehand

@@ -7,9 +7,11 @@
 namespace barehand {
 namespace {
 
-constexpr int kSettling = 8, kMost = 32;  // tracked frames before the first that is kept, and frames kept
-constexpr int kPasses = 4;                // over all frames, while a mean hand is fitted to them
-constexpr int kIterations = 8;            // Gauss-Newton steps of a pose
+// Collects frames of a tracked hand, and scans the hand from them.
+
+constexpr int kSettling = 8, kMost = 32;  // tracked frames left out at first; most frames kept
+constexpr int kPasses = 4;                // passes over all frames to fit a mean hand to them
+constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement of a pose
 
 /// Fits the poses of frames to a hand and, with look(), the hand to the frames.
 class BatchFit {
@@ -50,8 +52,8 @@ class BatchFit {
   std::unique_ptr<Refinement> refinement_;
 };
 
-/// Runs in the background: fits a mean hand to the frames, refines their poses and scans the skin. Null: stopped, or
-/// the frames do not yield a hand.
+/// The work of one scan: fits a mean hand to the frames, refines their poses and scans the skin. Returns null if it was
+/// stopped or the frames do not yield a hand.
 std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::shared_ptr<const HandProfile> given,
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {

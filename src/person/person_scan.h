@@ -16,10 +16,10 @@ struct PersonScanParams {
   double skin_cell = 0.004;  ///< m, size of the smooth skin's triangles
 };
 
-/// Scans a person's hand in the background while it is tracked, as `barehand calibrate` does. After a number of
-/// tracked frames, and again after twice and four times as many, the skin is scanned from the frames that were kept. A
-/// mean hand is first fitted to these frames; the joints of a measured hand stay fixed. The work is done by
-/// Workers::aside.
+/// Scans a person's hand while it is tracked, with the method of `barehand calibrate`. The first scan starts after N =
+/// ShapeFitParams::scan_after tracked frames, later ones after 2 N, 4 N and so on; each uses the frames that were kept
+/// until then. If the given profile is the population mean, its bones and joints are first fitted to these frames; the
+/// joints of a measured profile stay fixed. For live sources, scans run in the background (Workers::aside).
 class PersonScan {
  public:
   /// `given`: the hand before anything was learnt. `workers` must outlive this object.
@@ -29,10 +29,10 @@ class PersonScan {
   PersonScan(const PersonScan&) = delete;
   PersonScan& operator=(const PersonScan&) = delete;
 
-  /// Adds a tracked frame that is explained well, with its refined pose.
+  /// Adds a tracked frame that the hand fits well, with its refined pose.
   void add(const HandObservation& observation, const HandPose& pose);
-  /// Call when a new track begins, most likely of the same person. The hand is scanned once more as soon as as much
-  /// was seen of it as for the last scan.
+  /// Call when a new track begins, most likely of the same person. A hand that was scanned before is scanned once more,
+  /// after as many tracked frames as the last of the regular scans needs.
   void restart();
   /// Returns the scanned hand once after a scan has ended; null: there is nothing new. Rethrows what the scan threw.
   std::shared_ptr<const HandProfile> take();

@@ -9,26 +9,32 @@
 namespace barehand {
 namespace {
 
+// Builds the normal equations of one frame of a scan from skin distances and joints.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 // Standard deviations of single residuals. A frame has thousands of them, whose errors are correlated.
-constexpr double kSigmaSkin = 0.00045;         // m, part of a surface distance that is due to the skin
-constexpr double kSigmaNoise = 2;              // part that is due to the sensor, relative to its noise
-constexpr double kSigmaGap = 0.00011;          // m, joint gap (Eq. 5)
+constexpr double kSigmaSkin = 0.00045;         // part of a surface distance that is due to the skin's shape [m]
+constexpr double kSigmaNoise = 2;              // part that is due to the sensor, relative to the sensor's noise
+constexpr double kSigmaGap = 0.00011;          // joint gap (Eq. 5) [m]
 constexpr double kSigmaAngle = 0.6 * kDegree;  // angles beyond the limits, and twist (Eq. 6)
 constexpr double kSigmaTurn = 4.5 * kDegree;   // rotation of a joint in one step, so that a hidden joint stays in place
-constexpr double kRobustSkin = 0.001;          // m, Geman-McClure scale, composed like the deviation
-constexpr double kRobustNoise = 2;
-// fold_penalty(): a skinning weight of a tenth halves the information, a half leaves 1 / 26
+
+// Geman-McClure scale of surface distances, composed like their standard deviation.
+constexpr double kRobustSkin = 0.001;  // part that is due to the skin's shape [m]
+constexpr double kRobustNoise = 2;     // part that is due to the sensor, relative to the sensor's noise
+
+// Strength of fold_penalty(): with 10, a skinning weight of 0.1 halves the information and one of 0.5 leaves 1 / 26.
 constexpr double kFolds = 10;
-constexpr double kKnuckleFolds = 30;    // the same between palm and fingers, where webs move with more than two bones
-constexpr float kGate = 0.012f;         // m, larger distances are outliers
-constexpr float kFacing = 0.3f;         // cosine: skin at a grazing angle is not measured well
-constexpr double kDamping = 1e-3;       // Levenberg-Marquardt, relative
-constexpr double kLongestStep = 0.010;  // m, in one step
-constexpr double kLargestTurn = 17 * kDegree;
+constexpr double kKnuckleFolds = 30;  // the same between palm and fingers, where webs move with more than two bones
+
+constexpr float kGate = 0.012f;         // larger surface distances are outliers [m]
+constexpr float kFacing = 0.3f;         // smallest cosine of the viewing angle: grazing skin is not measured well
+constexpr double kDamping = 1e-3;       // Levenberg-Marquardt damping, relative to the diagonal
+constexpr double kLongestStep = 0.010;  // largest shift of a segment in one step [m]
+constexpr double kLargestTurn = 17 * kDegree;  // largest rotation of a segment in one step
 
 double sq(double x) { return x * x; }
 
@@ -81,13 +87,13 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
   render_hand(model.skin, frame.pose, observation.frame->camera, grid_of(observation, params.stride), rendered);
   compare(observation, model.skin, frame.pose, rendered, params, comparison);
 
-  // Forget the frame's earlier sums.
-  std::vector<int> slot(model.skin.vertices.size(), -1);  // of every vertex in sums_
+  // Clear the frame's earlier sums.
+  std::vector<int> slot(model.skin.vertices.size(), -1);  // for each vertex its index in sums_, or -1
   sums_.clear();
   squares_ = 0;
   residuals_ = 0;
 
-  // The residuals' noise, and the sums over the pose.
+  // Set the noise of the residuals, and prepare the sums over the pose.
   const double sigma_sq = sq(kSigmaSkin) + sq(kSigmaNoise * observation.noise);
   const double robust_sq = sq(kRobustSkin) + sq(kRobustNoise * observation.noise);
   const bool joints_move = !model.joints_are_known();
@@ -108,14 +114,15 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     squares_ += sq(r);
     ++residuals_;
 
-    // The sums of the vertex, created at its first residual.
+    // Find the sums of the vertex, or create them at its first residual.
     if (slot[c.vertex] < 0) {
       slot[c.vertex] = static_cast<int>(sums_.size());
       sums_.push_back({c.vertex, variables.offset(c.vertex), variables.share(c.vertex)});
     }
     VertexSums& sums = sums_[slot[c.vertex]];
 
-    // Derivatives of the residual by the vertex's share and by the twists of its two segments.
+    // Differentiate the residual with respect to the vertex's share (its weight of the second segment) and the twists
+    // of its two segments.
     const auto posed = [&](int s, const Vector3f& p) -> Vector3d { return frame.pose[s] * p.cast<double>(); };
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_share = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
@@ -127,7 +134,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     };
     const PoseColumn a = twist(v.a, 1 - v.weight_b), b = twist(v.b, v.weight_b);
 
-    // Add to the vertex's sums. The derivative by its offset is 1.
+    // Add to the vertex's sums. The derivative with respect to its offset is 1.
     sums.oo += w;
     sums.os += w * by_share;
     sums.ss += w * sq(by_share);
@@ -155,7 +162,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
 
     tree.add<3>(s, J_child, J_parent, gap, w_gap * Matrix3d::Identity());
 
-    // The same residuals as a function of the joint's unknowns, and their products with the pose.
+    // Add the same residuals as functions of the joint's unknowns, and their products with the pose.
     JointSums& sums = joints_[s];
     sums.H.setZero();
     sums.H.topLeftCorner<6, 6>() = w_gap * J.transpose() * J;
@@ -216,14 +223,14 @@ bool ScanFrameEquations::factorise_pose(const GaussianTree& tree, bool hold_pose
 }
 
 void ScanFrameEquations::add_to(ScanEquations& equations, double weight) const {
-  // The equations of the joints.
+  // Add the equations of the joints.
   for (int s = 1; s < kSegmentCount; ++s) {
     const int first = ScanVariables::joint(s);
     equations.add<kJoint>(first, weight * joints_[s].H);
     equations.g.segment<kJoint>(first) += weight * joints_[s].g;
   }
 
-  // The equations of the vertices.
+  // Add the equations of the vertices.
   for (const VertexSums& sums : sums_) {
     equations.add(sums.offset, sums.offset, weight * sums.oo);
     equations.g[sums.offset] += weight * sums.g_o;
@@ -232,7 +239,7 @@ void ScanFrameEquations::add_to(ScanEquations& equations, double weight) const {
     equations.g[sums.share] += weight * sums.g_s;
   }
 
-  // What the pose's own gradient explains.
+  // Subtract the part of the gradient that a change of the pose explains (Schur complement).
   equations.g -= weight * (coupling_.transpose() * pose_.solve(g_pose_));
 }
 

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Normal equations of a scan: those of the shared unknowns, and those of one frame.
+
 /// One frame of a scan: its observation and the pose of the model's segments in it.
 struct ScanFrame {
   HandObservationPtr observation;
@@ -43,8 +45,8 @@ struct ScanEquations {
 };
 
 /// The normal equations of one frame: of its pose (96 numbers) and of the shared unknowns that it touches. The pose is
-/// eliminated by a Schur complement, so that only that part of a shared unknown counts which no change of the pose
-/// could explain as well.
+/// eliminated by a Schur complement, so that only evidence that a change of the pose could not explain as well affects
+/// the shared unknowns.
 class ScanFrameEquations {
  public:
   /// Linearises the frame at its pose and at `model`. `hold_pose`: the frame's pose is taken as correct. `limits`:
@@ -53,8 +55,8 @@ class ScanFrameEquations {
                  const std::array<JointLimits, kSegmentCount>& limits, bool hold_pose);
   /// Adds `weight` times the equations of the shared unknowns, without the part that explained() returns.
   void add_to(ScanEquations& equations, double weight = 1) const;
-  /// The Schur complement's part H_explained times x: what the frame's pose takes away from the equations of the
-  /// shared unknowns. H_explained is dense and never formed.
+  /// H_explained times x, where H_explained is what the elimination of the frame's pose subtracts from the matrix of
+  /// the shared unknowns (Schur complement). It is dense and never formed.
   Eigen::VectorXd explained(const Eigen::VectorXd& x) const;
   /// The block of H_explained that belongs to the joints; kJoints x kJoints.
   Eigen::MatrixXd explained_joints() const;

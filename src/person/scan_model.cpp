@@ -9,6 +9,8 @@
 namespace barehand {
 namespace {
 
+// The model that a scan optimises, and its conversion from and to a hand profile.
+
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
@@ -52,7 +54,7 @@ Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segmen
   const auto now = SkinSections::fit(model.skin, segment, bone.length, false);
   if (!now) return (end - bone.radius[1]) * along;
 
-  // A measured radius may differ from the one that the start's skin shows by `beside`.
+  // A measured radius may differ from that of the starting model's skin; `beside` is the difference.
   double beside = 0;
   const bool known = model.joints_are_known();
   if (known)
@@ -99,7 +101,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
     model.normal_in_b.push_back(R_b_a.cast<float>() * v.normal_in_a);
   }
 
-  // The joints start where the profile has them.
+  // The joints begin at the profile's positions.
   for (int s = 1; s < kSegmentCount; ++s) {
     const SE3 rest = profile.rest_relative(s);
     model.in_parent[s] = rest.t;
@@ -111,7 +113,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
 
 void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
   // Longer steps leave the range in which the equations are a good approximation.
-  constexpr float kOffset = 0.004f, kShare = 0.3f;  // m; of 1
+  constexpr float kOffset = 0.004f, kShare = 0.3f;  // largest changes of an offset [m] and of a weight
   for (int s = 1; s < kSegmentCount; ++s) {
     model.in_parent[s] += step.segment<3>(joint(s));
     model.in_segment[s] += step.segment<3>(joint(s) + 3);
@@ -133,14 +135,15 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
   HandProfile hand = model.profile;
   hand.origin = ProfileOrigin::measured;
 
-  // Rest poses: the frames move to the joints.
+  // Move the segments' frames to the joints.
   for (int s = 1; s < kSegmentCount; ++s) {
     const int parent = parent_of(s);
     const SE3 joint{model.rest[s], model.in_parent[s] - model.in_segment[parent]};
     hand.segments[s].T_hand_segment = hand.segments[parent].T_hand_segment * joint;
   }
 
-  // Bones: each ends at the next joint, the palm at the middle finger's knuckle, a fingertip within its skin.
+  // Set the ends of the bones: the next joint, for the palm the middle finger's knuckle, for a fingertip a point within
+  // its skin.
   for (int s = 0; s < kSegmentCount; ++s) {
     SegmentProfile& bone = hand.segments[s];
     const Vector3d& start = model.in_segment[s];
@@ -152,7 +155,7 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
     } else {
       end = tip_of(start_model, model, s, bone);
     }
-    // The elliptic sections stay where the skin is.
+    // Shift the elliptic sections against the frame, so that they stay where the skin is.
     const Vector3d shift[2] = {start, end - bone.distal};
     for (int i = 0; i < 2; ++i) {
       bone.flesh_offset_x[i] -= shift[i].x();

@@ -5,20 +5,23 @@
 namespace barehand {
 namespace {
 
+// Prior knowledge about a scanned hand as terms of the normal equations.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Standard deviations. Those of the joints are about as large as the error of a fit to elliptic sections.
-constexpr double kAcrossBone = 0.002;    // m, of a joint across the bone
-constexpr double kAlongBone = 0.003;     // m, along the bone; in all directions for the thumb's root, deep in flesh
-constexpr double kBetweenBones = 0.001;  // m, between the two points of a joint
-constexpr double kRestTurn = 0.015;      // rad, rotation of a joint's axes
-constexpr double kBesideMiddle = 0.001;  // m, of a finger's root from the middle of its skin
+// Standard deviations of the joints, about as large as the error of a fit to elliptic sections.
+constexpr double kAcrossBone = 0.002;    // position of a joint across the bone [m]
+constexpr double kAlongBone = 0.003;     // along the bone [m]; in all directions for the thumb's root, deep in flesh
+constexpr double kBetweenBones = 0.001;  // distance of the two points of a joint [m]
+constexpr double kRestTurn = 0.015;      // rotation of a joint's axes [rad]
+constexpr double kBesideMiddle = 0.001;  // distance of a finger's root from the middle of its skin [m]
 
-constexpr double kOffset = 0.1;           // m, of a vertex: weak, it only determines vertices that were never seen
-constexpr double kSmoothOffset = 0.0025;  // m, difference of the offsets along an edge
-constexpr double kMeanOffset = 0.00012;   // m, mean offset of a segment's skin
-constexpr double kMeanLever = 0.02;       // m, lever at which the skin's mean rotation counts as much as a shift
+// Standard deviations of the skin.
+constexpr double kOffset = 0.1;           // offset of a vertex [m]: weak, it only determines vertices never seen
+constexpr double kSmoothOffset = 0.0025;  // difference of the offsets along an edge [m]
+constexpr double kMeanOffset = 0.00012;   // mean offset of a segment's skin [m]
+constexpr double kMeanLever = 0.02;       // lever arm that converts the skin's mean rotation to an offset [m]
 constexpr double kMiddleShare = 0.3;      // skinning weight in the middle of a bone
 constexpr double kSmoothShare = 0.3;      // difference of the skinning weights along an edge
 
@@ -48,7 +51,7 @@ class Prior {
   void add_joints(bool hold) {
     for (int s = 1; s < kSegmentCount; ++s) {
       const int first = ScanVariables::joint(s);
-      // Each point stays near its place, most firmly across the bone.
+      // Each point of a joint stays near its starting position, most firmly across the bone.
       const Vector3d in_parent = model_.in_parent[s] - start_.in_parent[s];
       const Vector3d in_segment = model_.in_segment[s] - start_.in_segment[s];
       for (int axis = 0; axis < 3; ++axis) {
@@ -57,14 +60,14 @@ class Prior {
         add_one(first + 3 + axis, in_segment[axis], deviation);
       }
 
-      // Both points of a joint are the same place at rest.
+      // The two points of a joint coincide at rest.
       Eigen::Matrix<double, 3, 6> J;
       J << Matrix3d::Identity(), -start_.rest[s];
       const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
       out_.add<6>(first, J.transpose() * J / sq(kBetweenBones));
       out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
 
-      // The axes of the joint hardly turn.
+      // The axes of the joint stay near their initial directions.
       const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
       for (int axis = 0; axis < 3; ++axis) add_one(first + 6 + axis, turn[axis], kRestTurn);
       if (hold)
@@ -72,8 +75,8 @@ class Prior {
     }
   }
 
-  // Every vertex stays near its start. While the joints are held, skin in the middle of a bone need not make up for
-  // them and stays rigid.
+  // Every vertex stays near its starting position. While the joints are held, skin in the middle of a bone stays rigid,
+  // because it need not compensate for moving joints.
   void add_vertices(bool joints_held) {
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i) {
       add_one(variables_.offset(i), offset_[i], kOffset);
@@ -91,14 +94,14 @@ class Prior {
         const SkinVertex &a = vertex(i), &b = vertex(j);
         if (a.a == b.a && a.b == b.b)
           add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), 1, kSmoothShare);
-        else if (a.a == b.b && a.b == b.a)  // the weight of one segment is what the other leaves
+        else if (a.a == b.b && a.b == b.a)  // the two weights belong to opposite segments: they add up to 1
           add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), -1, kSmoothShare);
       }
   }
 
   // The offsets of a segment's skin neither shift nor rotate it on average.
   void add_mean(int segment) {
-    // The segment's vertices and their centre.
+    // Collect the segment's vertices, and compute their centre.
     std::vector<int> members, unknowns;
     Vector3d centre = Vector3d::Zero();
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i)
@@ -112,7 +115,7 @@ class Prior {
     const auto count = static_cast<Eigen::Index>(members.size());
     centre /= static_cast<double>(count);
 
-    // Mean translation and rotation of the skin as a linear function of the offsets.
+    // Express the mean translation and rotation of the skin as linear functions of the offsets.
     Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, count);
     Eigen::VectorXd offset(count);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -125,14 +128,14 @@ class Prior {
     add_mean_rows(unknowns, J, J * offset);
   }
 
-  // A finger is rooted in the middle of its skin from side to side. This must be stated, as images hardly show where
-  // along the knuckle's axis the root is.
+  // The root of a finger is in the middle of its skin from side to side. The prior must say so, because images hardly
+  // determine the root's position along the knuckle's axis.
   void add_middle(int finger) {
     const int segment = segment_of(finger, 0);
     const auto sections = SkinSections::fit(start_.skin, segment, start_.profile.segments[segment].length, true);
     if (!sections) return;
 
-    // The distance of the root from the middle as a linear function of the root and of the offsets.
+    // Express the distance of the root from the middle as a linear function of the root and the offsets.
     double beside = sections->middle_x(0) - model_.in_segment[segment].x();
     std::vector<int> unknowns = {ScanVariables::joint(segment) + 3};
     std::vector<double> J = {-1};
@@ -184,7 +187,7 @@ class Prior {
   const ScanModel &model_, &start_;
   const ScanVariables& variables_;
   ScanEquations& out_;
-  std::vector<double> offset_;  // of every vertex along its normal since the start [m]
+  std::vector<double> offset_;  // shift of every vertex along its normal since the start [m]
 };
 
 }  // namespace
@@ -197,7 +200,7 @@ void add_scan_prior(const ScanModel& model, const ScanModel& start, const ScanVa
   prior.add_smoothness();
   for (int s = 0; s < kSegmentCount; ++s) prior.add_mean(s);
   if (hold_joints) return;
-  // The thumb's root lies too deep in flesh.
+  // The thumb is left out, because its root is too deep in the flesh.
   for (int finger = 1; finger < kFingerCount; ++finger) prior.add_middle(finger);
 }
 

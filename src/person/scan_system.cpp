@@ -3,8 +3,10 @@
 namespace barehand {
 namespace {
 
+// Solves the equations of a scan by preconditioned conjugate gradients.
+
 constexpr double kDamping = 1e-3;      // Levenberg-Marquardt, relative to the diagonal
-constexpr double kTolerance = 1e-6;    // of the residual, relative to the right-hand side
+constexpr double kTolerance = 1e-6;    // size of the final residual, relative to the right-hand side
 constexpr int kMostIterations = 1000;  // about a hundred are usual
 constexpr int kJoints = ScanVariables::kJoints;
 
@@ -39,15 +41,15 @@ ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrame
   H_ = assembled(count, count, equations.H);
   means_ = assembled(equations.mean_rows, count, equations.means);
 
-  // The joints' block with the poses eliminated, for the preconditioner.
+  // Compute the joints' block with the poses eliminated, for the preconditioner.
   Eigen::MatrixXd joints = Eigen::MatrixXd(H_.topLeftCorner(kJoints, kJoints)).selfadjointView<Eigen::Lower>();
   for (const ScanFrameEquations& frame : frames_) joints -= weight_ * frame.explained_joints();
 
-  // The damping is relative to what the elimination leaves of a joint's equations, as the poses explain nearly all of
-  // them.
+  // For the joints, the damping is relative to what the elimination leaves of their equations, because the poses
+  // explain nearly all of them.
   Eigen::VectorXd damping = kDamping * H_.diagonal();
   damping.head(kJoints) = kDamping * joints.diagonal();
-  H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // also where no frame determined an unknown
+  H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // also for unknowns that no frame determines
 
   joints.diagonal() += damping.head(kJoints);
   joints_.compute(joints);

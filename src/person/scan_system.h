@@ -15,12 +15,11 @@ namespace barehand {
 /// on the number of threads.
 class ScanSystem {
  public:
-  /// `equations`: the shared unknowns' equations before the elimination, in which `frames` have the same `weight`.
-  /// `frames` and `workers` must outlive this object.
+  /// `equations`: the shared unknowns' equations before the elimination, to which every one of `frames` was added with
+  /// `weight`. `frames` and `workers` must outlive this object.
   ScanSystem(const ScanEquations& equations, std::span<const ScanFrameEquations> frames, double weight,
              Workers& workers);
 
-  /// The matrix times x.
   /// The matrix, with all poses eliminated, times x.
   Eigen::VectorXd times(const Eigen::VectorXd& x) const;
   /// The step of all shared unknowns; none if the matrix is not positive definite.

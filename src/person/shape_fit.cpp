@@ -12,7 +12,7 @@ bool ShapeFit::add(const ShapeEquations& equations, const HandShape& at) {
   Matrix information;
   HandShape g;
   if (!equations.without_pose(information, g)) return false;
-  // Older looks fade exponentially.
+  // Reduce the weight of older looks exponentially.
   const double memory = std::clamp(params_.memory * looks_, 4.0, params_.memory_looks);
   const double keep = std::exp(-1 / memory);
   information_ = keep * information_ + params_.weight * information;

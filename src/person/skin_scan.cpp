@@ -11,12 +11,14 @@
 namespace barehand {
 namespace {
 
-constexpr int kRounds = 40, kRoundsOfSkin = 16;  // the latter if the joints stay fixed
-constexpr int kSkinRounds = 2;                   // the first rounds move the skin alone, which is farthest off
-// Number of frames whose total weight is not exceeded: more of them add no information, as their errors are
-// correlated. With fixed joints the limit is lower, because partly seen skin would drift.
+// Runs the Gauss-Newton rounds of a scan.
+
+constexpr int kRounds = 40, kRoundsOfSkin = 16;  // rounds of a scan; fewer if joints are fixed
+constexpr int kSkinRounds = 2;                   // the first rounds move only the skin, which has the largest errors
+// Upper limits of the total weight of all frames: more frames add no information, because their errors are correlated.
+// With fixed joints the limit is lower, because skin that is seen only in part would drift.
 constexpr double kFullScan = 100, kFullScanOfSkin = 46;
-constexpr double kWidening = 20 * kDegree;  // of the joint limits
+constexpr double kWidening = 20 * kDegree;  // widening of the joint limits
 
 /// The state of a running scan.
 class Scan {
@@ -32,8 +34,8 @@ class Scan {
 
   // Number of rounds of the whole scan.
   int rounds() const { return start_.joints_are_known() ? kRoundsOfSkin : kRounds; }
-  /// One Gauss-Newton step on everything. `skin_only`: poses and joints stay. Returns the root mean square mismatch
-  /// before the step [m]; none if it cannot be solved.
+  /// One Gauss-Newton step on everything. `skin_only`: poses and joints stay as they are. Returns the root mean square
+  /// mismatch before the step [m]; none if it cannot be solved.
   std::optional<double> round(bool skin_only) {
     // Linearise all frames in parallel.
     const int frames = static_cast<int>(frames_.size());
@@ -96,7 +98,7 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
     if (progress) progress({round + 1, scan.rounds(), last});
   }
 
-  // A hand that explains the frames worse than the start does is refused.
+  // Reject a hand that fits the frames worse than the initial hand does.
   if (last > first) return std::nullopt;
   return scan.hand();
 }

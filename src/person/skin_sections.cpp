@@ -6,12 +6,12 @@
 namespace barehand {
 
 std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, double length, bool alone) {
-  constexpr float kAlong = 0.5f;  // cosine: skin that faces along the bone says little about its section
+  constexpr float kAlong = 0.5f;  // cosine; skin that faces along the bone hardly depends on the section
 
   // Fewer vertices than this do not determine a section.
   constexpr std::size_t kFewest = 12;
 
-  // Select skin beside the bone.
+  // Select the skin on the sides of the bone.
   SkinSections sections;
   for (int i = 0; i < static_cast<int>(skin.vertices.size()); ++i) {
     const SkinVertex& v = skin.vertices[i];
@@ -21,7 +21,7 @@ std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, dou
 
   if (sections.vertices_.size() < kFewest) return std::nullopt;
 
-  // The support function of an ellipse, linearised: n . p = n . middle(u) + radius(u) + e (n_x^2 - n_y^2).
+  // Set up the linearised support function of an ellipse: n . p = n . middle(u) + radius(u) + e (n_x^2 - n_y^2).
   const auto count = static_cast<Eigen::Index>(sections.vertices_.size());
   Eigen::Matrix<double, Eigen::Dynamic, 7> A(count, 7);
   Eigen::VectorXd support(count), squares(count);
@@ -34,7 +34,7 @@ std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, dou
     squares[k] = n.squaredNorm();
   }
 
-  // Solve; the pseudo-inverse also yields the derivative by each vertex's offset.
+  // Solve. The pseudo-inverse also yields the derivative with respect to each vertex's offset.
   const Eigen::MatrixXd inverse = A.completeOrthogonalDecomposition().pseudoInverse();
   sections.fit_ = inverse * support;
   sections.per_offset_ = inverse.row(0).transpose().cwiseProduct(squares);

@@ -19,7 +19,8 @@ class SkinSections {
   // The middle's x coordinate and the radius of the section at u [m].
   double middle_x(double u) const { return fit_[0] + u * fit_[1]; }
   double radius(double u) const { return fit_[4] + u * fit_[5]; }
-  /// The vertices that were used, and the derivative of middle_x(0) by the offset of each along its normal.
+  /// The vertices that were used, and the derivative of middle_x(0) with respect to the offset of each along its
+  /// normal.
   const std::vector<int>& vertices() const { return vertices_; }
   const Eigen::VectorXd& middle_x_per_offset() const { return per_offset_; }
 

@@ -10,26 +10,32 @@
 namespace barehand {
 namespace {
 
+// Finds unlikely intrinsics and their probable cause.
+
 struct Size {
   int width, height;
 };
-/// What depth and colour cameras deliver: Kinect v1 and v2, Azure Kinect, RealSense, Orbbec, Xtion.
+/// Image sizes of common depth and colour cameras: Kinect v1 and v2, Azure Kinect, RealSense, Orbbec, Xtion.
 constexpr std::array<Size, 22> kCommonSizes = {
     {{160, 120},   {320, 240},  {320, 288},  {424, 240},  {480, 270},   {480, 360},  {512, 424}, {512, 512},
      {640, 360},   {640, 400},  {640, 480},  {640, 576},  {800, 600},   {848, 480},  {960, 540}, {1024, 768},
      {1024, 1024}, {1280, 720}, {1280, 800}, {1280, 960}, {1280, 1024}, {1920, 1080}}};
 
-constexpr double kNarrowest = 10, kWidest = 150;  // degrees
-constexpr double kFarOff = 0.2;                   // of the image's size, from the middle
-constexpr double kNear = 0.05;                    // the same; a principal point so near to the middle says the size
-constexpr double kOblong = 1.25;                  // of focal lengths; no pixel is
+constexpr double kNarrowest = 10, kWidest = 150;  // plausible fields of view [degrees]
+// Largest plausible distance of the principal point from the image centre, as a fraction of the image size.
+constexpr double kFarOff = 0.2;
+// A principal point within this distance of an image's centre, as a fraction of its size, identifies the image size.
+constexpr double kNear = 0.05;
+// Largest plausible ratio of the two focal lengths, since pixels are nearly square.
+constexpr double kOblong = 1.25;
 
-/// From the middle of an image, as a part of its size.
+/// Distance of the coordinate `c` [px] from the image centre, as a fraction of the image size.
 double off_centre(double c, int size) { return std::abs(c - 0.5 * (size - 1)) / size; }
 
+/// Field of view [degrees] of an image side of `size` pixels.
 double field_of_view(double focal, int size) { return 2 * std::atan(0.5 * size / focal) * 180 / std::numbers::pi; }
 
-/// The common size whose middle the principal point lies nearest to.
+/// The common image size whose centre is nearest to the principal point; none if no centre is near it.
 std::optional<Size> size_for(const Intrinsics& camera) {
   std::optional<Size> best;
   double least = 2 * kNear;
@@ -47,7 +53,7 @@ std::optional<Size> size_for(const Intrinsics& camera) {
 std::vector<std::string> camera_doubts(const Intrinsics& camera) {
   std::vector<std::string> doubts;
 
-  // How wide the camera sees.
+  // Check the field of view.
   const double wide = field_of_view(camera.fx, camera.width), high = field_of_view(camera.fy, camera.height);
   for (const auto& [name, focal, size, angle] :
        {std::tuple("fx", camera.fx, camera.width, wide), std::tuple("fy", camera.fy, camera.height, high)}) {
@@ -56,7 +62,7 @@ std::vector<std::string> camera_doubts(const Intrinsics& camera) {
         formatted("%s = %.6g is a field of view of %.3g degrees over %d pixels: is it in pixels, and of "
                   "this image size?",
                   name, focal, angle, size));
-    break;  // the other one is wrong in the same way
+    break;  // one warning is enough: the other focal length is wrong in the same way
   }
   if (std::max(camera.fx, camera.fy) > kOblong * std::min(camera.fx, camera.fy))
     doubts.push_back(
@@ -64,7 +70,7 @@ std::vector<std::string> camera_doubts(const Intrinsics& camera) {
                   "size?",
                   camera.fx, camera.fy));
 
-  // Where it looks.
+  // Check the principal point.
   if (off_centre(camera.cx, camera.width) > kFarOff || off_centre(camera.cy, camera.height) > kFarOff) {
     const auto size = size_for(camera);
     const std::string cause =

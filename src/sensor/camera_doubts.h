@@ -7,8 +7,9 @@
 
 namespace barehand {
 
-/// What looks wrong about intrinsics that are possible, in sentences with the likely cause: a field of view that hardly
-/// any camera has, a principal point far from the middle, intrinsics of another image size. Empty: nothing.
+/// Warnings about intrinsics that are possible but unlikely, as sentences with the likely cause: a field of view that
+/// hardly any camera has, a principal point far from the image centre, intrinsics of another image size. Empty if
+/// nothing looks wrong.
 std::vector<std::string> camera_doubts(const Intrinsics& camera);
 
 }  // namespace barehand

@@ -6,17 +6,19 @@
 
 namespace barehand {
 
-/// Largest focal length and distance of the principal point [px] that is believed of a camera from outside.
+/// Largest focal length, and largest absolute coordinate of the principal point, that is accepted from files and
+/// messages [px].
 inline constexpr double kLargestFocal = 1e5;
 
-/// Largest image that is believed [pixels]: a larger size in a message or a file is a lie or damage.
+/// Largest number of pixels that is accepted for an image: a message or file that states more is damaged.
 inline constexpr std::int64_t kMaxPixels = 4096 * 4096;
 
 inline bool possible_size(std::int64_t width, std::int64_t height) {
   return width > 0 && height > 0 && width <= kMaxPixels && height <= kMaxPixels && width * height <= kMaxPixels;
 }
 
-/// What a camera can have; NaN is not. Files and messages are held to it, so that rays and pixels stay numbers.
+/// Whether a camera can have these intrinsics (never with NaN). Those of files and messages are checked, so that rays
+/// and pixel coordinates are finite.
 inline bool plausible(const Intrinsics& camera) {
   const auto focal = [](double f) { return f >= 1 && f <= kLargestFocal; };
   const auto centre = [](double c) { return c >= -kLargestFocal && c <= kLargestFocal; };

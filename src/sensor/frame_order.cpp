@@ -9,12 +9,15 @@
 namespace barehand {
 namespace {
 
-constexpr std::size_t kSteps = 15;  // frames whose distances tell the unit
-constexpr std::size_t kFewestSteps = 2;
-constexpr std::int64_t kMany = 10;                              // one frame of so many
-constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // of a frame; more is damage
+// Checks the order and the unit of time stamps, and numbers the frames.
 
-/// A time between two frames of a camera [us]: 0.5 to 2000 frames a second.
+constexpr std::size_t kSteps = 15;  // intervals between frames from which the unit of the stamps is checked
+// Intervals that suffice for this check at the end of a short recording.
+constexpr std::size_t kFewestSteps = 2;
+constexpr std::int64_t kMany = 10;                              // warn if more than one frame in this many was not used
+constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // larger frame numbers are damaged
+
+/// Shortest and longest plausible interval between two frames [us]: 2000 and 0.5 frames per second.
 constexpr double kShortest = 500, kLongest = 2'000'000;
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
@@ -23,9 +26,9 @@ std::string in_unit(StampUnit unit) {
   return unit == StampUnit::seconds ? "stamps are in seconds" : "utime is in microseconds";
 }
 
-/// A counter of 32 bits that overflowed between two frames, or "".
+/// Explains a backward step of the time [s] that matches the overflow of a 32-bit counter; "" for any other step.
 std::string overflow(double step_back) {
-  constexpr double kRange = 4294967296.0, kSlack = 10;  // s
+  constexpr double kRange = 4294967296.0, kSlack = 10;  // values of the counter; tolerance [s]
   for (const auto& [unit, per_second] : {std::pair("microseconds", 1e6), std::pair("milliseconds", 1e3)})
     if (std::abs(step_back - kRange / per_second) < kSlack)
       return std::string(", as a counter of ") + unit + " with 32 bits does when it overflows";
@@ -35,7 +38,8 @@ std::string overflow(double step_back) {
 }  // namespace
 
 std::string too_late(double stamp, StampUnit unit) {
-  constexpr double kNow = 1.7e9, kFactor = 20;  // s; from 1972 to about the year 3000
+  // A present time [s since the epoch]; plausible times differ by at most this factor (the years 1972 to about 3000).
+  constexpr double kNow = 1.7e9, kFactor = 20;
   struct Guess {
     const char* name;
     double per_second;
@@ -75,7 +79,7 @@ Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number)
 }
 
 std::int64_t FrameOrder::going_on(std::int64_t number) {
-  // Numbers from a message may be anything: what cannot be added up stays as it is.
+  // A message may contain any number: numbers that could overflow when shifted are passed on unchanged.
   if (number > kLargestNumber || number < -kLargestNumber) return number;
   if (begun_ && number + number_shift_ <= last_number_ && last_number_ <= kLargestNumber)
     number_shift_ = last_number_ + 1 - number;
@@ -94,7 +98,7 @@ void FrameOrder::look_at_steps() {
   if (judged_steps_ || steps_.size() < kFewestSteps) return;
   judged_steps_ = true;
 
-  // The typical time between two frames, which a few gaps do not change.
+  // Find the typical interval between two frames: the median, which a few gaps do not change.
   const auto [least, most] = std::ranges::minmax(steps_);
   std::vector<std::int64_t> sorted = std::move(steps_);
   steps_.clear();
@@ -102,6 +106,7 @@ void FrameOrder::look_at_steps() {
   const auto typical = static_cast<double>(sorted[sorted.size() / 2]);
   const double one = unit_ == StampUnit::seconds ? 1e6 : 1;
 
+  // Guess what the stamps are if their interval is implausible.
   std::string like;
   const bool whole = last_utime_ % static_cast<std::int64_t>(one) == 0;
   if (whole && least == most && typical == one) {

@@ -8,39 +8,42 @@
 
 namespace barehand {
 
-/// Latest time that is believed of a stamp [us], before or after the epoch: beyond it stamps are in another unit, and a
-/// table could not hold them with its precision.
+// Checks the time stamps of a source's frames, and numbers the frames.
+
+/// Time stamps farther from the epoch than this [us], before or after it, are rejected: they are in another unit, and a
+/// result table could not represent them with its precision.
 inline constexpr std::int64_t kLatestUtime = 100'000'000'000'000'000;
 
-/// A stamp that is earlier by this [us] is a new start; by less, a repetition or a frame that was overtaken.
+/// If a time stamp is earlier than the previous one by at least this [us], the recorder was restarted; if by less, the
+/// frame is a repetition or arrived late.
 inline constexpr std::int64_t kRestart = 1'000'000;
 
 /// The unit that a source's stamps are stated in, for messages.
 enum class StampUnit { seconds, microseconds };
 
-/// "These look like milliseconds since the epoch: divide them by 1000", of a stamp that is beyond kLatestUtime when it
-/// is taken for one in `unit`.
+/// Explains a stamp that is beyond kLatestUtime when read in `unit`, for example "this looks like milliseconds since
+/// the epoch, but stamps are in seconds: divide it by 1000".
 std::string too_late(double stamp, StampUnit unit);
 
-/// The one rule for time stamps and frame numbers (docs/formats.md, "Time"): every source asks it about every frame of
-/// a channel, in the order in which they were recorded or arrive.
-///  - A frame with the stamp of the one before, or earlier by less than a second, is a repetition or was overtaken on
-///  the
-///    way: it is not used.
-///  - One that is earlier by a second or more is a new start: the recorder was started again, or its clock was set.
-///  - Numbers rise. Where they do not, the sender counts anew, and the numbers go on after the last one.
-///  - Stamps are taken as they are. What looks like another unit is said, never converted; what cannot be a time in the
-///    unit is not used.
+/// The one rule for time stamps and frame numbers (docs/formats.md, "Time"). Every source calls number() for every
+/// frame of a channel, in the order in which the frames were recorded or arrive.
+///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or late: it is
+///    not used.
+///  - A stamp that is earlier by a second or more is a restart: the recorder was started again, or its clock was set.
+///  - Frame numbers increase. If they do not, the sender has restarted its count; the numbers continue from the last.
+///  - Stamps are used unchanged. If they look like another unit, the user is warned, but they are never converted; a
+///    frame whose stamp cannot be a time in the unit is not used.
 class FrameOrder {
  public:
   explicit FrameOrder(StampUnit unit) : unit_(unit) {}
 
-  /// The number that the frame gets, or why it is not used.
+  /// Returns the number that the frame gets. Error: why the frame is not used.
   Result<std::int64_t> number(std::int64_t utime, std::int64_t number);
 
-  /// What is to be said of the frames since the last call, each thing once.
+  /// Returns the warnings about the frames since the last call, each only once.
   std::vector<std::string> take_doubts();
-  /// The same after the last frame of a recording, which may be too short for the rest.
+  /// Like take_doubts(), to be called after the last frame: also checks a recording that was too short until then, and
+  /// counts the unused frames.
   std::vector<std::string> take_last_doubts();
 
  private:

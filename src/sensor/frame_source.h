@@ -11,9 +11,11 @@
 
 namespace barehand {
 
+// The interface of all sources of frames.
+
 /// Events that a source returns instead of a frame.
 struct EndOfStream {};
-struct Timeout {};  ///< nothing arrived in time; ask again
+struct Timeout {};  ///< no frame arrived in time; call next() again
 struct SkippedFrame {
   Error error;
 };  ///< one frame was unreadable: count and report it, and ask for the next
@@ -24,7 +26,7 @@ struct SourceFailed {
 /// A message for the user; the stream continues. The source itself suppresses repetitions.
 struct SourceNotice {
   Error error;
-  bool trouble = true;  ///< false: good news, for example that a sensor was opened
+  bool trouble = true;  ///< false: information only, for example that a sensor was opened
 };
 
 using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed, SourceNotice>;

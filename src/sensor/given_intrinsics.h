@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-/// What a user states of a depth camera that does not tell it, or tells it wrong [pixels]. All 0: nothing.
+/// Intrinsics that the user states for a depth camera that reports none, or wrong ones [pixels]. All are 0 if the user
+/// states none.
 struct GivenIntrinsics {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 
@@ -24,7 +25,7 @@ void visit(V& v, GivenIntrinsics& p) {
   v.user("cy", p.cy, -kLargestFocal, kLargestFocal, "px, vertical principal point");
 }
 
-/// Error, which names `where`: one of the four is given without the others, or such as no camera has.
+/// Returns an error that names `where` if only some of the four are given, or if no camera can have them.
 inline Result<void> check(const GivenIntrinsics& given, const std::string& where = "fx, fy, cx, cy") {
   const bool whole = given.fx != 0 && given.fy != 0 && given.cx != 0 && given.cy != 0;
   if (!given.any() || (whole && plausible(given.of_size(1, 1)))) return {};

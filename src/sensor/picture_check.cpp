@@ -7,9 +7,12 @@
 namespace barehand {
 namespace {
 
+// Detects depth images without usable content.
+
+// A depth image with a larger fraction of jumps between neighbours (see jump_share()) is noise.
 constexpr double kSenseless = 0.4;
-constexpr int kRowStep = 4;       // every fourth row says enough
-constexpr int kFewestPairs = 64;  // fewer say nothing
+constexpr int kRowStep = 4;       // every fourth row is enough
+constexpr int kFewestPairs = 64;  // fewer pairs of measured neighbours are not enough to decide
 
 bool same(const Image<std::uint16_t>& a, const Image<std::uint16_t>& b) {
   return a.width() == b.width() && a.height() == b.height() && std::memcmp(a.data(), b.data(), 2 * a.size()) == 0;

@@ -10,15 +10,16 @@ namespace barehand {
 enum class DepthFault {
   none,
   incomplete,  ///< bytes are missing
-  senseless,   ///< neighbours have nothing to do with each other: noise instead of surfaces
-  repeated,    ///< bit for bit the image before; a living sensor's noise never repeats
-  empty,       ///< nothing measured anywhere: covered lens, or nothing within range
+  senseless,   ///< neighbouring depths are unrelated: noise instead of surfaces
+  repeated,    ///< identical to the previous image; the noise of a working sensor never repeats
+  empty,       ///< no pixel was measured: the lens is covered, or nothing is within range
 };
 
-/// Share of neighbouring pixels, both measured, whose depths differ by more than a fifth. Surfaces: a few percent.
+/// Fraction of the pairs of horizontal neighbours, both measured, whose depths differ by more than a fifth. It is a few
+/// percent for an image of surfaces. Returns 0 if there are too few pairs.
 double jump_share(const Image<std::uint16_t>& depth);
 
-/// Of an image that is complete; `before` may be null.
+/// Checks a depth image that is complete. `before` is the previous image, or null.
 DepthFault check_depth(const Image<std::uint16_t>& depth, const Image<std::uint16_t>* before);
 
 }  // namespace barehand

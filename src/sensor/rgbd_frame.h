@@ -20,11 +20,11 @@ struct RgbdFrame {
   std::int64_t utime = 0;      ///< capture time of the depth image [us since the epoch]
   std::int64_t number = 0;     ///< frame number in the recording, or the sensor's sequence number
   std::string sensor;          ///< name of the sensor; "" if there is only one
-  Intrinsics camera;           ///< of both images, since colour is registered to depth
+  Intrinsics camera;           ///< intrinsics of both images, since colour is registered to depth
   double depth_unit = 0.001;   ///< metres per depth count
   Image<std::uint16_t> depth;  ///< counts; 0 = no measurement
   Image<Rgb> colour;           ///< empty if there is none; pure black: no colour at this pixel
-  std::string colour_fault;    ///< why colour that was expected is not there; "": nothing to say
+  std::string colour_fault;    ///< why colour is missing although it was expected; "" otherwise
 };
 using FramePtr = std::shared_ptr<const RgbdFrame>;
 

@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kStep = 1e-4;  // at distance 1, for the slope along the radius
+constexpr double kStep = 1e-4;  // relative step along the radius, for the sign of the slope
 
 }  // namespace
 
@@ -24,7 +24,7 @@ Undistortion::Undistortion(const Intrinsics& camera, const Distortion& distortio
       const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
       const Eigen::Vector2d there = distortion.distorted(x, y);
 
-      // Beyond the radius at which the polynomial turns round it describes no lens.
+      // Beyond the radius at which the distorted radius starts to decrease, the polynomial does not describe a lens.
       const double out = 1 + kStep;
       if (distortion.distorted(out * x, out * y).squaredNorm() < there.squaredNorm()) continue;
 

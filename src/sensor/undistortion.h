@@ -15,23 +15,25 @@ struct Distortion {
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0;
 
   bool operator==(const Distortion&) const = default;
-  /// Where the lens puts what an ideal pinhole would show at (x, y); both at distance 1 from the camera.
+  /// Where the lens images the point that an ideal pinhole camera would show at (x, y). Both are positions in the plane
+  /// z = 1.
   Eigen::Vector2d distorted(double x, double y) const;
 };
 
-/// Turns the images of a lens with distortion into those of a pinhole with the same intrinsics. Every pixel takes the
-/// nearest one of the lens' image: nothing is interpolated, so that no depth appears between a hand and what is behind.
+/// Converts images of a lens with distortion to those of a pinhole camera with the same intrinsics. Every pixel takes
+/// the value of the nearest pixel in the distorted image: interpolation would invent depths between a hand and its
+/// background.
 class Undistortion {
  public:
   Undistortion(const Intrinsics& camera, const Distortion& distortion);
 
-  /// The largest way of a pixel [px].
+  /// Largest displacement of a pixel [px].
   double largest_shift() const { return largest_shift_; }
 
-  /// Part of the pixels that the lens shows.
+  /// Fraction of the pixels that the distorted image shows.
   double shown() const;
 
-  /// `image` has the camera's size. Pixels that the lens does not show are 0.
+  /// Undistorts `image`, which must have the camera's size. Pixels that the distorted image does not show become 0.
   template <class T>
   Image<T> apply(const Image<T>& image) const {
     Image<T> out(image.width(), image.height());
@@ -41,7 +43,7 @@ class Undistortion {
   }
 
  private:
-  std::vector<std::int32_t> from_;  ///< by pixel: index of the one it takes; < 0: none
+  std::vector<std::int32_t> from_;  ///< for each pixel, the index of its source pixel; negative if there is none
   double largest_shift_ = 0;
 };
 

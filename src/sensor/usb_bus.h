@@ -10,11 +10,13 @@
 
 namespace barehand {
 
+// Depth sensors on the USB bus.
+
 /// A device on the USB bus, valid until it is unplugged.
 struct UsbAddress {
   std::uint16_t vendor = 0, product = 0;
   int bus = 0;
-  int number = 0;  ///< assigned by the bus; every plugging gets a new one
+  int number = 0;  ///< assigned by the bus; a new one every time the device is plugged in
   bool operator==(const UsbAddress&) const = default;
 };
 

@@ -8,26 +8,29 @@
 namespace barehand {
 namespace {
 
-constexpr int kBlock = 4;             // cells per side of a block of the first search
-constexpr float kRing = 0.035f;       // m around the silhouette that should be empty
-constexpr float kOutside = -0.6f;     // weight of a candidate there
-constexpr float kBlur = 0.008f;       // m over which the weight falls from inside to outside
-constexpr float kHidden = 0.5f;       // worth of a place where something nearer could hide the hand
-constexpr float kLeastScore = 0.3f;   // of a perfect overlap
-constexpr float kMotionCost = 0.15f;  // of a perfect overlap, for the largest motion allowed
+// Finds the translation of a predicted hand by moving its silhouette over the candidate cells.
 
-/// Weights over the image: positive where the hand would be seen, negative beside it, zero elsewhere.
+constexpr int kBlock = 4;            // the first search works on blocks of this many cells per side
+constexpr float kRing = 0.035f;      // width of a ring around the silhouette that should show no candidates [m]
+constexpr float kOutside = -0.6f;    // weight of a candidate in the ring; inside the silhouette it is 1
+constexpr float kBlur = 0.008f;      // width of the transition between these weights [m]
+constexpr float kHidden = 0.5f;      // value of a cell in which something nearer could hide the hand; a candidate has 1
+constexpr float kLeastScore = 0.3f;  // lowest score that is accepted; a perfect overlap has 1
+constexpr float kMotionCost = 0.15f;  // reduction of the score for the largest motion allowed
+
+/// The silhouette of a hand as weights of cells: positive inside, negative in a ring around it, and zero beyond the
+/// ring and on the forearm's side. Its first pixel is cell (u0, v0) of the grid.
 struct Silhouette {
   int u0 = 0, v0 = 0;
   Image<float> weight;
   Image<float> z;              ///< depth of the skin, where weight > 0
-  Eigen::AlignedBox2i inside;  ///< of the pixels where weight > 0
-  float total = 0;             ///< of their weights
+  Eigen::AlignedBox2i inside;  ///< bounding box of the pixels where weight > 0
+  float total = 0;             ///< sum of the positive weights
 };
 
-/// A capsule in the image.
+/// A capsule projected to the image.
 struct Rod {
-  Eigen::Vector2f a, axis;  ///< one end and the way to the other [pixels]
+  Eigen::Vector2f a, axis;  ///< one end, and the vector to the other end [pixels]
   float inverse_length_sq, za, dz, radius, pixel_radius;
 };
 
@@ -35,16 +38,16 @@ Eigen::Vector2f project(const Intrinsics& camera, const Eigen::Vector3f& p) {
   return camera.project(p.cast<double>()).cast<float>();
 }
 
-/// Where the nearest rod is, for the pixels of a row.
+/// Distance and depth of the nearest capsule for every pixel of a row.
 struct RowOfDistances {
-  std::vector<float> distance;  ///< from its outline [pixels]; beyond `border` perhaps too much
-  std::vector<float> z;         ///< of its skin [m]
+  std::vector<float> distance;  ///< from its outline [pixels]; above `border` only an upper bound
+  std::vector<float> z;         ///< depth of its skin [m]
 
   void reset(int width) {
     distance.assign(width, INFINITY);
     z.assign(width, 0);
   }
-  /// The row's first pixel is at (u0, v); what is farther than `border` pixels does not matter.
+  /// Adds a capsule. The row's first pixel is at (u0, v); distances above `border` pixels need not be exact.
   void add(const Rod& rod, float u0, float v, float border) {
     const float reach = rod.pixel_radius + border, y = v - rod.a.y(), other_y = y - rod.axis.y();
     if (std::min(y, other_y) > reach || std::max(y, other_y) < -reach) return;
@@ -68,10 +71,10 @@ struct RowOfDistances {
   }
 };
 
-/// Draws silhouettes; keeps its allocations.
+/// Draws silhouettes; reuses its memory.
 class Drawer {
  public:
-  /// Nothing (total = 0) of a hand that is too near or far outside the image.
+  /// Draws a hand. The silhouette is empty (total = 0) if the hand is too near or far outside the image.
   void draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out);
 
  private:
@@ -123,11 +126,11 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
   }
 }
 
-/// What the silhouette is laid over: cells that may be hand, and cells where a hand may be hidden.
+/// What the silhouette is compared with: cells that may be hand, and cells where a hand may be hidden.
 struct Scene {
-  Image<float> hand;      ///< share of a cell that may be hand
-  Image<float> possible;  ///< the same, plus kHidden where something nearer could hide it
-  Image<float> table;     ///< sums of `possible` over what lies above and to the left of a cell (summed-area table)
+  Image<float> hand;      ///< fraction of a cell that may be hand
+  Image<float> possible;  ///< the same, but kHidden where something nearer could hide the hand
+  Image<float> table;     ///< sums of `possible` over all cells above and to the left of a cell (summed-area table)
 
   void sum_up() {
     table.reset(possible.width() + 1, possible.height() + 1);
@@ -152,7 +155,7 @@ float overlap(const Silhouette& shape, const Scene& scene, int du, int dv) {
   const int width = scene.hand.width(), height = scene.hand.height();
   const int u0 = std::max(0, -(shape.u0 + du)), u1 = std::min(shape.weight.width(), width - shape.u0 - du);
   const int v0 = std::max(0, -(shape.v0 + dv)), v1 = std::min(shape.weight.height(), height - shape.v0 - dv);
-  float sum[8] = {};  // eight partial sums: the order of additions is fixed and vectorises
+  float sum[8] = {};  // eight partial sums, so that the loop vectorises with a fixed order of additions
   for (int v = v0; v < v1; ++v) {
     const float* w = shape.weight.row(v);
     const float* hand = scene.hand.row(v + shape.v0 + dv) + shape.u0 + du;
@@ -170,7 +173,8 @@ struct Shift {
   float score = -INFINITY;
 };
 
-/// Best shift within +-range around (du, dv), in steps; short motions win ties.
+/// Best shift within +-range around (du, dv), in steps of `step`. Longer motions have lower scores: kMotionCost less at
+/// a shift of `free_range`.
 Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, int step, float free_range) {
   Shift best;
   const auto search_row = [&](int y) {
@@ -178,12 +182,12 @@ Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int ra
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
       const float cost = kMotionCost * motion;
       const Eigen::AlignedBox2i inside = shape.inside.translated(Eigen::Vector2i(shape.u0 + x, shape.v0 + y));
-      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // cannot be better
+      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // upper bound: not better
       const float score = overlap(shape, scene, x, y) / shape.total - cost;
       if (score > best.score) best = {x, y, score};
     }
   };
-  search_row(dv);  // most hands hardly move
+  search_row(dv);  // first, since most hands hardly move
   for (int y = step; y <= range; y += step) {
     search_row(dv - y);
     search_row(dv + y);
@@ -216,7 +220,7 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
   const Intrinsics& camera = grid.camera;
   const float z0 = hand.centre().z();
   if (!(z0 > 0.05f)) return std::nullopt;
-  // Towards the camera a hand moves less than across, and what is far from its depth is something else.
+  // A hand moves less in depth than across the image, and candidates far from its depth show something else.
   const float depth_gate = 0.10f + 0.4f * static_cast<float>(reach);
   scene.hand.reset(mask.width(), mask.height());
   scene.possible.reset(mask.width(), mask.height());

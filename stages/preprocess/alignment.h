@@ -8,16 +8,17 @@
 
 namespace barehand {
 
-/// Lays an older hand over the candidate cells of this frame. Keeps its allocations.
+/// Finds the translation that moves a hand of an earlier frame onto the candidate cells of this frame. Reuses its
+/// memory.
 class TranslationSearch {
  public:
   TranslationSearch();
   ~TranslationSearch();
 
-  /// The translation [m] to candidates (`mask` non-zero). Exhaustive in the image plane up to `reach` [m] of motion in
-  /// blocks of cells, then in ever finer steps around the best; the depth follows as a median. The forearm's side of
-  /// the wrist counts neither for nor against, so a bare or unclothed arm does not drag the hand along. None if no
-  /// place explains the mask: the prediction is useless then.
+  /// Returns the translation [m] of `hand` onto the candidates (`mask` non-zero). In the image plane, the search is
+  /// exhaustive up to a motion of `reach` [m] in blocks of cells, then in ever finer steps around the best shift; the
+  /// motion in depth is a median. Candidates on the forearm's side of the wrist have no weight, so that neither a bare
+  /// nor a clothed arm affects the result. None if the hand fits nowhere, so that the prediction is useless.
   std::optional<Eigen::Vector3f> find(const PredictedHand& hand, const CoarseGrid& grid,
                                       const Image<std::uint8_t>& mask, double reach);
 

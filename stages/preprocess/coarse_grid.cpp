@@ -9,12 +9,14 @@
 namespace barehand {
 namespace {
 
-constexpr int kCellsAcross = 160;  // fingers at arm's length are still two cells wide
-constexpr float kClearOdds = 2.f;  // of one pixel: the rest of its cell need not be asked
+// Samples a frame into the cells of a coarse grid.
+
+constexpr int kCellsAcross = 160;  // columns of the grid; fingers at arm's length are still two cells wide
+constexpr float kClearOdds = 2.f;  // log odds of a cell's median pixel above which it decides for the whole cell
 
 constexpr int kSamples = 5;
 
-/// Where in a cell it is sampled.
+/// Offsets [pixel] of the depth samples within one cell: the centre and four points near the corners.
 struct Pattern {
   std::array<int, kSamples> du, dv;
   explicit Pattern(int step) {
@@ -24,8 +26,9 @@ struct Pattern {
   }
 };
 
-/// Samples of one cell with a measurement in range, sorted by depth; ties by position. Sorted without a branch, which
-/// noise would make unpredictable: depth above, number of the sample below in one word.
+/// The samples of one cell whose depth is in range, sorted by depth and, if that is equal, by position. A word holds
+/// the depth in its upper bits and the sample's number in the lowest three. A sorting network is used, because noise
+/// would make branches unpredictable.
 class CellSamples {
  public:
   CellSamples(const RgbdFrame& frame, const Pattern& pattern, int u0, int v0, std::uint32_t lowest,
@@ -45,7 +48,7 @@ class CellSamples {
   }
   int count() const { return count_; }
   std::uint32_t depth(int i) const { return words_[i] >> 3; }
-  /// Number in the pattern.
+  /// The sample's number in the pattern.
   int place(int i) const { return static_cast<int>(words_[i] & 7); }
 
  private:
@@ -90,7 +93,7 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
         float mean = 0;
         for (int k = 0; k < count; ++k) mean += skin.log_odds(colour_of(k));
         mean /= static_cast<float>(count);
-        odds = std::abs(mean) < std::abs(odds) ? mean : odds;  // a border through the cell must not sway it
+        odds = std::abs(mean) < std::abs(odds) ? mean : odds;  // the weaker one, as a colour border may cross the cell
       }
       grid.odds.at(c, r) = odds;
       ++seen;

@@ -8,21 +8,21 @@
 
 namespace barehand {
 
-/// The whole frame seen through cells of step x step pixels: cheap enough to search it in every frame.
+/// The whole frame in cells of step x step pixels, so that it can be searched in every frame.
 struct CoarseGrid {
-  int step = 1;           ///< pixels per cell side
-  Intrinsics camera;      ///< of the cells: cell (c, r) is a pixel of this camera
-  Image<float> z;         ///< median of the cell's measurements [m]; 0 = none in the working range
-  Image<Rgb> colour;      ///< of the pixel that measured z; black = none
-  Image<float> odds;      ///< log odds of skin of that pixel or mean of the cell, the weaker; 0 = no evidence
-  bool coloured = false;  ///< false: no colour, or a grey image: depth alone decides
+  int step = 1;       ///< pixels per cell side
+  Intrinsics camera;  ///< intrinsics of the grid: cell (c, r) is a pixel of this camera
+  Image<float> z;     ///< median of the cell's measurements [m]; 0 = none in the working range
+  Image<Rgb> colour;  ///< colour of the pixel that measured z; black = none
+  Image<float> odds;  ///< log odds of skin, of that pixel or of the cell's mean, whichever is weaker; 0 = no evidence
+  bool coloured = false;  ///< false: there is no colour, or the image is grey, so depth alone decides
 
   Eigen::Vector3f point(int c, int r) const {
     const float depth = z.at(c, r);
     return {static_cast<float>((c - camera.cx) / camera.fx) * depth,
             static_cast<float>((r - camera.cy) / camera.fy) * depth, depth};
   }
-  /// Frame pixel in the middle of a cell.
+  /// The frame pixel at the centre of a cell.
   Eigen::Vector2d frame_pixel(int c, int r) const {
     const double centre = 0.5 * (step - 1);
     return {c * step + centre, r * step + centre};
@@ -31,14 +31,15 @@ struct CoarseGrid {
   float cell_area(float depth) const { return static_cast<float>(depth * depth / (camera.fx * camera.fy)); }
 };
 
-/// Largest depth step [m] between neighbouring pixels of one surface: steep slopes pass, the gap between a fingertip
-/// and what is behind it does not. `pixel` = width of a pixel at depth z = z / fx.
+/// Largest depth step [m] between neighbouring pixels of one surface at depth `z` [m]: four pixel widths z / fx plus
+/// three standard deviations of the sensor's noise. Steep slopes stay below it; the gap between a fingertip and what is
+/// behind it does not.
 inline float same_surface_step(float z, float fx) {
   const float away = z > 0.4f ? z - 0.4f : 0.f;
   return 4.f * z / fx + 3.f * (0.0012f + 0.0019f * away * away);
 }
 
-/// Fills `grid` from the frame, keeping its allocations. A cell takes the median of five samples, so that single
+/// Fills `grid` from the frame and reuses its memory. The depth of a cell is the median of five samples, so that single
 /// missing or flying pixels do not matter.
 void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, const SkinModel& skin, CoarseGrid& grid);
 

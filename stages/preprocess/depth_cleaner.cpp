@@ -8,7 +8,8 @@
 namespace barehand {
 namespace {
 
-// A line one pixel wide along a silhouette has two companions; a corner of a real surface has three.
+// A pixel needs at least this many neighbours at its own depth. A line one pixel wide along a silhouette has two; a
+// corner of a real surface has three.
 constexpr float kFewestCompanions = 3;
 
 }  // namespace
@@ -36,7 +37,7 @@ void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params,
     float* out = depth.row(v);
     std::uint8_t* border = edge.row(v);
     float* companions = companions_.data();
-    for (int u = 0; u < region.width; ++u) {  // floats throughout: it vectorises
+    for (int u = 0; u < region.width; ++u) {  // only floats, so that it vectorises
       const float z = own[u], step = same_surface_step(z, fx);
       const auto same = [z, step](float other) { return std::abs(other - z) < step ? 1.f : 0.f; };
       const float count = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +

@@ -12,17 +12,17 @@ struct Region {
   int u0 = 0, v0 = 0, width = 0, height = 0;
 };
 
-/// Depth of a region in metres without flying pixels: those between two surfaces, seen by hardly a neighbour at their
-/// own depth. They and what is nearer than the working range become 0.
-/// `edge`: 1 where one of the eight neighbours is not on the same surface or has no depth; same size.
+/// Computes the depth of a region [m] without flying pixels, which are between two surfaces and have hardly a neighbour
+/// at their own depth. These pixels, and those nearer than the working range, become 0. `edge` becomes 1 where one of
+/// the eight neighbours is not on the same surface or has no depth. Both outputs have the size of the region.
 class DepthCleaner {
  public:
   void clean(const RgbdFrame& frame, const PreprocessParams& params, const Region& region, Image<float>& depth,
              Image<std::uint8_t>& edge);
 
  private:
-  Image<float> raw_;               // with a border of one empty pixel
-  std::vector<float> companions_;  // of the current row
+  Image<float> raw_;               // depth [m] with a border of one empty pixel
+  std::vector<float> companions_;  // for each pixel of the current row, its neighbours at the same depth
 };
 
 }  // namespace barehand

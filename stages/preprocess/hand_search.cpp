@@ -6,28 +6,36 @@
 namespace barehand {
 namespace {
 
-constexpr float kOnModel = 0.02f;  // m between data and the moved feedback for a match
-constexpr float kOwnShare =
-    0.3f;  // share of a surface that must lie on the predicted hand, unless the surface is large
+// Finds the hands in the coarse grid: first near their predictions, then in the rest of the image.
+
+constexpr float kOnModel = 0.02f;  // largest distance of a matching cell from the moved prediction [m]
+
+// A surface belongs to the hand if this fraction of its cells, or this number of cells, matches the prediction.
+constexpr float kOwnShare = 0.3f;
 constexpr int kOwnCells = 8;
-constexpr float kLeakReach = 0.03f;   // m around the predicted hand kept of a surface that runs on into table or object
-constexpr float kLeakFactor = 0.6f;   // cells off the predicted hand against cells on it; a fist that opens stays below
-constexpr float kLoosePart = 0.12f;   // share of the hand that a finger cut off by another one may have
-constexpr float kHandRadius = 0.13f;  // m from a hand's centre to its farthest parts
-constexpr float kDetectedReach = 0.17f;  // m from the middle of a palm to the farthest fingertip
-constexpr float kSearchRadius = 0.22f;   // m around the hand that is looked at cell by cell
-constexpr float kSideBySide = 0.10f;     // m of depth within which two candidates count as equally near
-constexpr float kForearm = 0.35f;        // m behind a hand's wrist, and around its arm's axis, that is its forearm
-constexpr float kForearmRadius = 0.07f;
-constexpr double kMetresAtRest = 0.06;  // m, motion allowed whatever the time between
-constexpr double kCloseBy = 0.05;       // m, motion allowed for a hand that touches something large
+
+// A surface with more cells farther than kLeakReach [m] from the predicted hand than kLeakFactor times the matching
+// ones continues into a table or an object: only its part within kLeakReach is kept. A fist that opens stays below the
+// limit.
+constexpr float kLeakReach = 0.03f;
+constexpr float kLeakFactor = 0.6f;
+
+constexpr float kLoosePart = 0.12f;      // without colour, largest part that may join, such as a cut-off finger
+constexpr float kHandRadius = 0.13f;     // distance from a hand's centre to its farthest parts [m]
+constexpr float kDetectedReach = 0.17f;  // distance from the middle of a palm to the farthest fingertip [m]
+constexpr float kSearchRadius = 0.22f;   // cells within this distance of a hand's centre are examined [m]
+constexpr float kSideBySide = 0.10f;     // difference of depth up to which two candidates are equally near [m]
+constexpr float kForearm = 0.35f;        // length of the cylinder behind a wrist that counts as forearm [m]
+constexpr float kForearmRadius = 0.07f;  // radius of this cylinder [m]
+constexpr double kMetresAtRest = 0.06;   // motion allowed at any frame interval [m]
+constexpr double kCloseBy = 0.05;        // motion allowed for a hand that touches a large surface [m]
 
 }  // namespace
 
 std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
                                              double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
-  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // of a tracked hand, colour tells more
+  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // colour is better evidence of a tracked hand
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
   predictions_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
@@ -57,7 +65,7 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
     hand.found = hand.followed = follow(grid, *predictions_[k], feedback_age, detection, hand);
     if (hand.found) take_away(grid, hand);
   }
-  for (CoarseHand& hand : hands_) {  // only now: a hand that is held may be the nearest of all
+  for (CoarseHand& hand : hands_) {  // last, because a held hand may be the nearest candidate
     if (hand.found) continue;
     if (detection && detection->whole_frame) {
       const DetectedHand* const detected = choose_detected(*detection);
@@ -71,7 +79,7 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
   return hands_;
 }
 
-/// Takes out of the candidates what the detection has looked at and calls no hand.
+/// Removes the candidates that are in a window of the detection and not labelled as hand.
 void HandSearch::leave_labelled(const CoarseGrid& grid, const Detection& detection) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -100,7 +108,8 @@ const DetectedHand* HandSearch::detected_near(const Detection& detection, const 
   return nearest;
 }
 
-/// The most probable detected hand within the working range that no hand of this frame is yet.
+/// The most probable detected hand within the working range that is not assigned to a hand of this frame yet; null if
+/// there is none.
 const DetectedHand* HandSearch::choose_detected(const Detection& detection) const {
   const auto taken = [&](const DetectedHand& detected) {
     return std::ranges::any_of(hands_, [&](const CoarseHand& hand) {
@@ -113,8 +122,9 @@ const DetectedHand* HandSearch::choose_detected(const Detection& detection) cons
   return nullptr;
 }
 
-/// Takes the detected hand's cells: what is labelled so within a hand's reach and before its wrist. In depth a palm may
-/// look like a held object; where its colour is clear, it is none.
+/// Sets the cells of a detected hand: candidates labelled as hand, within a hand's reach and in front of its wrist. In
+/// depth, a palm may look like a held object, so cells labelled as object count as hand if their colour is clearly
+/// skin.
 bool HandSearch::start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand) {
   hand.detected = &detected;
   const Eigen::Vector3f wrist = detected.joints[kWristLandmark].position.cast<float>();
@@ -136,7 +146,7 @@ bool HandSearch::start_at(const CoarseGrid& grid, const DetectedHand& detected, 
   return hand_area(grid, hand) >= params_.min_hand_area;
 }
 
-/// Takes out of the candidates what is nearer to the other hand than to this one.
+/// Removes the candidates that are nearer to the hand `other` than to the hand `own`.
 void HandSearch::leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -147,7 +157,7 @@ void HandSearch::leave_to(const CoarseGrid& grid, const PredictedHand& other, co
     }
 }
 
-/// What belongs to a hand that was found, its forearm included, is no other hand.
+/// Removes a hand that was found, and its forearm, from the candidates for the other hands.
 void HandSearch::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -172,12 +182,12 @@ float HandSearch::hand_area(const CoarseGrid& grid, const CoarseHand& hand) cons
 }
 
 std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const PredictedHand& hand, double reach) {
-  // A wall, table or occluder would explain a hand anywhere on it.
+  // Search without large surfaces first: on a wall, table or occluder, the hand would fit anywhere.
   movable_.reset(grid.z.width(), grid.z.height());
   for (std::size_t i = 0; i < movable_.size(); ++i)
     movable_[i] = candidates_[i] && surfaces_.parts[surfaces_.id[i]].area < params_.max_hand_area;
   if (const auto step = translation_.find(hand, grid, movable_, reach)) return step;
-  // The hand may touch such a surface: then it is looked for close by only.
+  // The hand may touch such a surface. Include them, but only close to the prediction.
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       if (!candidates_.at(u, v) || movable_.at(u, v)) continue;
@@ -250,7 +260,7 @@ bool HandSearch::start(const CoarseGrid& grid, CoarseHand& hand) {
   int count = 0;
   const auto forearm = [&](const Eigen::Vector3f& p) { return hand.wrist && hand.wrist->behind(p) > 0; };
   const float largest = (grid.coloured ? 0.5f : kLoosePart) * surfaces_.parts[chosen].area;
-  for (int pass = 0; pass < 2; ++pass)  // the chosen surface gives the centre, then all others near it join
+  for (int pass = 0; pass < 2; ++pass)  // pass 0: the chosen surface and its centre; 1: others near it
     for (int v = 0; v < grid.z.height(); ++v)
       for (int u = 0; u < grid.z.width(); ++u) {
         const std::int32_t id = surfaces_.id.at(u, v);

@@ -12,27 +12,29 @@
 
 namespace barehand {
 
-/// The hand in the coarse grid.
+// Search for hands in the coarse grid.
+
+/// One hand in the coarse grid.
 struct CoarseHand {
   bool found = false;
   bool followed = false;                    ///< found where the feedback predicts it
   Image<std::uint8_t> cells;                ///< 1 = hand
   std::optional<PredictedHand> prediction;  ///< the feedback, moved to where the hand is now; none if that fails
-  Image<float> distance;                    ///< [m] from candidates to the prediction's skin; infinite far away
-  std::optional<WristPlane> wrist;          ///< what lies behind is forearm
-  const DetectedHand* detected = nullptr;   ///< the detected hand that this is; null: none
+  Image<float> distance;                   ///< distance of candidates from the prediction's skin [m]; infinite far away
+  std::optional<WristPlane> wrist;         ///< cells behind it are forearm
+  const DetectedHand* detected = nullptr;  ///< the corresponding detected hand; null if there is none
 };
 
-/// Looks for one or several hands. Those with feedback are expected at its pose, moved by up to max_speed times its
-/// age, tracked ones first. Hands that are not there, or have no feedback, are searched in the rest of the image. A
-/// cell belongs to one hand at most.
+/// Searches for one or several hands. A hand with feedback is expected near its pose there, within max_speed times the
+/// feedback's age; tracked hands come first. Hands that are not found there, or have no feedback, are searched for in
+/// the rest of the image. A cell belongs to at most one hand.
 class HandSearch {
  public:
   HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
   /// `feedback`: one estimate per hand or none at all; each may be null. `feedback_age`: seconds since its frame.
-  /// `detection`: of this frame; where it has looked, its labels tell a hand from arm, object and background, and
-  /// where it has looked at everything, nothing else is a hand. Null: surfaces and colours alone decide.
-  /// One result a hand, in the order of the feedback; they live until the next call and as long as `detection`.
+  /// `detection`: result for this frame; null: surfaces and colours alone decide. Within its windows, its labels
+  /// distinguish the hand from arm, object and background; if its `whole_frame` is set, nothing else starts a hand.
+  /// Returns one result per hand, in the order of the feedback, valid until the next call and as long as `detection`.
   std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
                                    double feedback_age, const Detection* detection = nullptr);
 
@@ -50,7 +52,7 @@ class HandSearch {
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;
 
-  /// Cells of a surface near a followed hand.
+  /// Numbers of cells of a surface that match a followed hand and that are off it.
   struct Share {
     int on_model = 0, off_model = 0;
   };
@@ -60,7 +62,7 @@ class HandSearch {
   CandidateFinder finder_;
   TranslationSearch translation_;
   Components surfaces_;
-  std::vector<Share> shares_;  // of every surface
+  std::vector<Share> shares_;  // for every surface
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> predictions_;
 };

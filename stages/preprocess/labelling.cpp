@@ -6,7 +6,9 @@
 namespace barehand {
 namespace {
 
-constexpr float kInFront = 0.005f;  // m before the nearest hand pixel
+// Decides by depth, colour and detection which pixels of the region of interest show the hand.
+
+constexpr float kInFront = 0.005f;  // data in front of the nearest hand pixel by more than this is an object [m]
 
 bool joined(float a, float b, float fx) { return std::abs(a - b) < same_surface_step(std::min(a, b), fx); }
 
@@ -87,7 +89,7 @@ void HandMask::judge_depth(const Image<float>& depth, const Region& region, cons
     evidence_[i] = depth[i] <= 0 ? Evidence::none : (supported_[i] ? Evidence::hand : Evidence::other);
   if (!detected) return;
 
-  // Depth alone does not tell a hand from the arm or the object that it touches: labels do.
+  // Depth alone does not distinguish a hand from the arm or a touched object, so use the detection's labels.
   for (int v = 0; v < depth.height(); ++v)
     for (int u = 0; u < depth.width(); ++u) {
       Evidence& evidence = evidence_.at(u, v);
@@ -110,15 +112,16 @@ void HandMask::judge_colour(const Image<float>& depth) {
                         *non_skin_count = non_skin_count_.row(v);
     const std::uint8_t* supported = supported_.row(v);
     std::int32_t* judged = judged_.data();
-    for (int u = 0; u < width; ++u) {  // everything is computed before it is chosen from: it vectorises
+    for (int u = 0; u < width; ++u) {  // vectorises, because all cases are computed before one is selected
       const float mean = sum[u] / static_cast<float>(coloured_count[u]);
-      // Beside a colour border the mean alone would take a strip of one side for the other.
+      // Near a colour border, the mean alone would assign a strip on one side to the other side.
       const bool skin = (mean > least_skin) & (own[u] > 0), other = (mean < most_other) & (own[u] < most_other);
       std::int32_t e = other ? kOther : kOpen;
       e = skin ? kHand : e;
       e = supported[u] ? e : kOther;
-      // Nothing but skin around it is more than a strip of the next surface's colour. A fingertip that shows behind an
-      // object lies beside edges as a whole: it would go to the object.
+      // Near a depth edge, a colour may belong to the neighbouring surface, so neighbours decide, unless the whole
+      // window is skin. Without this exception, a fingertip behind an object, which is near edges everywhere, would be
+      // assigned to the object.
       const bool sure = skin & (non_skin_count[u] == 0) & (2 * coloured_count[u] > most_coloured);
       e = (edges[u] > 0) & !sure ? kOpen : e;
       judged[u] = z[u] > 0 ? e : kNone;

@@ -11,14 +11,17 @@
 
 namespace barehand {
 
+// Labels of the pixels in the region of interest.
+
 /// Decides pixel by pixel what belongs to the hand that was found in the coarse grid.
 class HandMask {
  public:
   explicit HandMask(const PreprocessParams& params) : params_(params) {}
-  /// `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel lies at the depth of a
-  /// neighbouring hand cell, on the hand's side of the wrist; its colour, averaged over `skew_px`, is skin. Beside
-  /// depth edges and without colour, the depth-connected neighbours decide; without colour in the whole frame, the
-  /// labels of the detected hand where there are some. Cells of the other `hands` are theirs.
+  /// Computes `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel is at the
+  /// depth of a neighbouring hand cell and on the hand's side of the wrist, and its colour, averaged over `skew_px`, is
+  /// skin. Pixels near depth edges or without colour are decided by their depth-connected neighbours. If the whole
+  /// frame has no colour, the labels of the detected hand decide, if there are any. Cells of the other `hands` are left
+  /// out.
   void compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
                const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask);
@@ -33,27 +36,28 @@ class HandMask {
 
   PreprocessParams params_;
   PixelRays rays_;
-  std::vector<int> column_, row_;  // of the grid's cell in which a pixel of the region lies
-  Image<float> lowest_, highest_;  // per cell: depths at which its pixels may be hand
-  std::vector<float> low_, high_;  // the same along a row of pixels
+  std::vector<int> column_, row_;  // grid column of every column of the region, and grid row of every row
+  Image<float> lowest_, highest_;  // per cell: range of depths at which its pixels may be hand [m]
+  std::vector<float> low_, high_;  // the same range for every pixel of a row
   std::vector<std::int32_t> judged_;
-  Image<std::uint8_t> supported_;                 // 1 = may be hand as far as depth says
-  Image<float> skin_log_odds_, summed_log_odds_;  // of a pixel, and summed over the `skew_px` around it
+  // Per pixel; its window reaches `skew_px` to every side.
+  Image<std::uint8_t> supported_;                 // 1 = may be hand according to its depth
+  Image<float> skin_log_odds_, summed_log_odds_;  // log odds of skin, and their sum over the window
   Image<std::uint8_t> coloured_;                  // 1 = its colour is evidence for or against skin
-  Image<std::uint16_t> coloured_count_;           // the same, counted in its surroundings
+  Image<std::uint16_t> coloured_count_;           // number of such pixels in the window
   Image<std::uint8_t> non_skin_;                  // 1 = its colour is evidence against skin
-  Image<std::uint16_t> non_skin_count_;           // the same, counted in its surroundings
-  Image<std::uint16_t> edges_;                    // depth edges in its surroundings
+  Image<std::uint16_t> non_skin_count_;           // number of such pixels in the window
+  Image<std::uint16_t> edges_;                    // number of depth edges in the window
   WindowSum<float> sum_odds_;
   WindowSum<std::uint16_t> count_;
-  Image<Rgb> colours_;  // of the region
+  Image<Rgb> colours_;  // colours of the region
   Image<Evidence> evidence_;
   Flood flood_;
   SpeckRemover specks_;
 };
 
-/// Names the remaining pixels: object = no hand but within `reach` [m] of the nearest hand pixel, or in front of it;
-/// background = other data; unknown = no data. `rays` is scratch.
+/// Labels all pixels: hand = set in `mask`; object = not hand, but within `reach` [m] of the nearest hand pixel or in
+/// front of it; background = other data; unknown = no data. `rays` is scratch memory.
 void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, double reach, PixelRays& rays,
                   HandObservation& out);
 

@@ -9,19 +9,21 @@
 namespace barehand {
 namespace {
 
-constexpr int kFewestSamples = 6;
-constexpr float kSteepest = 1.2f;      // slope up to which samples away from the centre count as the same surface
-constexpr float kLeastFacing = 0.05f;  // cosine to the view ray; beyond it the fit is made of noise
+// Fits normals to the hand's surface, and estimates the depth noise.
 
-constexpr int kLanes = 8;         // neighbouring pixels fitted together
-constexpr int kMostSpacing = 12;  // pixels between samples
-constexpr int kPad = 2 * kMostSpacing;
-constexpr float kNoHand = -1e3f;  // depth that no gate lets pass
+constexpr int kFewestSamples = 6;      // fewer samples do not determine a plane
+constexpr float kSteepest = 1.2f;      // slope up to which samples away from the centre count as the same surface
+constexpr float kLeastFacing = 0.05f;  // smallest cosine to the view ray; at grazing angles the fit is mostly noise
+
+constexpr int kLanes = 8;               // neighbouring pixels fitted together
+constexpr int kMostSpacing = 12;        // largest distance between samples [pixels]
+constexpr int kPad = 2 * kMostSpacing;  // reach of the samples, hence width of the border [pixels]
+constexpr float kNoHand = -1e3f;        // depth of pixels that are not hand: outside every gate
 
 using Lanes = std::array<float, kLanes>;
 
-/// Slopes in metres per sample of the planes around kLanes pixels in a row; `z` points to the first in an image with
-/// `stride` floats a row. `valid` = 1 where enough samples agree.
+/// Fits planes around kLanes neighbouring pixels of a row, and returns their slopes in metres per sample. `z` points to
+/// the first pixel in an image with `stride` floats per row. `valid` = 1 where enough samples agree.
 void fit_slopes(const float* z, int stride, int spacing, float gate, Lanes& slope_u, Lanes& slope_v, Lanes& valid) {
   Lanes n{}, su{}, sv{}, suu{}, suv{}, svv{}, sz{}, suz{}, svz{};
   for (int j = -2; j <= 2; ++j)
@@ -47,15 +49,15 @@ void fit_slopes(const float* z, int stride, int spacing, float gate, Lanes& slop
     const float cuu = suu[k] - su[k] * su[k] * m, cuv = suv[k] - su[k] * sv[k] * m, cvv = svv[k] - sv[k] * sv[k] * m;
     const float cuz = suz[k] - su[k] * sz[k] * m, cvz = svz[k] - sv[k] * sz[k] * m;
     const float det = cuu * cvv - cuv * cuv;
-    valid[k] = n[k] >= kFewestSamples && det >= 1.f ? 1.f : 0.f;  // det = 0: samples on a line
+    valid[k] = n[k] >= kFewestSamples && det >= 1.f ? 1.f : 0.f;  // det = 0: all samples are on a line
     const float inverse = 1.f / std::max(det, 1.f);
     slope_u[k] = (cuz * cvv - cvz * cuv) * inverse;
     slope_v[k] = (cvz * cuu - cuz * cuv) * inverse;
   }
 }
 
-/// Unit normal of the surface z(u, v) at ray (x, y, 1) with slopes per pixel times focal length; zero if it is seen
-/// edge-on. Tangents crossed, divided by z.
+/// Unit normal of the surface z(u, v) at the ray (x, y, 1): the cross product of the tangents, divided by z. `a` and
+/// `b` are the slopes per pixel along u and v, times the focal length. Zero if the surface is seen edge-on.
 Eigen::Vector3f normal_of(float x, float y, float z, float a, float b) {
   const Eigen::Vector3f normal = Eigen::Vector3f(a, b, -(z + a * x + b * y)).normalized();
   const bool faces = normal.dot(Eigen::Vector3f(x, y, 1.f).normalized()) < -kLeastFacing;
@@ -95,8 +97,8 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
 }
 
 double NoiseMeter::measure(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor) {
-  constexpr int kSpan = 6;                      // third difference of every second pixel
-  constexpr double kToSigma = 1.4826 / 4.4721;  // median absolute value to sigma; sqrt(1 + 9 + 9 + 1)
+  constexpr int kSpan = 6;                      // columns of a third difference of every second pixel
+  constexpr double kToSigma = 1.4826 / 4.4721;  // median absolute difference to sigma; over sqrt(1 + 9 + 9 + 1)
   constexpr std::size_t kFewest = 50;
   differences_.clear();
   for (int v = 0; v < mask.height(); v += 2) {

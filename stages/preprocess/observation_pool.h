@@ -7,15 +7,15 @@
 
 namespace barehand {
 
-/// Hands out observations and takes them back when their last owner, on whatever thread, lets go: their images keep
-/// their memory, so a running stream allocates nothing. May be destroyed before what it handed out.
+/// Lends observations, and takes them back when their last owner, on any thread, releases them. Their images keep their
+/// memory, so that a running stream allocates nothing. The pool may be destroyed before its observations.
 class ObservationPool {
  public:
-  /// An observation with arbitrary content; not shared with anyone.
+  /// Returns an observation with arbitrary content that nobody else owns.
   std::shared_ptr<HandObservation> take() {
     return {pool_->take().release(),
             [pool = pool_](HandObservation* used) {
-              used->frame.reset();  // the frame's memory is not ours to keep
+              used->frame.reset();  // must not keep the frame alive
               Pool<HandObservation>::Return{pool.get()}(used);
             },
             FrameAllocator<HandObservation>()};

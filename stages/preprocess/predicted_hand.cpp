@@ -6,8 +6,10 @@
 namespace barehand {
 namespace {
 
-constexpr int kPalmRays = 4;
-constexpr float kPalmRadius = 0.013f;  // half the thickness of a palm; neighbouring rays close the gaps
+// Approximates an earlier estimate of a hand by capsules.
+
+constexpr int kPalmRays = 4;           // capsules of the palm, from the wrist to each knuckle but the thumb's
+constexpr float kPalmRadius = 0.013f;  // half the thickness of a palm [m]; neighbouring capsules leave no gaps
 
 }  // namespace
 

@@ -8,14 +8,15 @@
 
 namespace barehand {
 
-/// A rod with round ends: bone and flesh of one segment, or of one ray of the palm. Camera frame [m].
+/// All points within `radius` of the line segment from `a` to `b`: bone and flesh of one segment, or of the part of the
+/// palm that leads to one finger. Camera frame [m].
 struct Capsule {
   Eigen::Vector3f a, b;
   float radius = 0;
 };
 
-/// The tracker's older estimate as a rough body that can be moved over the new frame. Preprocessing needs to know
-/// where the hand may be and where its wrist ends, not its exact skin.
+/// The tracker's estimate from an earlier frame as a rough shape that can be moved to fit the new frame. Preprocessing
+/// needs to know where the hand may be and where it ends at the wrist, not its exact skin.
 class PredictedHand {
  public:
   static constexpr int kRods = 19;
@@ -36,8 +37,8 @@ class PredictedHand {
  private:
   void arrange();
 
-  std::array<Capsule, kRods> capsules_;  // 4 rays of the palm, 15 phalanges
-  static constexpr int kLanes = 24;      // the same rods for SIMD, padded by repeating the last
+  std::array<Capsule, kRods> capsules_;  // 4 of the palm, 15 of the phalanges
+  static constexpr int kLanes = 24;      // the same capsules for SIMD, padded by repeating the last
   struct Rods {
     std::array<float, kLanes> ax, ay, az, dx, dy, dz, inverse_length_sq, radius;
   } rods_{};

@@ -6,9 +6,13 @@
 namespace barehand {
 namespace {
 
-constexpr float kSurelySkin = 0.004f;   // m from the predicted skin
-constexpr float kSurelyOther = 0.045f;  // m from the predicted skin: no finger has moved there unnoticed
-constexpr float kSurroundings = 0.22f;  // m around the hand
+// Runs the steps of preprocessing, and learns the skin colour from tracked hands.
+
+constexpr float kSurelySkin = 0.004f;  // cells this near to the predicted skin certainly show skin [m]
+// Cells farther than this from the predicted skin do not show the hand [m]: no finger can have moved that far
+// unnoticed.
+constexpr float kSurelyOther = 0.045f;
+constexpr float kSurroundings = 0.22f;  // cells farther than this from a hand's centre do not show it [m]
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -30,7 +34,7 @@ Result<void> check(const RgbdFrame& frame) {
   return {};
 }
 
-/// Every su-th column and sv-th row, chosen so that about `many` points remain.
+/// Fills `out.cloud` with the hand points in every su-th column and sv-th row, so that about `many` points remain.
 void thin_cloud(int many, HandObservation& out) {
   out.cloud.clear();
   const double share = static_cast<double>(out.hand_pixels.size()) / many;
@@ -79,7 +83,8 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
   return out;
 }
 
-/// A pixel beside the cells of two hands is the first one's.
+/// Removes pixels that an earlier hand of this frame has taken. A pixel near the cells of two hands belongs to the
+/// first.
 void Preprocessor::leave_out_taken(const HandObservation& out) {
   for (int v = 0; v < mask_.height(); ++v)
     for (int u = 0; u < mask_.width(); ++u) {
@@ -128,7 +133,7 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
         include(c * step, r * step);
         include((c + 1) * step, (r + 1) * step);
       }
-  if (hand.prediction)  // occluded fingers need the maps around them as well
+  if (hand.prediction)  // the maps must also cover occluded fingers
     for (const Capsule& capsule : hand.prediction->capsules())
       for (const Eigen::Vector3f& p : {capsule.a, capsule.b})
         if (p.z() > params_.min_depth) {
@@ -168,7 +173,7 @@ void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const
                  (std::ranges::none_of(teachers_, near) || std::ranges::any_of(teachers_, [&](const CoarseHand* hand) {
                     return hand->prediction->behind_wrist(p) > 0;
                   }))) {
-        continue;  // a face, another person's hand, the own forearm: skin all the same
+        continue;  // also skin: a face, another person's hand, the forearm
       } else if ((c + r) % 2 == 0 && std::ranges::all_of(teachers_, [&](const CoarseHand* hand) {
                    return !near(hand) || hand->prediction->distance(p) > kSurelyOther;
                  })) {

@@ -14,19 +14,19 @@
 
 namespace barehand {
 
-/// First stage: finds the hands in a frame and makes the maps the trackers look at (paper Sec. 4.1). Synchronous;
-/// frames must come in order because the skin model learns from each (the only state that outlives a frame).
+/// First stage: finds the hands in a frame and computes the maps that the trackers use (paper Sec. 4.1). Synchronous;
+/// frames must come in order, because the skin model, the only state that outlives a frame, learns from each.
 class Preprocessor {
  public:
   explicit Preprocessor(const PreprocessParams& params, int hands = 1);
 
   /// `feedback`: the tracker's estimates of an earlier frame, typically two before, one per hand; empty while nothing
-  /// is tracked. They may be stale: they are moved to where their hands are now, and not used if that fails. With
-  /// status `tracking` the skin model learns from them. Without feedback the nearest skin-like surfaces in the image
-  /// are taken, and which hand each one is stays open. `detection`: result of the networks for this frame; null: none.
-  /// Returns one observation per hand, in the order of the feedback; no pixel belongs to two hands. Errors: frame
-  /// without valid intrinsics, or depth or colour of another size than they say. A frame without hand is no error:
-  /// hand_present is false and the maps are empty.
+  /// is tracked. They may be old: they are moved to where their hands are now, and not used if that fails. The skin
+  /// model learns from those with the status `tracking`. Without feedback, the nearest skin-like surfaces in the image
+  /// are taken; which hand each of them is remains undecided. `detection`: result of the networks for this frame; null:
+  /// none. Returns one observation per hand, in the order of the feedback; no pixel belongs to two hands. Errors: frame
+  /// without valid intrinsics, or depth or colour of another size than they state. A frame without a hand is not an
+  /// error: hand_present is false and the maps are empty.
   Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> feedback,
                                    const DetectionPtr& detection = nullptr);
 
@@ -47,12 +47,12 @@ class Preprocessor {
   NearestPixelTransform transform_;
   NormalFitter normals_;
   NoiseMeter noise_;
-  PixelRays rays_;  // scratch
+  PixelRays rays_;  // scratch memory
   ObservationPool pool_;
   CoarseGrid grid_;
   Image<std::uint8_t> edge_, mask_, object_;
-  Image<std::uint8_t> taken_;                // of the frame, by its hands before this one
-  std::vector<const CoarseHand*> teachers_;  // of the current frame
+  Image<std::uint8_t> taken_;                // pixels of the frame that its earlier hands have taken
+  std::vector<const CoarseHand*> teachers_;  // tracked hands from which the skin model learns in this frame
   std::vector<Rgb> skin_colours_, other_colours_;
 };
 

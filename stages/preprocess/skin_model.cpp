@@ -6,18 +6,21 @@
 namespace barehand {
 namespace {
 
-constexpr std::size_t kFewestColours = 30;  // fewer pixels say nothing about a distribution
-constexpr double kLeastSpread = 0.35;       // of skin's log brightness: it may turn into the shade at any time
-constexpr double kUsualSpread = 2;          // standard deviations below the mean that say nothing
+// Learns histograms of skin and other colours, and computes the log odds of skin from them.
 
-/// Generic densities over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of fingertips
-/// and of shaded folds. Everything else scatters around grey.
+constexpr std::size_t kFewestColours = 30;  // fewer pixels do not determine a distribution
+constexpr double kLeastSpread = 0.35;  // smallest deviation of skin's log brightness, as it may get into shade any time
+constexpr double kUsualSpread = 2;     // brightness is no evidence down to this many standard deviations below the mean
+
+/// Generic density of skin over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of
+/// fingertips and of shaded folds.
 double skin_density(double red, double blue) {
   constexpr double kRed = 0.15, kBlue = 0.17;
   const double r = (red - 0.36) / kRed, b = (blue + 0.20) / kBlue;
   return std::exp(-0.5 * (r * r + b * b)) / (2 * M_PI * kRed * kBlue);
 }
 
+/// Generic density of all other colours, which scatter around grey.
 double other_density(double red, double blue) {
   constexpr double kRed = 0.35, kBlue = 0.45, kUniform = 0.05;
   return std::exp(-0.5 * (red * red / (kRed * kRed) + blue * blue / (kBlue * kBlue))) / (2 * M_PI * kRed * kBlue) +
@@ -80,12 +83,12 @@ void SkinModel::learn_brightness(const std::vector<Rgb>& skin) {
   for (int i = 1; i < 256; ++i) {
     const double below = std::max(0.0, (mean - std::log(i)) / spread);
     const double odds = -0.5 * std::max(0.0, below * below - kUsualSpread * kUsualSpread);
-    too_dark_[i] = static_cast<float>(skin_mass_ * std::max(odds, -2.0 * kOddsLimit));  // whatever its chroma says
+    too_dark_[i] = static_cast<float>(skin_mass_ * std::max(odds, -2.0 * kOddsLimit));  // may outweigh any chroma
   }
 }
 
 void SkinModel::rebuild() {
-  // 3x3 binomial blur: a colour seen makes its neighbours likely.
+  // 3x3 binomial blur: an observed colour makes similar colours likely, too.
   const auto blurred = [](const Histogram& h, int b, int r) {
     static constexpr float kWeight[3] = {0.25f, 0.5f, 0.25f};
     float sum = 0;

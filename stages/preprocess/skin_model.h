@@ -8,13 +8,15 @@
 
 namespace barehand {
 
-/// Tells skin from everything else by colour. Chroma is (log R/G, log B/G): brightness cancels and a change of white
-/// balance is a mere shift. A generic density of human skin is blended with histograms of this person, light and
-/// surrounding; both classes forget at the same rate. What is much darker than this skin in this light is something
-/// else: dark wood has the chroma of skin. Deterministic: depends only on the order of learn() calls.
+/// Distinguishes skin from everything else by colour. Chroma is (log R/G, log B/G), so that brightness cancels and a
+/// change of white balance is only a shift. Generic densities are blended with histograms of this person, light and
+/// surroundings; the histograms of both classes forget at the same rate. A pixel that is much darker than the learned
+/// skin counts as something else, because dark wood, for example, has the chroma of skin. Deterministic: depends only
+/// on the learn() calls and their order.
 class SkinModel {
  public:
-  /// `rate`: share of one learn() in the histograms; `share`: weight of a fully learned histogram against the prior.
+  /// `rate`: weight of one learn() in the histograms; `share`: weight of a fully learned histogram relative to the
+  /// generic density.
   SkinModel(double rate, double share);
 
   /// log p(colour | skin) - log p(colour | other), damped for dark and overexposed pixels; 0 = no evidence.
@@ -25,19 +27,19 @@ class SkinModel {
     return std::max(-kOddsLimit, trust_[brightest] * odds_[bin(c)] + too_dark_[brightest]);
   }
 
-  /// Adapts to pixels known to be skin and pixels known not to be. Too few of a kind leave that kind as it is.
+  /// Adapts to pixels known to be skin and pixels known not to be. A class with too few pixels is not changed.
   void learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& other);
 
  private:
-  static constexpr int kBins = 40;           // per axis
-  static constexpr double kBinWidth = 0.05;  // in log chroma
-  static constexpr int kOverexposed = 250;
-  static constexpr float kOddsLimit = 4.f;  // no single pixel may outvote its whole neighbourhood
+  static constexpr int kBins = 40;           // bins per axis
+  static constexpr double kBinWidth = 0.05;  // width of a bin in log chroma
+  static constexpr int kOverexposed = 250;   // darkest channel of an overexposed pixel
+  static constexpr float kOddsLimit = 4.f;   // limit of one pixel's odds, so that it cannot outvote its neighbourhood
   using Histogram = std::array<float, kBins * kBins>;
 
   static constexpr int kFraction = 64;        // fixed-point steps per bin
   static constexpr double kRedStart = -0.6;   // log R/G of the first bin's lower edge
-  static constexpr double kBlueStart = -1.5;  // log B/G
+  static constexpr double kBlueStart = -1.5;  // log B/G of the first bin's lower edge
   static int brightest_of(Rgb c) { return c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b); }
   int bin(Rgb c) const {
     constexpr int kRedOffset = static_cast<int>(-kRedStart / kBinWidth * kFraction + 0.5);
@@ -46,7 +48,7 @@ class SkinModel {
     const int blue = (log_[c.b] - log_[c.g] + kBlueOffset) / kFraction;
     return std::clamp(blue, 0, kBins - 1) * kBins + std::clamp(red, 0, kBins - 1);
   }
-  /// False: too few colours.
+  /// Adds colours to the histogram `learned`. Returns false if they are too few.
   static bool add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
                   const SkinModel& model);
   void learn_brightness(const std::vector<Rgb>& skin);
@@ -54,11 +56,12 @@ class SkinModel {
 
   double rate_, share_;
   std::array<int, 256> log_{};      // fixed-point log of a channel
-  std::array<float, 256> trust_{};  // by the brightest channel: chroma of dark pixels is noise
+  std::array<float, 256> trust_{};  // weight of the chroma by the brightest channel: in the dark, chroma is noise
   Histogram prior_skin_{}, prior_other_{}, skin_{}, other_{}, odds_{};
   double skin_mass_ = 0, other_mass_ = 0;      // [0, 1): how much has been learned
   double brightness_ = 0, brightness_sq_ = 0;  // moments of the log of skin's brightest channel, times skin_mass_
-  std::array<float, 256> too_dark_{};          // log odds by the brightest channel, 0 or less; black is no colour
+  // Log odds (0 or less) that a pixel is too dark to be skin, by its brightest channel; black means no colour.
+  std::array<float, 256> too_dark_{};
 };
 
 }  // namespace barehand

@@ -8,13 +8,17 @@
 namespace barehand {
 namespace {
 
-constexpr float kBin = 0.005f;  // m along the axis
-constexpr int kBins = 64;
-constexpr float kLongestHand = 0.21f;                // m, fingertip to wrist
-constexpr float kPalmFrom = 0.03f, kPalmTo = 0.16f;  // m from the fingertips: a fist's widest place, an open hand's
-constexpr float kWristBehindPalm = 0.11f;            // m, wrist after the widest place
-constexpr float kNarrowing = 0.88f;                  // wrist against palm
-constexpr int kFewestContacts = 3;
+// Finds the wrist from the width of hand and forearm along their axis.
+
+constexpr float kBin = 0.005f;         // width is measured in bins of this length along the axis [m]
+constexpr int kBins = 64;              // number of bins, beginning at the fingertips
+constexpr float kLongestHand = 0.21f;  // distance from fingertip to wrist of the longest hand [m]
+
+// Range of the distance from the fingertips to the widest place of the palm [m]: from a fist to an open hand.
+constexpr float kPalmFrom = 0.03f, kPalmTo = 0.16f;
+constexpr float kWristBehindPalm = 0.11f;  // largest distance from the widest place to the wrist [m]
+constexpr float kNarrowing = 0.88f;        // a wrist is narrower than the palm by this factor or more
+constexpr int kFewestContacts = 3;         // cells at the image's border that show that the arm leaves the image
 
 struct Cell {
   Eigen::Vector3f p;
@@ -40,7 +44,7 @@ std::vector<Cell> cells_of(const CoarseGrid& grid, const Components& surfaces, i
   return cells;
 }
 
-/// Unit vector from the arm towards the fingertips.
+/// Unit vector from the arm towards the fingertips. Sets `leaves_image` if the part extends to the border of the image.
 Eigen::Vector3f hand_direction(const std::vector<Cell>& cells, const Eigen::Vector3f& centre, bool& leaves_image) {
   Eigen::Vector3f contact = Eigen::Vector3f::Zero();
   int contacts = 0;
@@ -62,7 +66,7 @@ Eigen::Vector3f hand_direction(const std::vector<Cell>& cells, const Eigen::Vect
   for (const Cell& c : cells) spread += (c.p - centre) * (c.p - centre).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(spread);
   const Eigen::Vector3f axis = solver.eigenvectors().col(2);
-  // Separate fingers have more outline per area than a forearm.
+  // The hand is at the end with more outline per area, because of its separate fingers.
   float gaps[2] = {}, count[2] = {};
   for (const Cell& c : cells) {
     const int end = (c.p - centre).dot(axis) > 0;

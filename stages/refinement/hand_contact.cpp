@@ -6,12 +6,14 @@
 namespace barehand {
 namespace {
 
+// Penalises overlaps of capsules within the fingers and the palm.
+
 using Eigen::Vector3d;
 using Axis = std::array<Vector3d, 2>;
 
-constexpr double kCarpus = 0.3;     // a finger's rod in the palm begins this far from the wrist to the knuckle
-constexpr double kTiny = 1e-12;     // m^2; squared lengths below this count as zero
-constexpr double kPalmShare = 0.9;  // radius of a rod in the palm, relative to the root of its finger
+constexpr double kCarpus = 0.3;     // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
+constexpr double kTiny = 1e-12;     // squared lengths below this count as zero [m^2]
+constexpr double kPalmShare = 0.9;  // radius of a capsule in the palm, relative to that at the root of its finger
 
 /// The closest points of two line segments of non-zero length (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Vector3d, 2> closest_points(const Axis& a, const Axis& b) {
@@ -37,7 +39,7 @@ bool may_overlap_by_nature(int a, int b) {
 }  // namespace
 
 HandContact::HandContact(const HandProfile& profile) {
-  // One rod per phalanx. The thumb's metacarpal has none, since it lies within the flesh of the palm.
+  // One capsule per phalanx. The thumb's metacarpal has none, because it lies within the flesh of the palm.
   for (int s = segment_of(0, 1); s < kSegmentCount; ++s) {
     const SegmentProfile& phalanx = profile.segments[s];
     Rod rod{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
@@ -46,7 +48,7 @@ HandContact::HandContact(const HandProfile& profile) {
     rods_.push_back(rod);
   }
 
-  // One rod in the palm for each finger but the thumb, from the carpus to the knuckle.
+  // One capsule in the palm for each finger but the thumb, from the carpus to the knuckle.
   const int phalanges = static_cast<int>(rods_.size());
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const int root = segment_of(finger, 0);
@@ -69,7 +71,7 @@ HandContact::HandContact(const HandProfile& profile) {
 template <class Use>
 void HandContact::for_each_overlap(const HandPose& pose, const Use& use) const {
   constexpr int kMostRods = 2 * kSegmentCount;
-  // Pose the axes of all rods in the camera frame.
+  // Transform the axes of all capsules to the camera frame.
   std::array<Axis, kMostRods> axes;
   for (std::size_t i = 0; i < rods_.size(); ++i)
     for (int end = 0; end < 2; ++end) axes[i][end] = pose[rods_[i].segment] * rods_[i].ends[end];
@@ -91,7 +93,8 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
     const Vector3d between = p_a - p_b;
     if (between.squaredNorm() < kTiny) return;  // the axes intersect, so the direction of the push is undefined
 
-    // Push both segments apart along the line between the closest points; see add_terms() for the factor 2.
+    // Push both segments apart along the line between the closest points; the declaration of add_terms() explains the
+    // factor 2.
     const Vector3d away = between.normalized();
     const auto push = [&](int s, const Vector3d& p, const Vector3d& direction) {
       const Vector6d row = -(point_jacobian(p - pose[s].t).transpose() * direction);

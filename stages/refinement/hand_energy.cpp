@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// The terms of the energy that refinement minimises: data, joints and prior.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -59,7 +61,7 @@ class DataTerm {
     return share * robust.energy(distance_sq);
   }
 
-  // Model outside the data is pulled in the image plane only, since the silhouette says nothing about depth.
+  // Model outside the data is pulled in the image plane only, because a silhouette contains no information about depth.
   template <class Use>
   double add_outside(const Vector3f& r, float share, const Use& use) const {
     const float distance_sq = r.head<2>().squaredNorm();
@@ -69,9 +71,9 @@ class DataTerm {
     return share * outside_.energy(distance_sq);
   }
 
-  // Unexplained data is a point of the skin that the model must reach. Most of it lies beside the silhouette, where
-  // the surface turns away and is millimetres deeper than the model's nearest cell even if the model fits well: there
-  // the pull along the surface would mislead.
+  // Unexplained data is a point of the skin that the model must reach. Most of it is just outside the model's
+  // silhouette, where the surface turns away and is millimetres deeper than the model's nearest cell even if the model
+  // fits well. A pull along the surface would be wrong there.
   template <class Use>
   double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
     if (r.squaredNorm() > unexplained_.gate_sq) return 0;
@@ -96,7 +98,7 @@ class DataTerm {
   }
 
   Robust surface_, outside_, unexplained_;
-  float tangential_;  // share of the pull of unexplained data along the surface
+  float tangential_;  // see DataWeighting::tangential
   float folds_;       // see fold_penalty()
   float palm_trust_;
 };
@@ -116,7 +118,7 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
   ResidualMoments sums(pose);
   double total = 0;
   for (const Correspondence& c : comparison.correspondences) {
-    // The pose sees the shifted skinning weights, the shape the true ones.
+    // Use the shifted skinning weights for the pose and the true ones for the shape.
     const SkinVertex& v = skin.vertices[c.vertex];
     SkinVertex moved = v;
     moved.weight_b = shown_weight_b(v, weighting.hidden);
@@ -133,14 +135,14 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree) {
   double total = 0;
   for (int s = 1; s < kSegmentCount; ++s) {
-    // The joint gap (Eq. 5).
+    // Add the joint gap (Eq. 5).
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
     tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
-    // Angles beyond the limits and twist (Eq. 6).
+    // Add angles beyond the limits, and twist (Eq. 6).
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / sq(params.sigma_angle_deg * kDegree);
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W_angle);
@@ -167,7 +169,7 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
     const double seen_information = 1 / sq(params.prior_rotation_deg * kDegree);
     const double w = seen[s] * seen_information + (1 - seen[s]) * unseen_information;
     const JointLinearisation joint = linearise_joint(profile, pose, s);
-    // The rotation by which the joint has left its prediction.
+    // The rotation from the predicted joint to the present one.
     const JointLinearisation aim = linearise_joint(profile, predicted, s);
     const Vector3d turn = log_so3(joint.R_joint_segment * aim.R_joint_segment.transpose());
     const JointJacobians J = joint.of_turn();

@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The energy of a hand's pose in a frame, as terms of normal equations.
+
 class ShapeMoments;
 
 /// Weights of the continuous energy that refinement minimises: the negative logarithm of the paper's likelihood
@@ -58,8 +60,9 @@ void visit(V& v, EnergyParams& p) {
 
 /// How the data term is weighted in one Gauss-Newton step.
 struct DataWeighting {
-  double widening = 1;    ///< factor on all gates and robust scales
-  double tangential = 0;  ///< 0 to 1: share of the pull of unexplained data that also acts along the surface
+  double widening = 1;  ///< factor on all gates and robust scales
+  /// 0 to 1: fraction of the pull of unexplained data that acts in all directions; the rest acts only along the normal.
+  double tangential = 0;
   /// Per segment, 0 (visible) to 1 (hidden): w' = w (1 - hidden) replaces each of the two skinning weights w of a
   /// vertex, which are then normalised. So skin that blends into a hidden segment moves its visible neighbour instead.
   /// The normal equations are exactly those of the energy where all values are 0.
@@ -70,8 +73,8 @@ struct DataWeighting {
 /// Gauss-Newton normal equations of the data term at `pose`, with Geman-McClure weights (iteratively reweighted least
 /// squares). A surface correspondence pulls along the model's normal; model outside the data pulls in the image plane;
 /// model that should be behind the data pulls along the optical axis; unexplained data pulls along the normal and, in
-/// part, along the surface. `comparison` must contain normals. Adds to `tree` and, if given, the shape's share to
-/// `shape`; returns the robust energy.
+/// part, along the surface. `comparison` must contain normals. Adds to `tree` and, if given, the part that depends on
+/// the shape to `shape`; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);

@@ -10,12 +10,14 @@
 namespace barehand {
 namespace {
 
+// Computes the covariances of the segments of a refined pose.
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 constexpr double kRangeDeviation = 0.2887;  // standard deviation of a uniform distribution over a range of 1
-constexpr double kAnywhere = 1.0;           // m and rad: deviation of a palm without data
+constexpr double kAnywhere = 1.0;           // standard deviation of the pose of a palm without data [m, rad]
 
 double sq(double x) { return x * x; }
 
@@ -52,7 +54,7 @@ void PoseUncertainty::restart() { hidden_for_.fill(kNeverSeen); }
 std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfile& profile, const RefinedPose& refined,
                                                                 const std::array<bool, kSegmentCount>& hidden,
                                                                 double dt) {
-  // The skin's deviation depends on how well the profile knows the person.
+  // The skin's deviation depends on how well the profile describes the person.
   const double factor = (profile.origin == ProfileOrigin::measured ? 1.0 : params_.mean_hand_factor) *
                         (profile.scanned_skin ? params_.scanned_factor : 1.0);
 
@@ -66,7 +68,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
     tree.H_parent[s] *= scale;
   }
 
-  // The palm without data may be anywhere; every other segment hangs on its joint.
+  // A palm without data may be anywhere; every other segment is held by its joint.
   tree.H_self[kPalm].diagonal().array() += 1 / sq(kAnywhere);
   const auto limits = widened_limits(profile, energy_.limit_widening_deg * kDegree);
   for (int s = 1; s < kSegmentCount; ++s) {
@@ -77,7 +79,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
     hold_joint(joint, s, deviation, energy_.sigma_gap, tree);
   }
 
-  // The marginal covariances, to which the unknown place of the joint within the skin is added.
+  // Compute the marginal covariances, and add the uncertainty of the joint's position within the skin.
   std::array<Matrix6d, kSegmentCount> covariance;
   if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * sq(kAnywhere));
   for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += sq(factor * params_.joint_deviation);
@@ -87,7 +89,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
 double probability_within(double radius, const Matrix3d& covariance) {
   const double mean = covariance.trace(), spread = covariance.squaredNorm();
   if (!(mean > 0)) return 1;
-  const double degrees = sq(mean) / spread;  // of freedom
+  const double degrees = sq(mean) / spread;  // degrees of freedom
   return Eigen::numext::igamma(degrees / 2, sq(radius) * mean / (2 * spread));
 }
 

@@ -4,8 +4,8 @@
 
 namespace barehand {
 
-/// Why an estimated pose differs from the true one although the energy is at its minimum: errors of the model and
-/// joints that were not seen. Standard deviations and factors of these.
+/// Standard deviations of the errors that a pose has even at the minimum of the energy, and factors on them. Their
+/// causes are errors of the model and joints that were not seen.
 struct UncertaintyParams {
   double skin_deviation = 0.0007;
   double skin_patch = 0.010;
@@ -45,9 +45,9 @@ class PoseUncertainty {
   /// `energy`: the parameters with which the poses are refined.
   PoseUncertainty(const UncertaintyParams& params, const EnergyParams& energy);
 
-  /// Call when another hand is tracked or the track starts anew: the joints that are not seen may then be anywhere.
+  /// Call when another hand is tracked or the track starts again: joints that are not seen may then be anywhere.
   void restart();
-  /// Call once a frame. `hidden[s]`: the pose of segment s was inferred from structure and motion, not from data;
+  /// Call once per frame. `hidden[s]`: the pose of segment s was inferred from structure and motion, not from data;
   /// `dt`: time since the previous frame [s]. Returns the covariances of the boxplus twist (translation [m], rotation
   /// [rad]) in the camera frame.
   std::array<Matrix6d, kSegmentCount> covariance(const HandProfile& profile, const RefinedPose& refined,

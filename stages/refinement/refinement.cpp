@@ -8,19 +8,28 @@
 namespace barehand {
 namespace {
 
-// While the shape is fitted, the palm's skin is being corrected, so it deserves more trust than in tracking.
+// Minimises the energy of a pose by Gauss-Newton steps, with a coarse and then a fine comparison.
+
+// EnergyParams::palm_trust while the shape is fitted: the palm's skin is being corrected, so it gets more weight than
+// in tracking.
 constexpr double kShapePalmTrust = 0.3;
-// m. The skin of a mean hand must change most where it is farthest off, so large distances are no outliers there.
+// EnergyParams::robust_scale while the shape is fitted [m]: a mean hand's skin must change most where its error is
+// largest, so large distances are not outliers.
 constexpr double kShapeRobustScale = 0.012;
 
-// Far from the optimum a coarse comparison leads the same way at a lower cost.
+// Number of final steps that compare finely. Far from the optimum, a coarse comparison yields about the same step at a
+// lower cost.
 constexpr int kFineSteps = 3;
-constexpr double kCoarseCell = 0.006;       // m, cell of the coarse skin
-constexpr std::size_t kManyPixels = 10000;  // of a hand; with more, every other cell suffices
+constexpr double kCoarseCell = 0.006;       // cell size of the coarse skin [m]
+constexpr std::size_t kManyPixels = 10000;  // for a hand with more pixels, a coarse comparison uses every other cell
 
-constexpr double kFree = 0.4;   // fraction of matched skin from which a segment may freely leave its prediction
-constexpr double kShown = 0.1;  // fraction of matched skin from which skin at a segment's joints may rotate it
-constexpr double kFolds = 4;    // DataWeighting::folds for skin that was not scanned
+// A segment with at least this fraction of matched skin may freely leave its prediction.
+constexpr double kFree = 0.4;
+
+// A segment with less matched skin than this fraction is moved less by the skin that it shares with a neighbour at a
+// joint (without any matched skin, not at all); the neighbour is moved instead.
+constexpr double kShown = 0.1;
+constexpr double kFolds = 4;  // DataWeighting::folds for skin that was not scanned
 
 // The matched fraction of each segment relative to `enough`, clamped to [0, 1].
 std::array<double, kSegmentCount> towards(double enough, const RefinedPose& pose) {
@@ -66,7 +75,7 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
                       const DataWeighting& weighting, const Skin& skin, Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
 
-  // The evidence of the data is kept apart, since the covariance is computed from it.
+  // Store the evidence of the data separately, because the covariance is computed from it.
   refined.evidence.set_zero();
   add_data_terms(skin, pose, work.comparison, params_.energy, weighting, refined.evidence);
 
@@ -80,7 +89,7 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
     tree.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
   }
 
-  // Solve. All segments share one step scale, so that a long step that is shortened keeps the joints closed.
+  // Solve. A step that is too long is shortened by one factor for all segments, which keeps the joints closed.
   std::array<Vector6d, kSegmentCount> x;
   if (!tree.solve(x)) return false;
   double scale = 1;
@@ -117,7 +126,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   // Only the first steps compare coarsely; the last ones and the score after them compare finely.
   const auto detail = [&](int i) { return is_fine(i) ? fine() : coarse(observation); };
 
-  // Take the start that explains the frame best.
+  // Choose the start that fits the frame best.
   auto work = workspaces_.take();
   RefinedPose result;
   result.pose = starts[0];
@@ -138,7 +147,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
 
   const bool measured = profile_->origin == ProfileOrigin::measured;
 
-  // How skin folds at joints is only guessed until it is scanned, and would slowly rotate a hidden finger.
+  // Until the skin is scanned, its folds at joints are only a guess, whose errors would slowly rotate a hidden finger.
   const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;
   if (!folds_known)
@@ -148,9 +157,10 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
-    // A mean hand's silhouette errs by more than its surface turns away there, so it keeps its full pull.
+    // The last steps avoid the pull along the surface that is wrong near the silhouette (see hand_energy.cpp). A mean
+    // hand's silhouette has larger errors than that, so the full pull is kept.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
-    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // only a fine step suffers from wrong folds
+    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds affect only fine steps
 
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
@@ -175,7 +185,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   energy.palm_trust = kShapePalmTrust;
   energy.robust_scale = kShapeRobustScale;
 
-  // Sum up the data and everything else that holds the pose.
+  // Sum up the data and everything else that constrains the pose.
   ShapeMoments moments;
   moments.reset(pose, skin_->vertices.size());
   add_data_terms(*skin_, pose, work->comparison, energy, {}, tree, &moments);

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// Continuous refinement of a hand's pose.
+
 // Settings of the continuous refinement.
 struct RefinementParams {
   bool enabled = true;
@@ -57,8 +59,8 @@ class Refinement {
   /// at `start`, the more freely it may leave its prediction. `iterations`: number of Gauss-Newton steps.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                      int iterations) const;
-  /// The same from the one of `starts` (at least one) that explains the frame best before any step; the first of
-  /// equals.
+  /// The same from the one of `starts` (at least one) that fits the frame best before any step; among equally good
+  /// ones, from the first.
   RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                           const HandPose& predicted, int iterations) const;
   /// Score and visibility of an unchanged pose.

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Factor by which the information of skin near a joint is divided, since the way it folds there is badly known: 1 +
+/// Factor by which the information of skin near a joint is divided, because the way it folds there is poorly known: 1 +
 /// (`folds` w)^2, where w is the smaller of the two segments' skinning weights in `v`.
 template <class Scalar>
 Scalar fold_penalty(const SkinVertex& v, Scalar folds) {

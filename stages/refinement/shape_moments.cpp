@@ -21,10 +21,10 @@ bool ShapeEquations::without_pose(Eigen::Matrix<double, kShapeCount, kShapeCount
   std::array<Vector6d, kSegmentCount> x;
   if (!column.solve(x)) return false;
 
-  // The pose's gradient explains a part of the shape's.
+  // Subtract the part of the shape's gradient that a change of the pose explains (Schur complement).
   for (int s = 0; s < kSegmentCount; ++s) g -= H_pose_shape[s].transpose() * x[s];
 
-  // So does each column of the coupling; one tree serves all columns.
+  // Do the same for the shape's matrix, column by column; one tree is reused for all columns.
   for (int k = 0; k < kShapeCount; ++k) {
     for (int s = 0; s < kSegmentCount; ++s) column.g[s] = H_pose_shape[s].col(k);
     if (!column.solve(x)) return false;

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Normal equations of a hand's shape together with its pose.
+
 /// Normal equations of a hand's shape (y) together with its pose (x) in one frame:
 ///   tree.H x + H_pose_shape y = tree.g,   H_pose_shape^T x + H_shape y = g_shape
 struct ShapeEquations {
@@ -17,18 +19,18 @@ struct ShapeEquations {
   Eigen::Matrix<double, kShapeCount, kShapeCount> H_shape;
   HandShape g_shape;
 
-  /// Removes all residuals.
+  /// Sets all blocks to zero: there are no residuals.
   void set_zero();
-  /// Eliminates the pose by a Schur complement: what the frame says about the shape alone. Returns false if the
-  /// equations of the pose are not positive definite or the result is not finite.
+  /// Eliminates the pose by a Schur complement. What remains is the frame's information about the shape alone. Returns
+  /// false if the equations of the pose are not positive definite or the result is not finite.
   bool without_pose(Eigen::Matrix<double, kShapeCount, kShapeCount>& information, HandShape& g) const;
 };
 
-/// Accumulates residuals per skin vertex. Since the shape moves a vertex along its normal only, thousands of residuals
-/// then cost one product per vertex instead of one each for some fifty shape parameters.
+/// Accumulates residuals per skin vertex. Because the shape moves a vertex only along its normal, the products with
+/// some fifty shape parameters are then computed once per vertex instead of once for each of thousands of residuals.
 class ShapeMoments {
  public:
-  /// Starts anew at `pose` for a skin with this number of vertices.
+  /// Removes all residuals, and prepares for residuals at `pose` of a skin with this number of vertices.
   void reset(const HandPose& pose, std::size_t vertices);
 
   /// Adds the residual `r` [m] at the model point of `c` along `direction` (camera frame) with the information `w`
@@ -40,7 +42,8 @@ class ShapeMoments {
 
  private:
   using Row = Eigen::Matrix<float, 6, 1>;
-  // Sums of the information and of the gradient by the vertex's offset, and the products with its segments' twists.
+  // Sums of the information and the gradient with respect to the vertex's offset, and the products with its segments'
+  // twists.
   struct Vertex {
     float shape = 0, gradient = 0;
     Row a = Row::Zero(), b = Row::Zero();
@@ -49,8 +52,8 @@ class ShapeMoments {
   std::vector<Vertex> vertices_;
 };
 
-/// Adds the information about bone lengths that lies in joints staying closed (Eq. 5). `sigma_gap`: standard deviation
-/// of a joint gap [m].
+/// Adds the information about bone lengths that follows from closed joints (Eq. 5). `sigma_gap`: standard deviation of
+/// a joint gap [m].
 void add_joint_shape(const HandProfile& profile, const HandPose& pose, const ShapeBasis& basis, double sigma_gap,
                      ShapeEquations& equations);
 

@@ -14,8 +14,8 @@
 namespace barehand {
 namespace {
 
-/// TBB synchronises everything that must be ordered, but inside a library that the thread sanitizer does not see.
-/// These two atomics state the same order in code that it sees.
+/// One call of run(). TBB synchronises its threads, but inside a library that the thread sanitizer cannot see. The two
+/// atomics express the same ordering in code that the sanitizer sees.
 template <typename Call>
 struct Job {
   const Call& fn;
@@ -44,13 +44,13 @@ Workers::Workers(int threads) : threads_(threads) {
 Workers::~Workers() = default;
 
 void Workers::run(int n, Call call) {
-  // Inline, without tasks.
+  // Run everything in the calling thread if there is nothing to distribute.
   if (!arena_ || n <= 1) {
     for (int i = 0; i < n; ++i) call(i);
     return;
   }
 
-  // What the caller wrote happens before the tasks, and what they wrote before the return.
+  // Order the caller's writes before the tasks, and the tasks' writes before the return (see Job).
   Job<Call> job{call};
   job.started.store(true, std::memory_order_release);
   const auto settle = [&] { [[maybe_unused]] const int finished = job.finished.load(std::memory_order_acquire); };
@@ -65,7 +65,7 @@ void Workers::run(int n, Call call) {
 }
 
 void Workers::give_way() {
-  constexpr int kLast = 19;  // nice value; Linux keeps one per thread
+  constexpr int kLast = 19;  // lowest priority, as a nice value; Linux has one per thread
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLast);
 }
 

@@ -24,17 +24,17 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   /// Calls fn(0) ... fn(n-1), each once, in any order and on any thread, and returns when all are done. The result is
-  /// the same for any number of threads if fn(i) writes only what belongs to i and sums are taken afterwards, in
-  /// order. Exceptions of fn are rethrown here. May be called from several threads, and from within fn.
+  /// the same for any number of threads if fn(i) writes only data that belongs to i, and sums are formed afterwards in
+  /// index order. Exceptions of fn are rethrown here. May be called from several threads, and from within fn.
   template <typename Fn>
   void for_each_index(int n, Fn&& fn) {
     run(n, {[](const void* f, int i) { (*static_cast<const std::remove_reference_t<Fn>*>(f))(i); }, &fn});
   }
   int threads() const { return threads_; }
 
-  /// Runs long work (seconds) that no frame needs at once: fn(Workers&), which may outlive this call but not `*this`.
-  /// For a recording it is finished before this returns, so that results are the same on every machine. After
-  /// go_live() it runs in the background with the lowest priority. Exceptions of fn are rethrown by the future's
+  /// Runs long work (seconds) whose result no frame needs immediately: fn(Workers&), which may outlive this call but
+  /// not `*this`. For a recording it is finished before this returns, so that results are the same on every machine.
+  /// After go_live() it runs in the background with the lowest priority. Exceptions of fn are rethrown by the future's
   /// get().
   template <typename Fn>
   auto aside(Fn fn) -> std::future<std::invoke_result_t<Fn&, Workers&>> {
@@ -52,7 +52,7 @@ class Workers {
   void go_live() { live_ = true; }
 
  private:
-  /// A reference to a function that somebody else owns; std::function would allocate for most lambdas.
+  /// A non-owning reference to a callable object; std::function would allocate memory for most lambdas.
   struct Call {
     void (*function)(const void* self, int i);
     const void* self;

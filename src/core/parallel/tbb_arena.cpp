@@ -8,7 +8,7 @@ namespace barehand {
 
 struct TbbArena::State {
   explicit State(int threads) : limit(tbb::global_control::max_allowed_parallelism, threads), arena(threads) {}
-  tbb::global_control limit;  // without it, TBB never uses more threads than there are cores
+  tbb::global_control limit;  // without it, TBB uses at most one thread per core
   tbb::task_arena arena;
 };
 
@@ -16,7 +16,7 @@ TbbArena::TbbArena(int threads) : state_(std::make_unique<State>(threads)) {}
 TbbArena::~TbbArena() = default;
 
 void TbbArena::for_each_index(int n, void (*call)(void* context, int i), void* context) {
-  // Isolated, so that a thread that waits here does not start work of another stage, which would delay its own.
+  // Isolation keeps a thread that waits here from starting work of another stage, which would delay its own stage.
   state_->arena.execute(
       [&] { tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, n, [&](int i) { call(context, i); }); }); });
 }

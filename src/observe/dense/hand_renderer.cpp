@@ -7,6 +7,8 @@
 namespace barehand {
 namespace {
 
+// A software rasteriser for the skin, which draws several cells at once with SIMD.
+
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
@@ -89,7 +91,8 @@ class Rasteriser {
     const float wa_down = (c.x() - b.x()) * inverse_area, wb_down = (a.x() - c.x()) * inverse_area;
     const IntLanes columns = x <= static_cast<float>(box.i1);
 
-    // Every covered cell is carried by the vertex with the largest barycentric weight.
+    // Assign every covered cell to the vertex with the largest barycentric weight. (A true lane is -1, hence the
+    // subtraction.)
     IntLanes covered_a{}, covered_b{}, covered_c{};
     for (int j = box.j0; j <= box.j1; ++j, wa += wa_down, wb += wb_down) {
       const Lanes wc = 1.0f - wa - wb;
@@ -137,7 +140,7 @@ class Rasteriser {
     Lanes old_depth{};
     IntLanes old_vertex{};
 
-    // Load the old cells, replace those that are hidden now, and store them.
+    // Load the old cells, replace those that are now hidden, and store them.
     const auto blend = [&](std::size_t size) {
       std::memcpy(&old_depth, depth, size);
       std::memcpy(&old_vertex, vertex, size);

@@ -25,7 +25,7 @@ struct RenderedHand {
   std::array<int, kSegmentCount> projected{};     ///< cells covered by the segment's camera-facing skin, hidden or not
 };
 
-/// Whether render_hand() computes the normals, which a mere score does not need.
+/// Whether render_hand() computes the normals, which are not needed for a score.
 enum class Normals { computed, left_out };
 
 /// Renders the triangles of `skin` that face the camera into a z-buffer (paper Sec. 4.1, "rendered into a depth

@@ -6,11 +6,14 @@
 namespace barehand {
 namespace {
 
+// Compares a rendered hand with an observation cell by cell, and finds where the model should move.
+
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
 
 constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
-constexpr float kStandsOut = 0.005f;    // skin that stands out of an occluder by less than this may move behind it [m]
+// If the model is in front of a non-hand surface by less than this [m], it may be moved behind the surface.
+constexpr float kStandsOut = 0.005f;
 
 /// Classifies every cell of the grid and collects the correspondences.
 class Comparer {
@@ -18,7 +21,7 @@ class Comparer {
   Comparer(const HandObservation& observation, const Skin& skin, const HandPose& pose, const RenderedHand& rendered,
            const ComparisonParams& params, ModelComparison& out)
       : obs_(observation), skin_(skin), rendered_(rendered), params_(params), out_(out) {
-    // The wrist plane in camera coordinates, and the area of a cell at a depth of 1 m.
+    // Compute the wrist plane in camera coordinates, and the relative area of a cell at a depth of 1 m.
     const SE3 T_palm_camera = pose[kPalm].inverse();
     wrist_axis_ = T_palm_camera.R.row(2).cast<float>();
     wrist_offset_ = static_cast<float>(T_palm_camera.t.z());
@@ -28,7 +31,7 @@ class Comparer {
   }
 
   void run() {
-    // Forget the previous frame's results.
+    // Clear the previous results, and prepare the look-up tables.
     out_.correspondences.clear();
     out_.visible.fill(0);
     out_.matched.fill(0);
@@ -46,7 +49,7 @@ class Comparer {
           judge_unexplained(i, j, u, v);
       }
 
-    // The score is the weighted mean.
+    // The score is the weighted mean of the capped distances.
     out_.score = total_weight_ > 0 ? total_ / total_weight_ : params_.distance_cap;
   }
 
@@ -56,7 +59,7 @@ class Comparer {
   }
   Vector3f data_point(int u, int v) const { return out_.rays.point(u, v, obs_.depth.at(u, v)); }
 
-  // Adds the correspondence of cell (i, j) and its share of the score. `cost_distance`: uncapped distance [m].
+  // Adds the correspondence of cell (i, j) and its contribution to the score. `cost_distance`: uncapped distance [m].
   void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
     const int vertex = rendered_.vertex.at(i, j);
     const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
@@ -87,15 +90,15 @@ class Comparer {
       return;
     }
 
-    // Anything else in front of the model hides it; behind the model it contradicts the model.
+    // Any other surface hides the model if it is in front of it, and contradicts the model if it is behind it.
     const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
     if (z_data < z_model + tolerance) return;
     ++out_.visible[segment];
     const std::int32_t hand = obs_.nearest_hand.at(u, v);
     if (hand < 0) return;
 
-    // The model should not be visible here. It moves to whichever explanation is nearer: aside, onto the hand's data
-    // (Eq. 1), or back behind the measured surface if it stands out of it by little.
+    // The model should not be visible here. It should move to the nearer of two places: sideways, onto the hand's data
+    // (Eq. 1), or back behind the measured surface, if it is only slightly in front of it.
     const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
     const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
     if (back < std::min(kStandsOut, distance_aside))
@@ -104,8 +107,8 @@ class Comparer {
       add(Kind::outside, i, j, aside, distance_aside);
   }
 
-  // The nearest place beside the cell that would explain the model: the hand data at the pixel `hand`, or, where data
-  // there or the nearest object is in front of the model, the point hidden behind it at the model's own depth.
+  // The nearest point to which the model can move sideways in the image: the hand data at the pixel `hand`. If the hand
+  // data there or the nearest object is in front of the model, the model can also move behind it at its own depth.
   Vector3f nearest_aside(int u, int v, std::int32_t hand, const Vector3f& model) const {
     const auto behind = [&](std::int32_t pixel) {
       const int row = out_.rays.row_of(pixel);

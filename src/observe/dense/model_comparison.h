@@ -10,7 +10,9 @@
 
 namespace barehand {
 
-/// The area of skin that a correspondence of weight 1 stands for [m^2]: a cell of 2 x 2 pixels at 0.6 m with a focal
+// Comparison of a rendered hand with an observation, pixel by pixel.
+
+/// The area of skin that a correspondence of weight 1 represents [m^2]: a cell of 2 x 2 pixels at 0.6 m with a focal
 /// length of 525 px.
 inline constexpr float kReferenceArea = 5e-6f;
 
@@ -35,13 +37,13 @@ void visit(V& v, ComparisonParams& p) {
 
 /// One piece of evidence: a point of the model and the point of the data that it should move to.
 struct Correspondence {
-  /// surface: model and data are both hand. outside: there is model but no hand data, and the nearest explanation is
-  /// beside it in the image. behind: the same, but the nearest explanation is just behind the surface that is measured
-  /// there. unexplained: there is hand data but no model.
+  /// surface: model and data are both hand. outside: the cell shows the model but no hand data, and the model should
+  /// move sideways in the image. behind: the same, but the model should move just behind the surface that is measured
+  /// there. unexplained: the cell shows hand data but not the model.
   enum class Kind { surface, outside, behind, unexplained };
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
-  Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero where it was left out
+  Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero if the rendering has none
   float weight;                         ///< skin area of the cell relative to kReferenceArea
 };
 

@@ -13,7 +13,7 @@ void NearestCell::index(const Image<std::int32_t>& occupied) {
   const int width = occupied.width(), height = occupied.height();
   row_.reset(width, height, kNone);
 
-  // Sweep down: the nearest occupied row at or above each cell. Working on whole rows lets the compiler vectorise.
+  // Sweep down: find the nearest occupied row at or above each cell. Working on whole rows lets the compiler vectorise.
   for (int v = 0; v < height; ++v) {
     const std::int32_t* set = occupied.row(v);
     std::int16_t* own = row_.row(v);

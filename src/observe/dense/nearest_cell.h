@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// Finds the nearest occupied cell of an image for a few query cells. index() is one cheap pass over all cells; each
-/// query then takes as many steps as the answer is cells away.
+/// Finds the nearest occupied cell of an image for a few query cells. index() makes two cheap passes over all cells;
+/// each query then takes as many steps as its result is cells away.
 class NearestCell {
  public:
   /// Indexes the cells with `occupied[i] >= 0`; at most 2^15 rows. The buffer keeps its allocation from call to call.

@@ -29,7 +29,7 @@ class PixelRays {
     const int v = row_of(pixel);
     return point(pixel - v * width_, v, depth[pixel]);
   }
-  /// Exactly pixel / width: both are far smaller than the 53 bits of a double's mantissa.
+  /// Exactly pixel / width, because both are far below 2^53, up to which a double is exact.
   int row_of(std::int32_t pixel) const { return static_cast<int>((pixel + 0.5) * inverse_width_); }
 
  private:

@@ -3,7 +3,8 @@
 namespace barehand {
 namespace {
 
-// The same steps as stages/segment_tracker/patch_distance.cpp, one invocation for every LANES-th skin point.
+// The same steps as in stages/segment_tracker/patch_distance.cpp. Each of the LANES invocations of a work group
+// compares every LANES-th skin point.
 constexpr const char* kBody = R"(
 precision highp float;
 precision highp int;

@@ -4,7 +4,9 @@
 
 namespace barehand {
 
-/// What the shader's buffers are bound to. All are storage buffers.
+// The compute shader that compares samples with the data, and its interface.
+
+/// Bindings of the shader's storage buffers.
 enum ShaderBuffer {
   kSkinBuffer,    ///< per point: (x, y, z, area), (nx, ny, nz, 0), segment frame
   kCellBuffer,    ///< PixelMap::cells
@@ -16,17 +18,18 @@ enum ShaderBuffer {
 
 inline constexpr int kFloatsPerPoint = 8, kFloatsPerPose = 12, kFloatsPerResult = 3;
 
-/// Where its uniforms are.
+/// Locations of the shader's uniforms.
 enum ShaderUniform {
   kCameraUniform,        ///< vec4: fx, fy, cx, cy of the map [pixel]
   kMapSizeUniform,       ///< ivec2: columns, rows
   kCapUniform,           ///< float: largest distance of one pixel [m]
-  kFirstSegmentUniform,  ///< int: of the segments that are looked at
-  kPointsUniform,        ///< ivec2[16]: a segment's first skin point and their number
+  kFirstSegmentUniform,  ///< int: first segment that is compared
+  kPointsUniform,        ///< ivec2[16]: for each segment, index of its first skin point and number of its points
 };
 
-/// Source of the compute shader that compares samples with the data: one work group per sample and, in y, segment from
-/// the first that is looked at. `lanes`, a power of two: invocations in a group, which share the sample's skin points.
+/// Source of the compute shader that compares samples with the data: one work group per sample (x) and segment (y, from
+/// the first segment that is compared). `lanes` is the number of invocations in a group, a power of two; they divide
+/// the sample's skin points among themselves.
 std::string compare_shader(int lanes);
 
 }  // namespace barehand

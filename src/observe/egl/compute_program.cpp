@@ -5,7 +5,8 @@ namespace {
 
 constexpr GLsizei kLogSize = 2000;
 
-/// `get_status` and `get_log` are those of a shader or of a program.
+/// Checks whether a shader was compiled or a program linked. `get_status` and `get_log` are the GL functions for that
+/// kind of object.
 template <class GetStatus, class GetLog>
 Result<void> check(GLuint object, GLenum what, GetStatus get_status, GetLog get_log) {
   GLint done = GL_FALSE;

@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-/// Compiles and links one compute shader; its name in the current context. Error: with the driver's log.
+/// Compiles and links one compute shader. Returns the program's name in the current context. Error: contains the
+/// driver's log.
 Result<GLuint> make_compute_program(const Gl& gl, const std::string& source);
 
 }  // namespace barehand

@@ -10,10 +10,11 @@
 namespace barehand {
 namespace {
 
-// A GPU runs a group as one warp; in software a group is one vector register, and more would be threads to switch.
+// Invocations in a work group. A GPU runs a group of this size as one warp. A software renderer runs it in one vector
+// register; for larger groups it would have to switch between threads.
 constexpr int kHardwareLanes = 32, kSoftwareLanes = 8;
 
-/// Bytes of the job in each buffer.
+/// Size of the job in each buffer [bytes].
 struct JobBytes {
   std::size_t skin, cells, hidden, poses, results;
 
@@ -35,7 +36,7 @@ Result<void> DeviceComparison::open() {
   context_ = std::move(*context);
   const Gl& gl = context_->gl();
 
-  // What every device of OpenGL ES 3.1 has is four.
+  // OpenGL ES 3.1 guarantees only four storage buffers.
   GLint storage_buffers = 0;
   gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage_buffers);
   if (storage_buffers < kShaderBufferCount)
@@ -45,7 +46,7 @@ Result<void> DeviceComparison::open() {
   const auto program = make_compute_program(gl, compare_shader(lanes));
   if (!program) return tl::unexpected(program.error());
   gl.UseProgram(*program);
-  gl.Uniform1f(kCapUniform, std::min(cap_, std::numeric_limits<float>::max()));  // GLSL need not know infinity
+  gl.Uniform1f(kCapUniform, std::min(cap_, std::numeric_limits<float>::max()));  // GLSL need not support infinity
   return check_gl(gl, "setting up");
 }
 
@@ -94,7 +95,8 @@ Result<void> DeviceComparison::compare() {
   return checked ? received : checked;
 }
 
-/// A device that hangs must not make the driver wait for ever: after the fence nothing blocks.
+/// Waits for a fence with a time limit, so that a device that hangs does not block the driver forever: once the fence
+/// is reached, the following calls do not have to wait.
 Result<void> DeviceComparison::wait_for_device() {
   const Gl& gl = context_->gl();
   const GLsync fence = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

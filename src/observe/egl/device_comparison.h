@@ -14,19 +14,19 @@ namespace barehand {
 
 /// What the shader compares in one dispatch, besides the contents of the buffers. Sizes are counts.
 struct ShaderJob {
-  std::array<GLint, 2 * kSegmentCount> points{};  ///< a segment's first skin point and their number
+  std::array<GLint, 2 * kSegmentCount> points{};  ///< for each segment, its first skin point and number of points
   int skin_points = 0, cells = 0;
   std::array<float, 4> camera{};           ///< fx, fy, cx, cy of the map [pixel]
   std::array<int, 2> map_size{};           ///< columns, rows
-  int first_segment = 0, per_segment = 0;  ///< segments that are looked at; samples of each
-  bool new_skin = true, new_map = true;    ///< to be sent
+  int first_segment = 0, per_segment = 0;  ///< first segment that is compared; samples per segment
+  bool new_skin = true, new_map = true;    ///< whether skin and map must be sent
 
   int samples() const { return kSegmentCount * per_segment; }
 };
 
-/// The comparison as the graphics driver sees it: a context, a program and buffers. All functions are for one thread,
-/// from open() to the destruction; only job() and the memory of the buffers are for the thread that orders the work,
-/// while none is done.
+/// The part of the comparison that calls the graphics driver: a context, a program and buffers. All functions must be
+/// called on one thread, from open() to the destructor. Only job() and the buffers' memory are for the thread that
+/// orders the work, and only while no work is in progress.
 class DeviceComparison {
  public:
   /// Finds EGL's functions.
@@ -38,8 +38,9 @@ class DeviceComparison {
 
   /// Error: no such device, or too old (less than OpenGL ES 3.1, five storage buffers).
   Result<void> open();
-  /// Makes room for the job.
+  /// Enlarges the buffers for the job where they are too small.
   Result<void> reserve();
+  /// Whether all buffers are large enough for the job.
   bool has_room() const;
   /// Sends what is new, compares, and waits for the distances.
   Result<void> compare();

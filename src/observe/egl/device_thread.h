@@ -13,10 +13,10 @@
 
 namespace barehand {
 
-/// The one thread that makes all calls of a graphics driver, and the `State` that these calls work on. Work is handed
-/// over piece by piece: the caller waits for each, but not longer than it is willing to. A thread whose work takes
-/// longer is abandoned: it keeps the state, which nobody else touches from then on, and destroys it when the driver
-/// returns, if it ever does. One caller at a time.
+/// A thread that makes all calls of a graphics driver, and the `State` that these calls work on. The caller waits for
+/// each piece of work, but no longer than a time limit. A thread whose work takes longer is abandoned: it keeps the
+/// state, which nobody else uses from then on, and destroys it when the driver returns, if it ever does. For one caller
+/// at a time.
 template <class State>
 class DeviceThread {
  public:
@@ -36,11 +36,11 @@ class DeviceThread {
       thread_.detach();
   }
 
-  /// What `work` returns. Error: it took longer than `limit`, now or in an earlier call; the state is then out of
-  /// reach.
+  /// Runs `work` on the thread and returns its result. Error: it took longer than `limit`, now or in an earlier call;
+  /// state() is null from then on.
   Result<void> run(Work work, std::chrono::milliseconds limit) { return shared_->run(work, limit); }
 
-  /// Null once the thread was abandoned. To be touched only while no work runs.
+  /// The state, to be used only while no work runs; null once the thread was abandoned.
   State* state() { return shared_->reachable(); }
 
  private:
@@ -65,21 +65,21 @@ class DeviceThread {
       return leaving_ ? nullptr : state_.get();
     }
 
-    /// On the thread.
+    /// Main function of the thread.
     void serve() {
       std::unique_lock lock(mutex_);
       for (;;) {
         changed_.wait(lock, [&] { return work_ || leaving_; });
         if (leaving_) break;
         lock.unlock();
-        Result<void> result = done(work_);  // only this thread resets it
+        Result<void> result = done(work_);  // needs no lock: only this thread resets work_
         lock.lock();
         result_ = std::move(result);
         work_ = nullptr;
         changed_.notify_all();
       }
 
-      // The state goes where its calls were made.
+      // Destroy the state on the thread that made all its calls.
       lock.unlock();
       state_.reset();
       lock.lock();
@@ -87,7 +87,7 @@ class DeviceThread {
       changed_.notify_all();
     }
 
-    /// Whether the thread has come to its end within the limit. One that was abandoned is not waited for again.
+    /// Asks the thread to end. Returns whether it ended within the limit; for an abandoned thread there is no waiting.
     bool finish(std::chrono::milliseconds limit) {
       std::unique_lock lock(mutex_);
       if (std::exchange(leaving_, true)) return ended_;
@@ -99,7 +99,7 @@ class DeviceThread {
     Result<void> done(Work work) {
       try {
         return work(*state_);
-      } catch (const std::exception& e) {  // most likely memory
+      } catch (const std::exception& e) {  // most likely out of memory
         return fail(e.what(), "EGL");
       }
     }
@@ -112,7 +112,7 @@ class DeviceThread {
     bool leaving_ = false, ended_ = false;
   };
 
-  std::shared_ptr<Shared> shared_;  // with the thread, which may outlive this object
+  std::shared_ptr<Shared> shared_;  // shared with the thread, which may outlive this object
   std::chrono::milliseconds close_limit_;
   std::thread thread_;
 };

@@ -63,7 +63,7 @@ std::vector<EGLDisplay> find_displays(const Egl& egl, bool with_software) {
   egl.QueryDevicesEXT(count, devices.data(), &count);
   devices.resize(count);
 
-  // Hardware first, so that the first display that works is the right one.
+  // Sort hardware first, so that the first display that works is the preferred one.
   const auto hardware_end = std::stable_partition(devices.begin(), devices.end(), [&](EGLDeviceEXT device) {
     return !has_extension(egl.QueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
   });

@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// The functions of EGL that are in use, loaded at run time: where there is no EGL, Barehand runs all the same.
+/// The functions of EGL that are used. They are loaded at run time, so that Barehand also runs on machines without EGL.
 struct Egl {
   PFNEGLBINDAPIPROC BindAPI;
   PFNEGLCREATECONTEXTPROC CreateContext;
@@ -22,16 +22,17 @@ struct Egl {
   PFNEGLMAKECURRENTPROC MakeCurrent;
   PFNEGLQUERYSTRINGPROC QueryString;
   PFNEGLRELEASETHREADPROC ReleaseThread;
-  /// Of EGL_EXT_platform_base, EGL_EXT_device_enumeration and EGL_EXT_device_query; null where one is missing.
+  /// Functions of EGL_EXT_platform_base, EGL_EXT_device_enumeration and EGL_EXT_device_query; all null if an extension
+  /// is missing.
   PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplayEXT = nullptr;
   PFNEGLQUERYDEVICESEXTPROC QueryDevicesEXT = nullptr;
   PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceStringEXT = nullptr;
 };
 
-/// `library`: file name as for dlopen. It stays loaded until the process ends.
+/// Loads EGL, which stays loaded until the process ends. `library`: file name as for dlopen.
 Result<Egl> load_egl(const std::string& library);
 
-/// Whether a blank-separated list of extensions (may be null) has this one.
+/// Whether a blank-separated list of extensions (may be null) contains `name`.
 bool has_extension(const char* list, const std::string& name);
 
 /// One display per device, hardware first, software devices only if asked for; the default display (EGL_PLATFORM

@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+// Copies sample batches to the device's buffers, has them compared, and reads the distances.
+
 void write_skin(const HandSurface& surface, float* out) {
   for (const SegmentSurface& skin : surface)
     for (std::size_t i = 0; i < skin.size(); ++i, out += kFloatsPerPoint) {
@@ -97,7 +99,7 @@ Result<void> EglObserver::compare_on_device(const SampleBatch& batch, PatchDista
   if (batch.poses[0].empty()) return {};
   DeviceComparison& device = *thread_->state();
 
-  // What this batch brings that the device does not have yet.
+  // Describe the job, and find out what the device does not have yet.
   ShaderJob& job = device.job();
   job.new_skin = surface_ != batch.surface;
   job.new_map = job.new_skin || map_id_ != batch.map_id;
@@ -106,7 +108,7 @@ Result<void> EglObserver::compare_on_device(const SampleBatch& batch, PatchDista
   job.first_segment = batch.first_segment;
   job.per_segment = static_cast<int>(batch.poses[0].size());
 
-  // It is written straight to where the driver takes it from, once that is large enough.
+  // Write the data directly to the memory that the driver reads, which is enlarged first if it is too small.
   if (!device.has_room()) {
     const auto reserved = thread_->run([](DeviceComparison& d) { return d.reserve(); }, limits_.call);
     if (!reserved) return reserved;

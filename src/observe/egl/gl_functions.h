@@ -2,14 +2,14 @@
 
 #include <GLES3/gl32.h>
 
-#include <GLES2/gl2ext.h>  // needs the types of the other one
+#include <GLES2/gl2ext.h>  // needs the types of gl32.h
 
 #include "core/error.h"
 #include "observe/egl/egl_functions.h"
 
 namespace barehand {
 
-// What compute shaders, their buffers and fences need of OpenGL ES 3.1.
+// The functions of OpenGL ES 3.1 that compute shaders, their buffers and fences need.
 // clang-format off
 #define BAREHAND_GL_FUNCTIONS(f) \
   f(PFNGLATTACHSHADERPROC, AttachShader) \
@@ -48,18 +48,20 @@ namespace barehand {
   f(PFNGLUSEPROGRAMPROC, UseProgram)
 // clang-format on
 
-/// Functions of OpenGL ES; to be called where a context is current.
+/// Functions of OpenGL ES, to be called only on a thread with a current context.
 struct Gl {
 #define BAREHAND_GL_MEMBER(type, name) type name = nullptr;
   BAREHAND_GL_FUNCTIONS(BAREHAND_GL_MEMBER)
 #undef BAREHAND_GL_MEMBER
   PFNGLBUFFERSTORAGEEXTPROC BufferStorageEXT = nullptr;              ///< null: buffers cannot stay mapped
-  PFNGLGETGRAPHICSRESETSTATUSPROC GetGraphicsResetStatus = nullptr;  ///< null: the driver does not tell
+  PFNGLGETGRAPHICSRESETSTATUSPROC GetGraphicsResetStatus = nullptr;  ///< null: the driver does not report resets
 };
 
+/// Loads the functions; a context must be current. Error: a function is missing.
 Result<Gl> load_gl(const Egl& egl);
 
-/// What went wrong since the last call, the loss of the context included. `doing`: "reading distances".
+/// Returns an error if a GL function failed since the last call or the context was lost. `doing` describes the work for
+/// the message, for example "reading distances".
 Result<void> check_gl(const Gl& gl, const char* doing);
 
 }  // namespace barehand

@@ -7,16 +7,16 @@ namespace barehand {
 
 inline constexpr const char* kEglLibrary = "libEGL.so.1";
 
-/// What OpenGL ES runs on.
+/// The device that OpenGL ES runs on.
 struct GraphicsDevice {
-  std::string renderer;   ///< as the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string version;    ///< "OpenGL ES 3.2 Mesa 22.3.6"
+  std::string renderer;   ///< the driver's name for it, such as "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string version;    ///< such as "OpenGL ES 3.2 Mesa 22.3.6"
   bool software = false;  ///< computed on the CPU
 };
 
 enum class DeviceChoice {
-  hardware,  ///< a GPU or nothing
-  any,       ///< a GPU where there is one, else software
+  hardware,  ///< only a GPU
+  any,       ///< a GPU if there is one, else a software renderer
 };
 
 /// Whether a GL_RENDERER string names a renderer that runs on the CPU.

@@ -12,7 +12,7 @@ tl::unexpected<Error> egl_failure(const Egl& egl, const std::string& what) {
   return fail(formatted("%s (EGL error 0x%04x)", what.c_str(), egl.GetError()), "EGL");
 }
 
-/// A context that says so when it is lost, where the driver can.
+/// Creates a context that reports when it is lost, if the driver supports this.
 EGLContext create_context(const Egl& egl, EGLDisplay display) {
   std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1};
   if (has_extension(egl.QueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness"))

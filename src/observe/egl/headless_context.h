@@ -11,10 +11,11 @@
 namespace barehand {
 
 /// An OpenGL ES 3.1 context without window or screen. It is made current once, on the thread that opens it, and stays
-/// so until it is destroyed there: with some drivers both changes take tens of milliseconds. Then nothing of EGL is
-/// left on that thread: what is kept for one that ends while the process does would be freed twice.
+/// so until it is destroyed there: with some drivers both changes take tens of milliseconds. The destructor also
+/// releases EGL's data of that thread, which would be freed twice if the thread ended while the process does.
 class HeadlessContext {
  public:
+  /// Opens a context on the first device of this choice that works. Error: there is none.
   static Result<std::unique_ptr<HeadlessContext>> open(const Egl& egl, DeviceChoice choice);
   ~HeadlessContext();
   HeadlessContext(const HeadlessContext&) = delete;
@@ -30,7 +31,7 @@ class HeadlessContext {
   Result<void> make_current();
 
   Egl egl_;
-  EGLDisplay display_;  // the process's, not ours: others may use it, so it is never terminated
+  EGLDisplay display_;  // never terminated, because other parts of the process may use it
   EGLContext context_;
   Gl gl_;
   GraphicsDevice device_;

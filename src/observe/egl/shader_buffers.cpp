@@ -6,12 +6,15 @@
 namespace barehand {
 namespace {
 
+// Creates and fills the shader's buffers; they stay mapped if the driver supports this.
+
 constexpr GLbitfield kStaysMapped = GL_MAP_PERSISTENT_BIT_EXT | GL_MAP_COHERENT_BIT_EXT;
 
-/// More than was asked for: regions of interest and numbers of samples change a little from frame to frame.
+/// Adds a reserve, because regions of interest and numbers of samples change a little from frame to frame.
 std::size_t with_room(std::size_t bytes) { return bytes + bytes / 2; }
 
-/// A buffer for ever mapped for `access`, bound to `target`; null in `mapped` if the driver does not map it.
+/// Makes a buffer that is bound to `target` and stays mapped for `access`. Sets `mapped` to null if the driver cannot
+/// map it.
 GLuint make_mapped(const Gl& gl, GLenum target, std::size_t bytes, GLbitfield access, void*& mapped) {
   GLuint buffer = 0;
   const auto size = static_cast<GLsizeiptr>(bytes);
@@ -22,7 +25,7 @@ GLuint make_mapped(const Gl& gl, GLenum target, std::size_t bytes, GLbitfield ac
   return buffer;
 }
 
-/// A buffer that the shader finds at its binding.
+/// Makes a buffer at the shader's binding `binding`.
 GLuint make_bound(const Gl& gl, ShaderBuffer binding, std::size_t bytes, GLenum usage) {
   GLuint buffer = 0;
   gl.GenBuffers(1, &buffer);
@@ -43,7 +46,7 @@ Result<void> UploadBuffer::reserve(const Gl& gl, std::size_t bytes) {
   capacity_ = 0;
   bytes = with_room(bytes);
 
-  // The old ones go first: device memory may be short. Zero is no buffer and ignored.
+  // Delete the old buffers first, because device memory may be short. The name 0 is no buffer and is ignored.
   for (const GLuint old : {device_, staging_}) gl.DeleteBuffers(1, &old);
   device_ = make_bound(gl, binding_, bytes, GL_DYNAMIC_DRAW);
   if (gl.BufferStorageEXT)

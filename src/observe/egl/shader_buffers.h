@@ -9,41 +9,44 @@
 
 namespace barehand {
 
-// Buffers of the shader and the memory that a thread without the context writes and reads for it. Where the driver can
-// (GL_EXT_buffer_storage), that memory is the driver's own and stays mapped. All of them only grow: a frame like the
-// one before allocates nothing. What needs the context takes `Gl`; the buffers go with the context.
+// Buffers of the shader, and the memory through which a thread without the context writes and reads them. If the driver
+// supports GL_EXT_buffer_storage, this memory is the driver's own and stays mapped. Buffers only grow, so that frames
+// of similar size allocate nothing. Functions that need the context take a `Gl`; the buffers are destroyed with the
+// context.
 
-/// To the device. The shader reads from the device's own memory, as it does so many times.
+/// A buffer for data that is sent to the device. The shader reads a copy in the device's own memory, because it reads
+/// the data many times.
 class UploadBuffer {
  public:
   explicit UploadBuffer(ShaderBuffer binding) : binding_(binding) {}
 
   bool holds(std::size_t bytes) const { return bytes <= capacity_; }
-  /// What is in it is lost if it grows.
+  /// Makes room for `bytes`. If the buffer has to grow, its content is lost.
   Result<void> reserve(const Gl& gl, std::size_t bytes);
-  /// `capacity` bytes to write to while the device is idle.
+  /// The reserved memory, to be written only while the device is idle.
   void* memory() { return mapped_ ? mapped_ : memory_.data(); }
-  /// The first bytes of the memory go to the shader.
+  /// Copies the first `bytes` of the memory to the device.
   void send(const Gl& gl, std::size_t bytes) const;
 
  private:
   ShaderBuffer binding_;
   std::size_t capacity_ = 0;
   GLuint device_ = 0, staging_ = 0;
-  void* mapped_ = nullptr;         // of the staging buffer
-  std::vector<std::byte> memory_;  // where it cannot stay mapped
+  void* mapped_ = nullptr;         // the staging buffer's memory; null if it cannot stay mapped
+  std::vector<std::byte> memory_;  // used if the staging buffer cannot stay mapped
 };
 
-/// From the device. The shader writes straight to it.
+/// A buffer for data that is received from the device. The shader writes directly to it.
 class ReadBackBuffer {
  public:
   explicit ReadBackBuffer(ShaderBuffer binding) : binding_(binding) {}
 
   bool holds(std::size_t bytes) const { return bytes <= capacity_; }
   Result<void> reserve(const Gl& gl, std::size_t bytes);
-  /// To be issued between the shader and the fence that is waited for before receive().
+  /// Orders the memory accesses. Must be called after the dispatch of the shader and before the fence that is waited
+  /// for.
   void order_after_shader(const Gl& gl) const;
-  /// The first bytes of what the shader has written go to the memory.
+  /// Makes the first `bytes` of the shader's results available in memory().
   Result<void> receive(const Gl& gl, std::size_t bytes);
   const void* memory() const { return mapped_ ? mapped_ : memory_.data(); }
 
@@ -52,7 +55,7 @@ class ReadBackBuffer {
   std::size_t capacity_ = 0;
   GLuint buffer_ = 0;
   const void* mapped_ = nullptr;
-  std::vector<std::byte> memory_;  // where it cannot stay mapped
+  std::vector<std::byte> memory_;  // used if the buffer cannot stay mapped
 };
 
 }  // namespace barehand

@@ -26,7 +26,8 @@ namespace {
 struct Pixel {
   int u, v;
 };
-/// Where the point lies in the maps of the region of interest; may be outside. Needs z > 0.
+/// The pixel of the region of interest onto which the point `p` projects; it may be outside the region. `p` must have z
+/// > 0.
 Pixel pixel_of(const HandObservation& observation, const Eigen::Vector3d& p) {
   const Eigen::Vector2d uv = observation.frame->camera.project(p);
   return {static_cast<int>(std::lround(uv.x())) - observation.u0,
@@ -74,7 +75,7 @@ std::size_t ObservedCloud::nearest(const Eigen::Vector3d& p, std::size_t guess) 
   float distance_sq = 0;
   nanoflann::KNNResultSet<float> result(1);
   result.init(&best, &distance_sq);
-  result.addPoint((index_->points[guess] - query).squaredNorm(), guess);  // only what is nearer is looked at
+  result.addPoint((index_->points[guess] - query).squaredNorm(), guess);  // limits the search to nearer points
   index_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
   return best;
 }

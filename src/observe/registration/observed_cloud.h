@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// The hand points of one frame with their normals, indexed for nearest-neighbour search. Refers to the observation:
-/// nothing but reset() may be called after that has gone.
+/// The hand points of one frame with their normals, indexed for nearest-neighbour search. It refers to the observation:
+/// once that is destroyed, only reset() may be called.
 class ObservedCloud {
  public:
   ObservedCloud();
@@ -17,20 +17,20 @@ class ObservedCloud {
   ObservedCloud(ObservedCloud&&) noexcept;
   ObservedCloud& operator=(ObservedCloud&&) noexcept;
 
-  /// Another frame's points, in the same memory.
+  /// Loads the points of another frame and reuses the memory.
   void reset(const HandObservation& observation);
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
-  /// Camera frame [m].
+  /// Point `i` in the camera frame [m].
   Eigen::Vector3d point(std::size_t i) const;
-  /// Unit, towards the camera; zero where undefined.
+  /// Unit normal of point `i`, towards the camera; zero where undefined.
   Eigen::Vector3d normal(std::size_t i) const;
   Eigen::Vector3d centroid() const;
-  /// Index of the point nearest to `p`. The cloud is not empty. Any index is a valid guess; a near one saves most of
-  /// the search.
+  /// Index of the point nearest to `p`. The cloud must not be empty. Any index is a valid guess; a near one saves most
+  /// of the search.
   std::size_t nearest(const Eigen::Vector3d& p, std::size_t guess) const;
-  /// An object is seen in front of `p`: nothing can be said about a surface there.
+  /// Whether an object is in front of `p`, so that the frame does not show whether there is a surface.
   bool hidden(const Eigen::Vector3d& p) const;
 
  private:

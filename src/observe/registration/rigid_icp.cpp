@@ -11,13 +11,20 @@ namespace barehand {
 
 namespace {
 
+// Robust ICP (iterative closest points) with point-to-plane and point-to-point residuals.
+
 using Eigen::Vector3d;
 
-constexpr std::size_t kCoarseStride = 2;  // of the model points in the first half of the iterations
-constexpr double kStill = 0.04;           // of the scale: after a shorter step kSkipped iterations are left out
+constexpr std::size_t kCoarseStride = 2;  // the first half of the iterations uses every second model point
+
+// After a step that is shorter than the fraction kStill of the robust scale, the next kSkipped iterations are skipped.
+constexpr double kStill = 0.04;
 constexpr int kSkipped = 3;
-constexpr double kArm = 0.05;        // m, turns a rotation into a distance
-constexpr double kHiddenCost = 0.3;  // of a model point behind an object, relative to an outlier's: hiding does not pay
+constexpr double kArm = 0.05;  // lever arm that converts a rotation to the length of a step [m]
+
+// Cost of a model point that is hidden by an object, relative to that of an outlier. It is not zero, because otherwise
+// a motion that hides the hand behind an object would have the lowest cost.
+constexpr double kHiddenCost = 0.3;
 
 /// Geman-McClure: rho(r) = r^2 / (1 + r^2 / s^2), bounded by s^2; its weight is rho' / (2 r).
 double robust_weight(double r_sq, double scale) {
@@ -32,15 +39,15 @@ Vector3d centroid_of(std::span<const OrientedPoint> points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// One registration from one start. The pivot frame sits at the model's centroid, so that rotation and translation
-/// are nearly independent.
+/// Registers a model to a cloud from given initial motions. The pivot frame is at the model's centroid, so that
+/// rotation and translation are nearly independent.
 class Registration {
  public:
   Registration(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const RegistrationParams& params)
       : model_(model), cloud_(cloud), params_(params), pivot_(centroid_of(model)), nearest_(model.size(), 0) {}
 
-  /// Iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point. Where little moves,
-  /// some before the last one are left out.
+  /// Runs the iterations [begin, end) of the annealing from `motion`, with every `stride`-th model point. Iterations
+  /// after very small steps are skipped, except for the last one.
   SE3 run(const SE3& motion, int begin, int end, std::size_t stride) {
     SE3 T_camera_pivot = motion * SE3{Eigen::Matrix3d::Identity(), pivot_};
     const double ratio = params_.scale_end / params_.scale_start;
@@ -59,7 +66,9 @@ class Registration {
   struct Fit {
     double cost = 0, rms = 0, inliers = 0;
   };
-  /// How well a motion explains the cloud: robust mean of squared nearest distances over what is not hidden.
+  /// How well the moved model fits the cloud. The cost is the robust mean of the squared distances to the nearest
+  /// points, with a constant for hidden points; rms (point-to-plane [m]) and inliers (fraction) leave out hidden
+  /// points.
   Fit fit(const SE3& motion) {
     const double scale = 2 * params_.scale_end;
     Fit fit;
@@ -87,7 +96,8 @@ class Registration {
   }
 
  private:
-  /// The data's normal where it is defined and agrees with the model's, else the model's own.
+  /// Matches model point `k` with the nearest point of the cloud. The normal is the data's if it is defined and agrees
+  /// with the model's, and the model's otherwise.
   IcpPair match(const SE3& motion, const Vector3d& in_pivot, std::size_t k, const Vector3d& moved) {
     const std::size_t i = nearest_[k] = cloud_.nearest(moved, nearest_[k]);
     const Vector3d model_normal = motion.R * model_[k].n, data_normal = cloud_.normal(i);
@@ -108,7 +118,7 @@ class Registration {
       H += r.jacobian.transpose() * w.asDiagonal() * r.jacobian;
       b += r.jacobian.transpose() * w.cwiseProduct(r.value);
     }
-    // A little damping keeps directions that no point constrains where they are.
+    // Damping makes the step zero in directions that no point constrains.
     H.diagonal().array() += 1e-9;
     H.diagonal() *= 1.001;
     const Vector6d twist = -H.ldlt().solve(b);
@@ -119,14 +129,14 @@ class Registration {
   const ObservedCloud& cloud_;
   const RegistrationParams& params_;
   Vector3d pivot_;
-  FrameVector<std::size_t> nearest_;  // of every model point when it was last matched: most likely still near
+  FrameVector<std::size_t> nearest_;  // for each model point its last match, where the next search begins
 };
 
 bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {
   return (a * pivot - b * pivot).norm() < 0.002 && log_so3(a.R.transpose() * b.R).norm() < 0.03;
 }
 
-/// Of motions that are nearly equal the first one stays.
+/// Removes all motions that are nearly equal to an earlier one.
 void leave_one_of_each(FrameVector<SE3>& motions, const Vector3d& pivot) {
   auto kept = motions.begin();
   for (const SE3& motion : motions) {
@@ -159,7 +169,7 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
   FrameVector<SE3> motions = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
-  // Far from the goal few points suffice; starts that have met go on as one.
+  // Run the first half of the iterations with fewer points, and merge starts that have converged to the same motion.
   const int coarse = params.iterations / 2, first = params.iterations / 6;
   int begin = 0;
   for (const int end : {first, coarse}) {
@@ -167,6 +177,7 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
     leave_one_of_each(motions, pivot);
     begin = end;
   }
+  // Refine each remaining motion with all points, and keep the best plausible one.
   IcpResult best;
   double best_cost = std::numeric_limits<double>::infinity();
   for (const SE3& coarse_motion : motions) {

@@ -7,7 +7,9 @@
 
 namespace barehand {
 
-/// Rigid registration of a posed hand surface to a frame (paper Sec. 4.4, its [2]).
+// Rigid registration of a hand's surface to the depth data of a frame (ICP, iterative closest points).
+
+/// Settings of the rigid registration of a posed hand surface to a frame (paper Sec. 4.4 and its reference [2]).
 struct RegistrationParams {
   bool enabled = true;
   int model_points = 200;
@@ -35,8 +37,8 @@ void visit(V& v, RegistrationParams& p) {
   v("slack", p.slack, 0.0, 1.0, "m, motion that is accepted at any frame interval (rotation: slack / 0.1 m)");
 }
 
-/// Registration of the previous hand surface to the new frame: the large global motion. It may be faster than slack
-/// allows by these times the frame interval.
+/// Settings of the registration of the previous hand surface to the new frame, which yields the large global motion.
+/// The motion may exceed `slack` by these speeds times the frame interval.
 struct IcpParams : RegistrationParams {
   double max_speed = 4.0;
   double max_angular_speed = 20;
@@ -50,7 +52,7 @@ void visit(V& v, IcpParams& p) {
   v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is rejected");
 }
 
-/// Motion beyond these is not believed.
+/// Largest plausible motion.
 struct MotionBound {
   double shift;  ///< [m] of the model's centroid
   double angle;  ///< [rad]
@@ -70,7 +72,8 @@ struct IcpResult {
   bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
 };
 
-/// Best of three starts: identity, shift of the centroid, `last_motion` (already scaled to this frame interval).
+/// Registers `model` to `cloud`. The result is the best of three starts: identity, shift of the centroid, and
+/// `last_motion` (already scaled to this frame interval).
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
                       const MotionBound& bound, const RegistrationParams& params);
 
@@ -79,7 +82,8 @@ struct IcpPair {
   Eigen::Vector3d model, data, normal;
 };
 /// Residuals (point-to-plane, then the three point-to-point components, not weighted) of a pair whose model point,
-/// given in a frame at the pivot, was moved by `T_camera_pivot`; and their derivative by the boxplus twist.
+/// given in a frame at the pivot, was moved by `T_camera_pivot`; and their derivative with respect to the boxplus
+/// twist.
 struct IcpResidual {
   Eigen::Vector4d value;
   Eigen::Matrix<double, 4, 6> jacobian;

@@ -7,8 +7,10 @@ namespace barehand {
 
 namespace {
 
-constexpr double kCell = 0.006;    // [m] at the hand's distance; coarser than the spacing of the surface points
-constexpr double kBehind = 0.012;  // [m] a point this much behind its cell's front-most point is hidden
+// Chooses points of a posed surface that face the camera and are not hidden.
+
+constexpr double kCell = 0.006;    // size of a z-buffer cell at the hand [m]; larger than the spacing of the points
+constexpr double kBehind = 0.012;  // a point this far behind its cell's front-most point is hidden [m]
 
 }  // namespace
 
@@ -25,7 +27,7 @@ void VisiblePoints::find_facing(const HandSurface& surface, const HandPose& pose
   }
 }
 
-// What lies behind another part of the hand, by a z-buffer of coarse cells.
+// Removes points behind another part of the hand, found with a z-buffer of coarse cells.
 void VisiblePoints::remove_hidden(const Intrinsics& camera) {
   double mean_z = 0;
   for (const Facing& f : facing_) mean_z += f.point.p.z() / static_cast<double>(facing_.size());
@@ -35,7 +37,7 @@ void VisiblePoints::remove_hidden(const Intrinsics& camera) {
     const Eigen::Array2d uv = camera.project(f.point.p).array() / cell_px;
     lo = lo.min(uv), hi = hi.max(uv);
   }
-  // Points almost at the camera plane would ask for a huge buffer; such a pose hides nothing worth testing.
+  // Points almost in the camera plane would need a huge buffer. Such a pose is not worth the test.
   if (((hi - lo) > 2000).any()) return;
   front_.reset(static_cast<int>(hi.x() - lo.x()) + 1, static_cast<int>(hi.y() - lo.y()) + 1,
                std::numeric_limits<float>::max());

@@ -15,12 +15,12 @@ struct OrientedPoint {
   Eigen::Vector3d p, n;
 };
 
-/// Chooses what the camera sees of a hand. Keeps its memory from pose to pose.
+/// Chooses points of a hand that the camera sees. Reuses its memory.
 class VisiblePoints {
  public:
   /// At most `count` points of the posed surface that the camera sees (facing it and not behind another part of the
-  /// hand), spread evenly over the image: each stands for about the same number of pixels. Deterministic. Valid until
-  /// the next call.
+  /// hand), spread evenly over the image: each represents about the same number of pixels. The choice is deterministic.
+  /// The points are valid until the next call.
   std::span<const OrientedPoint> of(const HandSurface& surface, const HandPose& pose, const Intrinsics& camera,
                                     int count);
 

@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kCalls = 7;  // of each that count; odd, so that the median is one of them
+constexpr int kCalls = 7;  // measured calls of each observer; odd, so that the median is one of them
 
 double median(std::array<double, kCalls>& seconds) {
   std::nth_element(seconds.begin(), seconds.begin() + kCalls / 2, seconds.end());
@@ -33,11 +33,12 @@ Result<ComparisonTimes> time_comparison(const SampleBatch& batch, Observer& cpu,
     return static_cast<double>(clock.steady_us() - start) * 1e-6;
   };
 
-  // In turn, so that other load on the machine meets both alike. The first call of each is no measure: caches are cold
-  // and drivers compile.
+  // Call both in turn, so that other load on the machine affects both equally. The first call of each is not measured,
+  // because caches are cold and drivers compile.
   PatchDistances by_device;
   for (int i = -1; i < kCalls; ++i) {
     const double on_cpu = elapsed([&] { cpu.compare(batch, distances); });
+    // A changed id makes the device receive the map again.
     const SampleBatch anew{batch.surface, batch.map, i % 2 == 0 ? batch.map_id : ~batch.map_id, batch.poses,
                            batch.first_segment};
     Result<void> done;

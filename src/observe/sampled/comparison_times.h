@@ -14,12 +14,12 @@ struct ComparisonTimes {
   bool device_is_faster() const { return device < cpu; }
 };
 
-/// "a call takes 0.29 ms on the CPU and 0.12 ms on the device, which is 2.4 times as fast".
+/// Text such as "a call takes 0.29 ms on the CPU and 0.12 ms on the device, which is 2.4 times as fast".
 std::string to_text(const ComparisonTimes& times);
 
-/// Medians of some calls, after one of each that does not count. The device gets the map anew in every one of them, as
-/// it does with a frame's first level. `distances`: as the CPU sees them, also where the device fails, which is the
-/// error.
+/// Returns the median times of several calls of each, after one that is not measured. The device receives the map again
+/// in every call, as for the first level of a frame. `distances` gets the CPU's results, even if the device fails.
+/// Error: the device fails.
 Result<ComparisonTimes> time_comparison(const SampleBatch& batch, Observer& cpu, DeviceObserver& device,
                                         const Clock& clock, PatchDistances& distances);
 

@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// A device as long as it works: the batch on which it fails, and all after it, are left to the other observer. One
-/// line in the log says so.
+/// Uses a device as long as it works. The batch on which it fails, and all later ones, are compared by the other
+/// observer. The change is logged once.
 class FallbackObserver final : public Observer {
  public:
   FallbackObserver(std::unique_ptr<DeviceObserver> device, std::unique_ptr<Observer> other,
@@ -19,7 +19,7 @@ class FallbackObserver final : public Observer {
   bool on_device() const override { return device_ != nullptr; }
 
  private:
-  std::unique_ptr<DeviceObserver> device_;  ///< none once it failed
+  std::unique_ptr<DeviceObserver> device_;  ///< null after it failed
   std::unique_ptr<Observer> other_;
   std::shared_ptr<spdlog::logger> log_;
 };

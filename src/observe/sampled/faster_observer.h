@@ -10,12 +10,13 @@
 
 namespace barehand {
 
-/// Whichever is faster: the first batch is compared by the CPU and by the device several times, and what was faster
-/// compares all later ones; the log says by how much. The first batch's distances are the CPU's. A device that was
-/// chosen is given up, in mid-frame, where it fails or becomes slower than the CPU (FallbackObserver, WatchedDevice).
+/// Uses the CPU or a device, whichever is faster. The first batch is compared by both several times; the faster one
+/// compares all later batches, and the times are logged. The first batch's distances are the CPU's. A device that was
+/// chosen is given up, even within a frame, if it fails or becomes slower than the CPU (FallbackObserver,
+/// WatchedDevice).
 class FasterObserver final : public Observer {
  public:
-  /// `name`: of the device, for the log.
+  /// `name`: the device's name for the log.
   FasterObserver(std::unique_ptr<DeviceObserver> device, std::string name, std::unique_ptr<Observer> cpu,
                  std::shared_ptr<spdlog::logger> log, std::shared_ptr<const Clock> clock);
   ~FasterObserver() override;
@@ -25,7 +26,7 @@ class FasterObserver final : public Observer {
  private:
   void choose(const SampleBatch& batch, PatchDistances& distances);
 
-  std::unique_ptr<DeviceObserver> device_;  // these two until one is chosen
+  std::unique_ptr<DeviceObserver> device_;  // this and cpu_ are null once one of them is chosen
   std::unique_ptr<Observer> cpu_, chosen_;
   std::string name_;
   std::shared_ptr<spdlog::logger> log_;

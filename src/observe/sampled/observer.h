@@ -12,7 +12,10 @@
 
 namespace barehand {
 
-/// One sample's skin against the data (paper Sec. 4.1, 4.2). Weights are the pixels that the skin points cover.
+// Interfaces that compare samples of the segments' poses with the data.
+
+/// Result of comparing one sample's skin with the data (paper Sec. 4.1, 4.2). A skin point's weight is the number of
+/// pixels that it covers.
 struct PatchDistance {
   float distance = 0;  ///< sum of weight * d_x over the counted points (Eq. 1) [pixel m]
   float counted = 0;   ///< weight of the points that are neither occluded nor without data [pixel]
@@ -25,28 +28,28 @@ struct PatchDistance {
 
 /// All samples of one level and the frame they are compared with.
 struct SampleBatch {
-  const std::shared_ptr<const HandSurface>& surface;  ///< the skin; the same pointer, the same skin
+  const std::shared_ptr<const HandSurface>& surface;  ///< equal pointers mean the same skin
   const PixelMap& map;
-  std::uint64_t map_id;                                      ///< equal ids with one skin, equal maps: no need to copy
-  const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, equally many per segment
-  int first_segment = 0;                                     ///< those before it are not looked at
+  std::uint64_t map_id;  ///< for one skin, equal ids mean equal maps: no need to copy
+  const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, the same number for every segment
+  int first_segment = 0;                                     ///< earlier segments are not compared
 
-  /// Of all segments that are looked at.
+  /// Number of samples of all segments that are compared.
   int sample_count() const { return (kSegmentCount - first_segment) * static_cast<int>(poses[first_segment].size()); }
 };
-/// In the order of the poses; all zero for a segment that was not looked at.
+/// Results in the order of the poses; all zero for a segment that was not compared.
 using PatchDistances = std::array<std::vector<PatchDistance>, kSegmentCount>;
 
-/// Where the samples of a level are compared with the data. One call at a time, from any thread.
+/// Compares the samples of a level with the data. For one call at a time, from any thread.
 class Observer {
  public:
   virtual ~Observer() = default;
   virtual void compare(const SampleBatch& batch, PatchDistances& distances) = 0;
-  /// Whether a device does it, as far as is known; it may be lost in the next call.
+  /// Whether a device compares the samples at present; it may fail in the next call.
   virtual bool on_device() const { return false; }
 };
 
-/// The same on a device that may be lost at any time. After an error `distances` holds nothing of use.
+/// Like Observer, on a device that may fail at any time. After an error `distances` is meaningless.
 class DeviceObserver {
  public:
   virtual ~DeviceObserver() = default;

@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Computes the look-up table of the local trackers from an observation.
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr PixelMap::Cell kSilent{0, 0, -1, -kInfinity};  // a cell that gives no evidence
 

@@ -10,7 +10,7 @@
 namespace barehand {
 
 /// The observation in the form that the inner loop of the local trackers needs: one look-up yields everything that Eq.
-/// 1 depends on. It covers the region of interest plus a border of one pixel that stands for everything outside.
+/// 1 depends on. It covers the region of interest plus a border of one pixel that represents everything outside.
 struct PixelMap {
   /// (x, y, |z|) is the nearest hand point in the camera frame [m]. z > 0: the pixel itself is hand and this is its
   /// own point; z < 0: the pixel is not hand. Skin behind the depth `occluder_z` [m] is hidden by data that is not
@@ -22,15 +22,15 @@ struct PixelMap {
   float fx = 0, fy = 0;              ///< [pixel]
   float cx = 0, cy = 0;              ///< principal point in coordinates of this map
   std::vector<Cell> cells;           ///< row-major
-  std::vector<std::int32_t> hidden;  ///< bit s: hidden from segment s by another part of the hand
+  std::vector<std::int32_t> hidden;  ///< bit s: another part of the hand hides segment s here
   PixelRays rays;                    ///< rays of the region of interest, without the border
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * width + u; }
 };
 
-/// `missing_is_background`: a pixel without depth counts as not hand, as in the paper; otherwise it gives no evidence.
-/// Pixels outside the camera's image give no evidence; pixels outside the region of interest only are not hand.
-/// `reused`: an earlier map whose memory the new one takes over.
+/// Builds the map of an observation. `missing_is_background`: a pixel without depth counts as not hand, as in the
+/// paper; otherwise it gives no evidence. Pixels outside the camera's image give no evidence; pixels in the image but
+/// outside the region of interest are not hand. `reused`: an earlier map whose memory the new one takes over.
 PixelMap make_pixel_map(const HandObservation& observation, bool missing_is_background, Workers& workers,
                         PixelMap reused = {});
 

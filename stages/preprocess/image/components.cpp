@@ -6,6 +6,8 @@
 namespace barehand {
 namespace {
 
+// Splits cells into connected surfaces, and finds the cells that may be skin.
+
 bool joined(const CoarseGrid& grid, float a, float b) {
   return std::abs(a - b) < same_surface_step(std::min(a, b), static_cast<float>(grid.camera.fx));
 }

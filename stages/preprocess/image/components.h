@@ -26,8 +26,9 @@ struct Components {
 /// Splits the cells of `mask` (non-zero, with depth) into components. Reuses the allocations of `out`.
 void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Components& out);
 
-/// Finds the cells that may be skin: by their own colour where it is clear, else by the clear cells they are joined to
-/// without a depth step (dark, overexposed, pale or missing colour). Without colour: everything measured.
+/// Finds the cells that may be skin. Cells with clear colours are decided by their own colour; others (dark,
+/// overexposed, pale or without colour) by the clear cells to which they are joined without a depth step. Without
+/// colour, all measured cells are candidates.
 class CandidateFinder {
  public:
   void find(const CoarseGrid& grid, const PreprocessParams& params, Image<std::uint8_t>& mask);

@@ -6,13 +6,13 @@
 
 namespace barehand {
 
-/// Members numbered from 0 in sets that grow together (union-find). A set's root is its smallest member. Keeps its
-/// allocation.
+/// Disjoint sets of members that are numbered from 0 (union-find). A set's root is its smallest member. Reuses its
+/// memory.
 class DisjointSets {
  public:
   void clear() { parent_.clear(); }
   std::size_t size() const { return parent_.size(); }
-  /// A new member, in a set of its own.
+  /// Adds a member in a set of its own, and returns its number.
   std::int32_t add() {
     parent_.push_back(static_cast<std::int32_t>(parent_.size()));
     return parent_.back();
@@ -21,7 +21,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// Makes one set of two members' sets; its root.
+  /// Joins the sets of two members, and returns the root.
   std::int32_t join(std::int32_t a, std::int32_t b) {
     const auto [low, high] = std::minmax({root(a), root(b)});
     return parent_[high] = low;

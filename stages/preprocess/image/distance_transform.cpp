@@ -5,7 +5,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int32_t kFar = 1 << 13;  // farther than any image is wide, and its square still fits
+constexpr std::int32_t kFar = 1 << 13;  // larger than any image, but its square still fits
 
 }  // namespace
 
@@ -13,7 +13,7 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
   const int width = mask.width(), height = mask.height();
   nearest.reset(width, height, -1);
   row_.reset(width, height, -kFar);
-  // Down, then up each column: whole rows at a time, so that it vectorises.
+  // Find the nearest set row in each column, downwards and then upwards: whole rows at a time, so that it vectorises.
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* set = mask.row(v);
     std::int32_t* own = row_.row(v);
@@ -25,7 +25,7 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
     const std::int32_t* below = row_.row(v + 1);
     for (int u = 0; u < width; ++u) own[u] = std::abs(below[u] - v) < std::abs(own[u] - v) ? below[u] : own[u];
   }
-  // Along each row: lower envelope of the parabolas (x - u)^2 + (v - row(u))^2.
+  // Along each row, compute the lower envelope of the parabolas (x - u)^2 + (v - row(u))^2.
   column_.resize(width);
   from_.resize(width);
   for (int v = 0; v < height; ++v) {

@@ -8,8 +8,8 @@
 namespace barehand {
 
 /// The extended distance transform of the paper (Sec. 4.1, Fig. 4): for every pixel the index of a set pixel that is
-/// nearest in the image plane. Exact Euclidean distance in linear time (Meijster et al. 2000); of equally near pixels
-/// the choice is fixed. -1 everywhere if no pixel is set.
+/// nearest in the image plane. Exact Euclidean distance in linear time (Meijster et al. 2000); among equally near
+/// pixels the choice is deterministic. -1 everywhere if no pixel is set.
 class NearestPixelTransform {
  public:
   /// `mask`: non-zero = set. `nearest` gets the mask's size; index = v * width + u.

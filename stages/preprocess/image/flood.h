@@ -9,15 +9,16 @@
 
 namespace barehand {
 
-/// What is known of a pixel before its neighbours are asked.
+/// What a pixel's own data says about it. Open pixels are decided by their neighbours.
 enum class Evidence : std::uint8_t { none = 0, hand = 1, other = 2, open = 3 };
 
-/// Decides open pixels by their decided neighbours, most similar colours first (a watershed): skin in shadow joins the
-/// skin beside it before a sleeve reaches it. Deterministic: first come, first served within a similarity.
+/// Decides open pixels by their decided neighbours, most similar colours first (a watershed), so that skin in shadow
+/// joins the neighbouring skin and not a sleeve. Deterministic: within a level of similarity, pixels are decided in the
+/// order in which they were reached.
 class Flood {
  public:
-  /// `joined(i, j)`: neighbours i and j lie on one surface. Colour: black = none. Pixels that no decided one
-  /// reaches stay open.
+  /// `joined(i, j)`: neighbours i and j lie on one surface. Colour: black = none. Pixels that are joined to no decided
+  /// pixel stay open.
   template <class Joined>
   void run(Image<Evidence>& evidence, const Image<Rgb>& colour, const Joined& joined) {
     for (std::vector<Step>& bucket : buckets_) bucket.clear();
@@ -44,9 +45,9 @@ class Flood {
   }
 
  private:
-  static constexpr int kLevels = 12;
-  static constexpr int kLevelWidth = 6;  // channel counts
-  static constexpr int kUnknownLevel = 6;
+  static constexpr int kLevels = 12;       // levels of similarity, from equal to most different
+  static constexpr int kLevelWidth = 6;    // range of colour differences in a level [channel counts]
+  static constexpr int kUnknownLevel = 6;  // level of a pair without colour
   struct Step {
     std::int32_t pixel;
     Evidence evidence;

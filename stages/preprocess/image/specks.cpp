@@ -5,7 +5,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kSpeckArea = 3e-5;  // m^2: less than half a fingertip
+constexpr double kSpeckArea = 3e-5;  // smaller parts are removed [m^2]; less than half a fingertip
 
 }  // namespace
 

@@ -9,15 +9,15 @@
 
 namespace barehand {
 
-/// Clears parts of a mask, joined through eight neighbours, that are smaller than half a fingertip. Keeps its
-/// allocations.
+/// Clears the 8-connected parts of a mask that are smaller than half a fingertip. Reuses its memory.
 class SpeckRemover {
  public:
-  /// `depth` [m] of the same size; that of a part is read at its centre of gravity (half a metre if there is none).
+  /// `depth` [m] must have the size of `mask`. The depth of a part is read at its centre of gravity; without a
+  /// measurement there, half a metre is assumed.
   void remove(const Intrinsics& camera, const Image<float>& depth, Image<std::uint8_t>& mask);
 
  private:
-  /// Neighbouring pixels of a row.
+  /// A run of set pixels in a row.
   struct Run {
     int v, begin, end;  // columns [begin, end)
   };
@@ -28,8 +28,8 @@ class SpeckRemover {
   void find_runs(const Image<std::uint8_t>& mask);
 
   std::vector<Run> runs_;
-  DisjointSets sets_;        // of runs: one a part
-  std::vector<Part> parts_;  // at their roots
+  DisjointSets sets_;        // sets of runs, one per part
+  std::vector<Part> parts_;  // indexed by the root run of a part
 };
 
 }  // namespace barehand

@@ -7,12 +7,12 @@
 
 namespace barehand {
 
-/// Sums over square windows; what lies outside the image counts nothing.
+/// Sums over square windows; pixels outside the image count as zero.
 template <typename T>
 class WindowSum {
  public:
-  /// `out`, of the size of `in`: sum over the pixels at most `radius` columns and rows away, always added in the same
-  /// order (a running sum would keep rounding errors of what has left the window).
+  /// Computes for every pixel of `in` the sum over the pixels at most `radius` columns and rows away. They are always
+  /// added in the same order; a running sum would keep rounding errors of pixels that have left the window.
   template <typename In>
   void compute(const Image<In>& in, int radius, Image<T>& out) {
     const int width = in.width(), height = in.height();
@@ -32,7 +32,7 @@ class WindowSum {
   }
 
  private:
-  std::vector<T> padded_;  // sums over the rows of a window, with a margin of nothing
+  std::vector<T> padded_;  // sums of the columns over the rows of a window, with a margin of zeros
 };
 
 }  // namespace barehand
