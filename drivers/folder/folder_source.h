@@ -11,13 +11,13 @@ namespace barehand {
 
 /// Which frames of a recording are played, and in which order.
 struct FolderRange {
-  std::optional<std::int64_t> start;  ///< first frame; not given: the first frame, backwards the last
+  std::optional<std::int64_t> start;  ///< number of the first frame; none: the first one or, backwards, the last one
   std::int64_t step = 1;              ///< every step-th frame; negative plays backwards, down to frame 0
 };
 
-/// Plays a recording folder (docs/formats.md). Frames keep the recording's own numbers and time stamps, also
-/// backwards, where time runs back. Unreadable depth and frames that FrameOrder does not use come as SkippedFrame; play
-/// goes on.
+/// Plays a recording folder (docs/formats.md). Frames keep the recording's own numbers and time stamps, also backwards,
+/// where time stamps decrease. A frame whose depth cannot be read, or that FrameOrder rejects, comes as SkippedFrame,
+/// and playing goes on.
 class FolderSource : public FrameSource {
  public:
   /// Errors: those of open_recording, a start outside the recording, a step of 0.
@@ -28,7 +28,7 @@ class FolderSource : public FrameSource {
   std::string name() const override { return "folder:" + recording_.directory; }
 
   const Recording& recording() const { return recording_; }
-  /// Number of events `next` will deliver before the end: for progress.
+  /// Number of events that `next` will still deliver, for showing progress.
   std::int64_t remaining() const;
 
  private:

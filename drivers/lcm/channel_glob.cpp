@@ -4,7 +4,8 @@ namespace barehand {
 
 bool matches_glob(std::string_view glob, std::string_view name) {
   std::size_t at = 0, in_name = 0;
-  auto star = std::string_view::npos;  // the last '*', and where what follows it is tried
+  auto star = std::string_view::npos;  // position of the last '*' in the glob
+  // Where in `name` the part of the glob after that '*' is being matched.
   std::size_t tried = 0;
   while (in_name < name.size()) {
     if (at < glob.size() && glob[at] == '*') {

@@ -5,11 +5,11 @@
 
 namespace barehand {
 
-/// Whether a channel's name is what a glob says, where '*' stands for any bytes, '?' for one, and everything else,
-/// brackets and back slashes too, for itself.
+/// Whether a glob matches a channel's whole name. '*' stands for any bytes, '?' for one byte, and everything else,
+/// brackets and backslashes too, for itself.
 bool matches_glob(std::string_view glob, std::string_view name);
 
-/// The same as the regular expression that LCM wants.
+/// The regular expression, as LCM expects it, that matches the same names.
 std::string glob_to_regex(const std::string& glob);
 
 }  // namespace barehand

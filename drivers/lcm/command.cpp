@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kFarthest = 100;  // m, as in a pose file
+constexpr double kFarthest = 100;  // largest coordinate of a segment [m], as in a pose file
 
 Result<HandPose> pose_of(const command_t& message) {
   HandPose pose;

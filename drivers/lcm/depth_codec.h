@@ -15,11 +15,12 @@ enum class DepthEncoding : std::int8_t { raw16 = 0, zlib = 1, rvl_zstd = 2 };
 
 std::vector<std::uint8_t> encode_depth(const Image<std::uint16_t>& depth, DepthEncoding encoding);
 
-/// Error unless `bytes` are exactly the code of an image of this size; possible_size(width, height).
+/// Decodes an image of the given size. Errors: `bytes` are not exactly the code of such an image, or
+/// possible_size(width, height) is false.
 Result<Image<std::uint16_t>> decode_depth(std::span<const std::uint8_t> bytes, DepthEncoding encoding, int width,
                                           int height);
 
-/// Error unless possible_size(width, height).
+/// Returns an error if possible_size(width, height) is false.
 Result<void> check_image_size(std::int64_t width, std::int64_t height);
 
 }  // namespace barehand

@@ -38,7 +38,8 @@ tl::unexpected<Error> other_size(ImageSize colour, ImageSize depth) {
               "register colour to depth: the same pixel must be the same ray");
 }
 
-/// Rows of `stride` bytes; 0 = without gaps. `red` is the byte of red in a pixel of `channels` bytes.
+/// Converts an uncompressed image. `stride`: bytes from one row to the next, 0 if there are no gaps; `channels`: bytes
+/// per pixel; `red`: index of the red byte in a pixel.
 Result<Image<Rgb>> raw_colour(Bytes data, ImageSize size, std::int64_t stride, int channels, int red) {
   if (auto possible = check_image_size(size.width, size.height); !possible) return tl::unexpected(possible.error());
   const std::int64_t row = static_cast<std::int64_t>(size.width) * channels;

@@ -7,15 +7,17 @@
 
 namespace barehand {
 
-// Other projects' frame types leave out the intrinsics: without `camera` their frames are errors.
+// Frame types of other projects. They carry no intrinsics: `camera` must give them, or else every frame is an error.
 
-// Colour that is damaged, or of another size and so not registered to depth, is left out, and the frame says why.
+// Colour that is damaged, or that differs in size from depth and so is not registered to it, is left out; the frame's
+// `colour_fault` says why.
 
-/// Depth in millimetres, raw or zlib; anything else is an error. Colour raw RGB or JPEG.
+/// Reads depth in millimetres, raw or zlib (anything else is an error), and colour as raw RGB or JPEG.
 Result<std::shared_ptr<RgbdFrame>> decode_kinect(const kinect::frame_msg_t& message, const GivenIntrinsics& camera,
                                                  std::int64_t number);
 
-/// The images DEPTH_MM or DEPTH_MM_ZIPPED and, where there is one, LEFT as RGB, BGR, grey or JPEG.
+/// Reads the depth image DEPTH_MM or DEPTH_MM_ZIPPED and, where there is one, the colour image LEFT (RGB, BGR, grey or
+/// JPEG).
 Result<std::shared_ptr<RgbdFrame>> decode_images(const bot_core::images_t& message, const GivenIntrinsics& camera,
                                                  std::int64_t number);
 

@@ -16,12 +16,12 @@ struct FrameEncoding {
   int jpeg_quality = 92;  ///< 1..100
 };
 
-/// The message of a frame; `seq` becomes the frame's number. A frame whose depth or colour differ in size from its
-/// intrinsics is an error.
+/// Encodes a frame; its number becomes `seq`. A frame whose depth or colour differs in size from its intrinsics is an
+/// error.
 Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& encoding);
 
-/// The frame of a message. Sizes, intrinsics, depth unit and depth are checked; what lies is an error. Colour that lies
-/// is left out, and the frame says why.
+/// Decodes a message. Errors: an impossible size, implausible intrinsics or depth unit, damaged depth. Invalid colour
+/// is left out, and the frame's `colour_fault` says why.
 Result<std::shared_ptr<RgbdFrame>> decode_frame(const rgbd_frame_t& message);
 
 }  // namespace barehand

@@ -5,7 +5,7 @@ namespace {
 
 constexpr int kDouble = 8;
 
-/// utime, frame_number, sensor, hand_id, handedness, status: how every hand message starts.
+/// The fields with which every hand message starts: utime, frame_number, sensor, hand_id, handedness, status.
 void walk_hand_header(WireWalker& walker) {
   walker.skip(8 + 8);
   walker.string();

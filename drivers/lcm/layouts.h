@@ -12,8 +12,9 @@
 
 namespace barehand {
 
-/// The layout of every message type that is received, field by field as in its .lcm file: what decode_message walks
-/// over before it lets the generated decoder run.
+/// Steps over the fields of a message type in the order of its .lcm file, which checks every length in it.
+/// decode_message does this before it calls the generated decoder. There is one overload for every type that is
+/// received.
 void walk(WireWalker& walker, const rgbd_frame_t*);
 void walk(WireWalker& walker, const command_t*);
 void walk(WireWalker& walker, const hand_state_t*);

@@ -10,31 +10,31 @@
 #include "io/lcm/lcm_bus.h"
 
 struct _lcm_recv_buf_t;
-struct _lcm_subscription_t;  // liblcm's own
+struct _lcm_subscription_t;  // types of liblcm
 
 namespace barehand {
 
-/// One thread that receives the messages of a bus and hands them on, undecoded, until it is destroyed. At most one
-/// per bus. The handler must be quick: LCM drops the newest message when its queue is full.
+/// A thread that receives the messages of a bus and passes them on, undecoded, until it is destroyed. A bus may have at
+/// most one listener. The handler must be quick: LCM drops the newest message when its queue is full.
 class LcmListener {
  public:
   /// Called on the listener's thread; the bytes are valid during the call.
   using Handler = std::function<void(const std::string& channel, WireBytes message)>;
 
-  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". A glob that liblcm refuses leaves the connection
-  /// broken.
+  /// `channels` is a glob (matches_glob) in UTF-8: "*RGBD_FRAME". If liblcm rejects it, broken() is true.
   LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler);
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;
   LcmListener& operator=(const LcmListener&) = delete;
 
-  /// The connection broke; nothing more will come.
+  /// Whether the connection broke; then nothing more arrives.
   bool broken() const { return broken_; }
 
  private:
   void run();
-  /// Subscriptions go through LCM's C interface: its C++ one crashes in builds with -fsanitize=undefined (g++ 12 gets
-  /// `(subs->handler->*subs->handlerMethod)(...)` of lcm-cpp-impl.hpp wrong).
+  /// Called by liblcm for each message. Subscriptions use LCM's C interface, because its C++ interface crashes in
+  /// builds with -fsanitize=undefined (g++ 12 miscompiles `(subs->handler->*subs->handlerMethod)(...)` of
+  /// lcm-cpp-impl.hpp).
   static void hand_on(const _lcm_recv_buf_t* buffer, const char* channel, void* listener);
 
   std::shared_ptr<LcmBus> bus_;

@@ -39,7 +39,7 @@ void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
 }
 
 void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
-  constexpr std::int64_t kReordered = 32;  // messages; a larger step back is a sender that started again
+  constexpr std::int64_t kReordered = 32;  // messages; a larger step back means that the sender was restarted
   const auto [last, first] = last_seq_.try_emplace(channel, seq);
   const std::int64_t step = seq - last->second;
   if (!first && step > 1) counts_.lost += step - 1;
@@ -99,7 +99,8 @@ SourceEvent LcmLiveSource::take_next() {
   return event;
 }
 
-/// Frames of two sensors make no sequence. What else waits is no longer counted as received.
+/// Accepts frames of one channel only, since those of two sensors are not one sequence. Waiting messages of other
+/// channels are dropped and no longer count as received.
 void LcmLiveSource::choose(const std::string& channel) {
   const std::lock_guard lock(mutex_);
   if (!options_.channel.empty() || !chosen_.empty()) return;

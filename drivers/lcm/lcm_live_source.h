@@ -17,22 +17,21 @@
 namespace barehand {
 
 struct LcmLiveOptions {
-  std::string channel = {};  ///< glob; "": of *RGBD_FRAME the first channel that brings a frame, and no other
+  std::string channel = {};  ///< glob; "": the first channel like *RGBD_FRAME on which a frame arrives
   GivenIntrinsics foreign = {};
-  std::size_t capacity =
-      1;  ///< messages that may wait; 1: the newest wins (tracking), more: none is missed (recording)
+  std::size_t capacity = 1;  ///< messages that may wait: 1 to track the newest, more to record all
 };
 
 /// Counts since the start: received = delivered + replaced + waiting.
 struct LcmLiveCounts {
   std::int64_t received = 0;
-  std::int64_t replaced = 0;  ///< the oldest waiting, thrown away because a newer one needed its place
-  std::int64_t lost = 0;      ///< numbered by the sender (seq) but never arrived
+  std::int64_t replaced = 0;  ///< messages dropped while they waited, because newer ones arrived
+  std::int64_t lost = 0;      ///< messages that the sender numbered (seq) but that never arrived
 };
 
 /// Frames from a live LCM bus. A thread receives and keeps the newest messages; `next` decodes the oldest of them. A
-/// message of a wrong type, a damaged one and one that FrameOrder does not use come as SkippedFrame. Frames of channels
-/// that were not chosen are told of once.
+/// message of a wrong type, a damaged one and a frame that FrameOrder rejects come as SkippedFrame. Frames on other
+/// channels than the chosen one are ignored; this is reported once.
 class LcmLiveSource : public FrameSource {
  public:
   static Result<std::unique_ptr<LcmLiveSource>> open(const std::string& url, const LcmLiveOptions& options = {});
@@ -42,7 +41,7 @@ class LcmLiveSource : public FrameSource {
   bool live() const override { return true; }
   std::string name() const override { return name_of(pattern()); }
 
-  /// "transit", the way from the sender, and "inbox", the messages that wait here.
+  /// "transit" counts the messages on the way from the sender, "inbox" those that wait here.
   std::vector<QueueHealth> queues() const override;
   LcmLiveCounts counts() const;
 
@@ -61,20 +60,20 @@ class LcmLiveSource : public FrameSource {
 
   std::shared_ptr<LcmBus> bus_;
   LcmLiveOptions options_;
-  std::map<std::string, FrameOrder> orders_;  ///< per channel; this and what follows is used by `next` only
+  std::map<std::string, FrameOrder> orders_;  ///< per channel; only `next` uses this and the two members below
   std::int64_t foreign_number_ = 0;
-  std::deque<SourceEvent> to_come_;  ///< before anything new is read
+  std::deque<SourceEvent> to_come_;  ///< events to deliver before another message is decoded
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below, except listener_
   std::condition_variable arrived_;
   std::deque<Letter> letters_;
   LcmLiveCounts counts_;
   std::map<std::string, std::int64_t> last_seq_;
-  std::string chosen_;  ///< the one channel that is heard; "": all of the pattern
-  std::string other_;   ///< another one with frames
+  std::string chosen_;  ///< the only channel that is accepted; "": every channel of the pattern
+  std::string other_;   ///< another channel on which frames arrive
   bool told_of_other_ = false;
 
-  LcmListener listener_;  ///< last: its thread uses everything above
+  LcmListener listener_;  ///< declared last: its thread uses the members above
 };
 
 }  // namespace barehand

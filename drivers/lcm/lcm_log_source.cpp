@@ -16,7 +16,7 @@
 namespace barehand {
 namespace {
 
-/// How to say which channel is meant.
+/// The remedy that tells the user how to choose a channel.
 std::string how_to_choose(const std::string& channel) {
   return "choose one: run.frame_channel: " + in_quotes(channel) + " in the configuration of track, --channel " +
          shell_word(channel) + " for record and convert";
@@ -67,7 +67,7 @@ Result<void> LcmLogSource::open_files() {
   return {};
 }
 
-/// Keeps the events of the channels that were asked for; of the one channel with frames if none were.
+/// Keeps the events of the channels that were asked for or, if none were, of the only channel with frames.
 Result<void> LcmLogSource::choose() {
   const std::string& pattern = options_.channel;
   std::set<std::string> all, with_frames;
@@ -93,7 +93,7 @@ Result<void> LcmLogSource::choose() {
   return {};
 }
 
-/// As the frames were recorded, whichever way they are played.
+/// Numbers the frames in the order of their recording, in whichever direction they are played.
 void LcmLogSource::put_in_order() {
   std::map<std::string, FrameOrder> orders;
   for (std::size_t i = 0; i < frames_.size(); ++i) {

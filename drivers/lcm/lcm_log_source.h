@@ -14,42 +14,42 @@
 namespace barehand {
 
 struct LcmLogOptions {
-  std::string channel = {};  ///< a name, or a glob (matches_glob) like "CAM_*"; "": the one channel that carries frames
-  std::optional<std::int64_t> start =
-      {};                 ///< position of the first frame, from 0; not given: the first, backwards the last
-  std::int64_t step = 1;  ///< every step-th frame; negative plays backwards
+  std::string channel = {};  ///< a name, or a glob (matches_glob) like "CAM_*"; "": the only channel with frames
+  std::optional<std::int64_t> start = {};  ///< index of the first frame; none: the first or, backwards, the last
+  std::int64_t step = 1;                   ///< every step-th frame; negative plays backwards
   GivenIntrinsics foreign = {};
 };
 
 /// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of a folder or set of
-/// logs (find_logs) one after the other, never dropping one. A cut or damaged log replays every whole event; one of
-/// several without any is left out. Messages of another type, damaged messages and frames that FrameOrder does
-/// not use come as SkippedFrame. Own frames keep their numbers as far as these rise, foreign ones get their position.
+/// logs (find_logs) one after the other, without dropping any. A truncated or damaged log replays every complete event;
+/// among several logs, one without any is left out. Messages of another type, damaged messages and frames that
+/// FrameOrder rejects come as SkippedFrame. Frames in rgbd_frame_t keep their numbers as long as these increase; frames
+/// of other types are numbered by their index.
 class LcmLogSource : public FrameSource {
  public:
-  /// Errors: no LCM log, a folder without any, no matching channel (names those there are), several channels with
-  /// frames and none chosen, a start outside the log, a step of 0.
+  /// Errors: no LCM log, a folder without any, no matching channel (the error names those that exist), several channels
+  /// with frames and none chosen, a start outside the log, a step of 0.
   static Result<std::unique_ptr<LcmLogSource>> open(const std::string& path, const LcmLogOptions& options = {});
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return false; }
   std::string name() const override { return "log:" + path_; }
 
-  /// Number of events `next` will deliver before the end: for progress.
+  /// Number of events that `next` will still deliver, for showing progress.
   std::int64_t remaining() const;
-  /// Bytes of the files that belong to no whole event; 0 for a healthy log.
+  /// Number of bytes that belong to no complete event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
-  /// What was wrong with each of several logs that cannot be read, holds nothing, or is still being written.
+  /// The reason for each log that was left out: it cannot be read, holds nothing, or is still being written.
   const std::vector<Error>& left_out() const { return left_out_; }
-  /// What is to be said of the frames' times, and of drafts among the logs, in sentences.
+  /// Warnings about the frames' time stamps and about unfinished logs, in sentences.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
-  /// One event, and which of the files it is in.
+  /// An event and the index of its file.
   struct Event {
     std::size_t file;
     LogEntry entry;
-    std::int64_t number = 0;  ///< that the frame gets
+    std::int64_t number = 0;  ///< the number that its frame gets
   };
   LcmLogSource(std::string path, const LcmLogOptions& options) : path_(std::move(path)), options_(options) {}
   Result<void> open_files();
@@ -61,11 +61,11 @@ class LcmLogSource : public FrameSource {
   LcmLogOptions options_;
   std::vector<LcmLogReader> files_;
   std::vector<Error> left_out_;
-  std::vector<Event> frames_;             ///< of the chosen channels, in file order
-  std::map<std::int64_t, Error> unused_;  ///< by position: why FrameOrder does not use it
+  std::vector<Event> frames_;             ///< events of the chosen channels, in the order of the files
+  std::map<std::int64_t, Error> unused_;  ///< by index in frames_: why FrameOrder rejects the frame
   std::vector<std::string> doubts_;
   std::int64_t next_ = 0;
-  std::size_t open_ = 0;  ///< the only one of the files that may be open
+  std::size_t open_ = 0;  ///< index of the only file that may be open
 };
 
 }  // namespace barehand

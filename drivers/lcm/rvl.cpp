@@ -3,6 +3,7 @@
 namespace barehand {
 namespace {
 
+/// Writes and reads numbers as nibbles, as rvl_encode describes.
 class NibbleWriter {
  public:
   void number(std::uint32_t value) {
@@ -27,7 +28,7 @@ class NibbleWriter {
 class NibbleReader {
  public:
   explicit NibbleReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  /// False at the end of the code and for a number of more than 30 bits.
+  /// Returns false at the end of the code and for a number of more than 30 bits.
   bool number(std::uint32_t& value) {
     value = 0;
     for (int shift = 0; shift < 30; shift += 3) {

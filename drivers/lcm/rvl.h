@@ -8,16 +8,17 @@
 
 namespace barehand {
 
-/// RVL (Wilson, "Fast lossless depth image compression", ISS 2017): the image as runs of zeros and of measured pixels;
-/// a measured pixel as its difference to the last one. Numbers are cut into 3 bits a nibble, lowest first, the fourth
-/// bit says that more follow. Here the nibbles fill bytes high half first, so that the code is the same on any machine.
+/// Encodes depth with RVL (Wilson, "Fast lossless depth image compression", ISS 2017). Runs of zeros alternate with
+/// runs of measured pixels; a measured pixel is coded as its difference to the previous one. A number is cut into
+/// nibbles with 3 bits each, lowest first; the fourth bit says that more follow. Here the nibbles fill bytes instead of
+/// 32-bit words, high half first, so that the code is the same on any machine.
 std::vector<std::uint8_t> rvl_encode(std::span<const std::uint16_t> counts);
 
-/// Fills `counts` completely; code that is too short, too long or makes no sense is an error.
+/// Decodes an image into `counts`, all of which are filled. Code that is too short, too long or invalid is an error.
 Result<void> rvl_decode(std::span<const std::uint8_t> code, std::span<std::uint16_t> counts);
 
-/// Upper bound of the code of an image [bytes]: 17 bits per difference are at most 6 nibbles, and a run costs less
-/// than the pixels that it starts.
+/// Upper bound of the code's size [bytes]. Per pixel, a difference of 17 bits takes at most 6 nibbles, and the lengths
+/// of the runs take at most 2.
 constexpr std::size_t rvl_bound(std::size_t pixels) { return 4 * pixels + 16; }
 
 }  // namespace barehand

@@ -11,8 +11,9 @@ namespace barehand {
 
 using WireBytes = std::span<const std::uint8_t>;
 
-/// Walks over an encoded LCM message (big endian) without believing it: once a length is negative or larger than what
-/// is left, `ok` stays false. Generated decoders trust every length, so nothing reaches them before this walk.
+/// Steps over an encoded LCM message (big endian) without trusting it: once a length is negative or larger than the
+/// rest of the message, `ok` stays false. Generated decoders trust every length, so decode_message checks a message
+/// with this class first.
 class WireWalker {
  public:
   explicit WireWalker(WireBytes bytes) : left_(bytes) {}
@@ -26,7 +27,7 @@ class WireWalker {
   std::int32_t count(std::int64_t least);
 
   bool ok() const { return ok_; }
-  /// The whole message was walked over, neither less nor more.
+  /// Whether the walk ended exactly at the end of the message.
   bool complete() const { return ok_ && left_.empty(); }
 
  private:
@@ -36,12 +37,12 @@ class WireWalker {
   bool ok_ = true;
 };
 
-/// The 64-bit word number `index` of an encoded message, 0 if it is too short. Word 0 is the type's fingerprint, word
-/// 1 in every type read here the time of the measurement [us], word 2 of rgbd_frame_t its `seq`.
+/// The 64-bit word at `index` of an encoded message, 0 if the message is too short. Word 0 is the type's fingerprint;
+/// word 1 is the time stamp [us] in every type that is read here; word 2 of rgbd_frame_t is its `seq`.
 std::int64_t message_word(WireBytes message, int index);
 inline std::int64_t message_hash(WireBytes message) { return message_word(message, 0); }
 
-/// `message` encoded with its fingerprint.
+/// Encodes a message, including the fingerprint of its type.
 template <class Message>
 std::vector<std::uint8_t> encode_message(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -49,8 +50,8 @@ std::vector<std::uint8_t> encode_message(const Message& message) {
   return bytes;
 }
 
-/// Decodes a message whose layout `walk(WireWalker&, const Message*)` knows: wrong type, truncated, too long or with
-/// a lying length is an error.
+/// Decodes a message of a type for which there is a `walk(WireWalker&, const Message*)`. Errors: a message of another
+/// type, or one that is truncated, too long or contains a wrong length.
 template <class Message>
 Result<Message> decode_message(WireBytes bytes) {
   if (message_hash(bytes) != Message::getHash()) {

@@ -11,8 +11,8 @@
 
 namespace barehand {
 
-/// Passes frames and messages from a sensor's thread to whoever takes them. The number of waiting frames is bounded,
-/// and the newest win. Any thread may use it.
+/// Passes frames and messages from a sensor's thread to their consumer. The number of waiting frames is bounded, and
+/// the newest are kept. Any thread may use it.
 class EventBox {
  public:
   explicit EventBox(std::size_t capacity) : capacity_(capacity) {}
@@ -28,7 +28,7 @@ class EventBox {
     ++pushed_;
     changed_.notify_one();
   }
-  /// Adds a notice or a skipped frame; the oldest is dropped if nobody takes them.
+  /// Adds a notice or a skipped frame; the oldest one is dropped if kMostTold of them wait.
   void tell(SourceEvent event) {
     const std::lock_guard lock(mutex_);
     if (told_.size() == kMostTold) told_.pop_front();
@@ -43,7 +43,7 @@ class EventBox {
     if (!frames_.empty()) return taken(frames_);
     return std::nullopt;
   }
-  /// Counts of the frames.
+  /// Counts of the frames that were added, taken and dropped.
   QueueHealth health() const {
     const std::lock_guard lock(mutex_);
     const auto waiting = static_cast<std::int64_t>(frames_.size());

@@ -5,7 +5,8 @@
 namespace barehand {
 namespace {
 
-// us, between two loadings without a visible reason: if the bus does not report changes, and if it does.
+// Times after which OpenNI2 is loaded again although no change was seen [us]: kReloadBlindly if the devices on the bus
+// cannot be listed, kReloadAnyway if they can.
 constexpr std::int64_t kReloadBlindly = 600'000'000, kReloadAnyway = 86'400'000'000;
 
 }  // namespace
@@ -34,7 +35,7 @@ Result<void> OpenNiFinder::load() {
 }
 
 Result<std::string> OpenNiFinder::find() {
-  looked_us_ = clock_.steady_us();  // read before OpenNI2 is called, which may hang until the clock is destroyed
+  looked_us_ = clock_.steady_us();  // read first: OpenNI2 may hang until the clock is destroyed
   if (!library_)
     if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
 
@@ -58,12 +59,12 @@ Result<std::string> OpenNiFinder::find() {
 }
 
 tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
-  // Nothing at all is plugged in.
+  // No known sensor is plugged in.
   const auto plugged = usb_ ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
   std::string what = whom() + " yet" + others;
   if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor lists what is found");
 
-  // Sensors that are plugged in without a driver or a permission are named, with what to do.
+  // Name the known sensors that are plugged in, and what to do if one may not be opened.
   std::string remedy =
       "if OpenNI2 has no driver for it, copy the manufacturer's driver into OpenNI2/Drivers beside libOpenNI2.so.0";
   for (const UsbSensor& sensor : *plugged) {

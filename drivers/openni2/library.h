@@ -14,11 +14,12 @@ namespace barehand {
 /// Keeps OpenNI2 loaded in this process. OpenNI2 counts its users; the last one unloads the drivers.
 class OpenNiLibrary {
  public:
-  /// Reports that a sensor was plugged in, or was unplugged and at which address. Called on a thread of the sensor's
-  /// driver.
+  /// Reports that the sensor at the address `uri` was plugged in (`came` is true) or unplugged. Called on a thread of
+  /// the sensor's driver.
   using Changed = std::function<void(bool came, const std::string& uri)>;
 
-  /// Loads OpenNI2. From then on the calling thread, and threads that it starts, have their own working directory.
+  /// Loads OpenNI2. From then on, the working directory of the calling thread, and of threads that it starts, is
+  /// separate from that of the process.
   static Result<std::unique_ptr<OpenNiLibrary>> load(Changed changed = {});
   ~OpenNiLibrary();
   OpenNiLibrary(const OpenNiLibrary&) = delete;

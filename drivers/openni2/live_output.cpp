@@ -3,8 +3,8 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kRepeatEvery = 2'000'000;  // us
-constexpr int kMostLost = 1000;                   // a larger gap is another way of counting, not a loss
+constexpr std::int64_t kRepeatEvery = 2'000'000;  // time [us] in which a problem of one kind is reported once
+constexpr int kMostLost = 1000;  // frames; a larger gap means that the sensor counts in another way, not a loss
 
 }  // namespace
 
@@ -12,7 +12,7 @@ LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& cl
     : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
-  // Good news is always reported, since the last message must not be about a trouble that is over.
+  // A recovery always passes the filter; otherwise the last message could be about a problem that is over.
   const auto kept_back = trouble ? filter_.admit(kind) : 0;
   if (!kept_back) return;
   const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";

@@ -19,21 +19,21 @@ class LiveOutput {
   /// A frame with arbitrary content, to be filled.
   std::shared_ptr<RgbdFrame> frame() { return pool_.take(); }
   void put(FramePtr frame) { box_.put(std::move(frame)); }
-  /// Sends a message to the user. Troubles of a kind that was reported within the last two seconds are suppressed and
-  /// counted.
+  /// Sends a message to the user. A problem (`trouble`) of a kind that was reported within the last two seconds is
+  /// suppressed and counted.
   void notice(const std::string& kind, const std::string& what, const std::string& remedy = "", bool trouble = true);
   /// Reports a frame that arrived but cannot be used.
   void skip(const std::string& what, const std::string& remedy);
 
-  /// The number of the frame to which the sensor gave this index; gaps in the sensor's counting are frames that were
-  /// lost.
+  /// The frame number that belongs to the index that the sensor gave to a frame; gaps in the indices count as lost
+  /// frames.
   std::int64_t number(int index);
-  /// Call when the sensor starts to count anew.
+  /// Call when the sensor restarts its indices.
   void restart_numbers() { last_index_ = -1; }
 
   /// Any thread may take from it.
   EventBox& box() { return box_; }
-  /// Counts of the frames that arrived and that were lost before.
+  /// Counts of the frames that arrived and of those that were lost on the way.
   QueueHealth transit() const;
 
  private:

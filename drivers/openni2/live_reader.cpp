@@ -7,8 +7,8 @@
 namespace barehand {
 namespace {
 
-// A reset disturbs everything that uses the device, so it comes only after opening it again did not help, and not
-// endlessly.
+// A reset disturbs everything that uses the device. It is therefore done only after the sensor was opened
+// kSilentUntilReset times and never answered, and at most kMostResets times in a row.
 constexpr int kSilentUntilReset = 2, kMostResets = 3;
 
 }  // namespace
@@ -72,7 +72,7 @@ void LiveReader::connect() {
 }
 
 void LiveReader::follow() {
-  // Read. A sensor that delivers is healthy, whatever happened before.
+  // Read. A sensor that delivers is healthy, so failures before no longer count.
   auto loss = session_->step();
   if (stop_) return;
   if (session_->proven()) {

@@ -14,16 +14,15 @@
 namespace barehand {
 
 /// The work of a live sensor's thread: it finds the sensor, opens it and reads it. When the sensor is lost, stalls or
-/// delivers nonsense, it starts over, until it is stopped.
+/// delivers invalid images, it starts again, until it is stopped.
 class LiveReader {
  public:
-  /// `usb`: the bus to which the sensor may be connected; null: no bus is watched.
-  // `wanted` and `capacity`: see OpenNiLiveSource.
+  /// `wanted` and `capacity`: see OpenNiLiveSource. `usb`: the bus to which the sensor may be connected; null: no bus
+  /// is watched.
   LiveReader(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
              std::unique_ptr<UsbBus> usb);
 
-  /// Runs until some time after a stop was requested, when the sensor's driver returns. From the request on, `clock`
-  /// is not used any more.
+  /// Runs until a stop is requested and the sensor's driver returns. `clock` is not used after the request.
   void run();
   /// Any thread may call it.
   void request_stop();

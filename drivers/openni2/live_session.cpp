@@ -9,20 +9,20 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kReadWait = 50'000;       // us, bounds the time to stop
-constexpr double kFirstDepth = 3;                // s, time that a sensor may need for its first depth image
-constexpr double kPeriods = 5;                   // this many missing frames are a stall, however slow the sensor
-constexpr std::int64_t kColourGone = 1'000'000;  // us
-constexpr int kOutOfStep = 10;                   // pairs in a row whose times do not fit
-constexpr int kDepthAlone = 5;                   // depth frames without colour; fewer may come when a stall ends
-constexpr std::int64_t kSayAfter = 1'000'000;    // us, a single odd image is not reported
-constexpr std::int64_t kClockSet = 100'000;      // us, a larger change means that the clock was set
+constexpr std::int64_t kReadWait = 50'000;       // longest wait for an image [us]; bounds the time that stopping takes
+constexpr double kFirstDepth = 3;                // time that a sensor may need for its first depth image [s]
+constexpr double kPeriods = 5;                   // frame periods that a stall lasts at least, for slow sensors
+constexpr std::int64_t kColourGone = 1'000'000;  // time without colour after which colour counts as stopped [us]
+constexpr int kOutOfStep = 10;  // frames in a row without their colour that prove that pairing does not work
+constexpr int kDepthAlone = 5;  // depth images without colour; fewer may arrive together after a stall
+constexpr std::int64_t kSayAfter = 1'000'000;  // a fault of the images is reported when it has lasted this long [us]
+constexpr std::int64_t kClockSet = 100'000;    // a larger change of the host's clock means that it was set [us]
 
 constexpr const char* kReplug =
     "it is reopened; if this continues, reconnect it to a USB port that no other device shares";
 
-/// Host time at the zero of the steady clock [us]. The process may be interrupted between the readings, so the
-/// quickest attempt counts.
+/// Host time at the zero of the steady clock [us]. The process may be interrupted between reading the two clocks, so
+/// the quickest of several attempts counts.
 std::int64_t host_epoch(const Clock& clock) {
   std::int64_t epoch = 0, quickest = INT64_MAX;
   for (int i = 0; i < 4 && quickest > 20; ++i) {
@@ -83,7 +83,7 @@ void LiveSession::take(OpenNiSensor::Picture picture) {
 }
 
 void LiveSession::deliver(const Pairing::Pair& pair) {
-  // Number and stamp the frame.
+  // Number the frame and compute its capture time.
   const openni::VideoFrameRef& depth = pair.depth.picture;
   auto frame = output_.frame();
   frame->number = output_.number(depth.getFrameIndex());
@@ -106,14 +106,14 @@ void LiveSession::deliver(const Pairing::Pair& pair) {
 }
 
 void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
-  // The sensor's clock.
+  // Map the sensor's time stamp to the host's steady clock.
   const auto mapped = device_clock_.map(depth.device_us, depth.arrival_us);
   if (mapped.jumped_by)
     output_.notice("sensor clock",
                    formatted("the sensor's clock jumped by %+.3f s; the time stamps are aligned with it again",
                              1e-6 * static_cast<double>(*mapped.jumped_by)));
 
-  // The host's clock.
+  // Convert to time since the epoch; report when the host's clock was set.
   const std::int64_t epoch = host_epoch(clock_);
   if (epoch_us_ && std::abs(epoch - *epoch_us_) > kClockSet)
     output_.notice("host clock", formatted("this machine's clock was set by %+.3f s; the time stamps follow it",
@@ -125,7 +125,7 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
 void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
   // A frame without usable colour is delivered without it.
   const openni::VideoMode& mode = sensor_->colour_mode();
-  frame.colour_fault = picture ? "it is incomplete" : "";  // that colour stopped is said by watch_colour()
+  frame.colour_fault = picture ? "it is incomplete" : "";  // watch_colour() reports that there is none
   if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
     frame.colour.reset(0, 0);
     return;
@@ -144,7 +144,8 @@ void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture
 }
 
 void LiveSession::verify_step(bool matched) {
-  // OpenNI2 pairs images by their numbers, and claims to do so even if the driver cannot expose in step.
+  // OpenNI2 pairs images by their numbers, and reports them as paired even if the driver cannot expose at the same
+  // time.
   const bool colour_runs = now_us_ - last_colour_us_ < kColourGone / 4;
   in_step_ += matched && sensor_->paired();
   out_of_step_ = matched || !colour_runs || !sensor_->paired() ? 0 : out_of_step_ + 1;
@@ -156,11 +157,11 @@ void LiveSession::pair_again() {
   if (pair_wanted_ && pairings_left_-- > 0) sensor_->pair_streams(true);
 }
 
-/// Call when both cameras deliver separately after none delivered in step: either the sensor was slow, or pairing
-/// blocked both streams.
+/// Call when both cameras deliver again after pairing was switched off because no depth arrived: either the sensor was
+/// slow, or pairing had blocked both streams.
 void LiveSession::resume_step() {
   pairing_held_all_ = false;
-  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // paired again, they stopped at once
+  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // pairing has stopped them again
   pair_again();
 }
 
@@ -179,7 +180,7 @@ void LiveSession::judge(DepthFault fault) {
   switch (fault) {
     case DepthFault::none:
       break;
-    case DepthFault::empty:  // valid but empty: tracking goes on, and a hand in it is lost
+    case DepthFault::empty:  // a valid image: tracking continues without a hand
       if (now_us_ - fault_since_us_ > kSayAfter)
         output_.notice("empty", "no pixel has depth", "uncover the lens, and check that something is within its range");
       break;
@@ -196,9 +197,9 @@ void LiveSession::judge(DepthFault fault) {
 }
 
 void LiveSession::watch_colour() {
-  // While the streams are paired, a colour camera that has stopped blocks depth as well.
+  // In paired streams, a colour camera that has stopped blocks depth as well, so pairing is switched off.
   const bool missing = now_us_ - last_colour_us_ > kColourGone && depth_since_colour_ >= kDepthAlone;
-  if (sensor_->paired() && depth_missing_for(0.5)) {  // in step, a stopped colour camera stops depth as well
+  if (sensor_->paired() && depth_missing_for(0.5)) {
     sensor_->pair_streams(false);
     pairing_held_all_ = true;
   }
@@ -223,13 +224,13 @@ bool LiveSession::depth_missing_for(double factor) const {
 }
 
 std::optional<LiveSession::Loss> LiveSession::loss() {
-  // No depth at all.
+  // The sensor sends no depth.
   if (depth_missing_for(1)) {
     const double seconds = 1e-6 * static_cast<double>(now_us_ - last_depth_us_);
     return Loss{"stalled", formatted("stalled: no depth for %.1f s, and no error", seconds), kReplug};
   }
 
-  // Depth that is useless for too long.
+  // All depth images have been useless for too long.
   const bool useless =
       fault_ == DepthFault::repeated || fault_ == DepthFault::senseless || fault_ == DepthFault::incomplete;
   const double seconds = 1e-6 * static_cast<double>(now_us_ - fault_since_us_);

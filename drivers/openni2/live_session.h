@@ -13,8 +13,8 @@
 
 namespace barehand {
 
-/// Reads an open live sensor until it is lost: pairs its depth and colour images, stamps them with the host's time,
-/// checks them and delivers them as frames. Used by one thread.
+/// Reads an open live sensor until it is lost: pairs its depth and colour images, gives them time stamps of the host's
+/// clock, checks them and delivers them as frames. Used by one thread.
 class LiveSession {
  public:
   LiveSession(std::unique_ptr<OpenNiSensor> sensor, const OpenNiParams& params, LiveOutput& output, const Clock& clock,
@@ -41,8 +41,9 @@ class LiveSession {
   // Computes the capture time.
   void stamp(const Pairing::Stamped& depth, RgbdFrame& frame);
   void add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame);
-  // Checks whether the sensor really exposes in step.
+  // Checks whether paired streams really expose at the same time; `matched`: this depth image had its colour.
   void verify_step(bool matched);
+  // These switch the pairing on again, after colour returned or after both streams had stopped, and off for good.
   void pair_again();
   void resume_step();
   void give_up_step();
@@ -61,20 +62,20 @@ class LiveSession {
   const Clock& clock_;
   const std::atomic<bool>& stop_;
   const std::int64_t period_us_;
-  bool pair_wanted_;  ///< the sensor can expose depth and colour in step
+  bool pair_wanted_;  ///< the sensor offers to expose depth and colour at the same time
   Pairing pairing_;
   DeviceClock device_clock_;
   FramePtr before_;  ///< the last valid frame
 
-  std::int64_t now_us_, last_depth_us_, last_colour_us_;  // steady clock [us]
+  std::int64_t now_us_, last_depth_us_, last_colour_us_;  // times by the host's steady clock [us]
   int depth_since_colour_ = 0, out_of_step_ = 0;
   int in_step_ = 0;  ///< frames with colour since the streams were paired
   bool any_depth_ = false, colour_missing_ = false, pairing_held_all_ = false;
   static constexpr int kPairings = 3;
-  int pairings_left_ = kPairings;  ///< a colour camera that comes and goes must not interrupt depth each time
+  int pairings_left_ = kPairings;  ///< attempts: a colour camera that comes and goes must not interrupt depth each time
   DepthFault fault_ = DepthFault::none;
   std::int64_t fault_since_us_ = 0, black_since_us_ = 0;
-  std::optional<std::int64_t> epoch_us_;  ///< host time at the zero of the steady clock
+  std::optional<std::int64_t> epoch_us_;  ///< host time at the zero of the steady clock [us]
 };
 
 }  // namespace barehand

@@ -18,13 +18,15 @@
 namespace barehand {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{10'000};  // for the next image of a file on a slow disk
+// OpenNiFilePlayer reads an .oni file image by image, each exactly once, and pairs depth with colour; OpenNiFileSource
+// adds the first frame to play and the step between frames.
+constexpr std::chrono::milliseconds kPatience{10'000};  // longest wait for an image from a slow disk
 constexpr std::string_view kMagic = "NI10";
 constexpr const char* kWhole =
     "give a complete .oni recording: if the recorder was killed, the table of frames is missing";
 
-/// A path under which OpenNI2 does not know the file yet: it identifies a file by its name and continues where another
-/// reader of the same name stopped. The descriptor stays open, like the player's handles.
+/// A path under which OpenNI2 does not know the file yet: it identifies a file by its name, and a second reader of the
+/// same name would continue where the first one stopped. The descriptor stays open, like the player's handles.
 std::string name_of_its_own(const std::string& path) {
   return "/proc/self/fd/" + std::to_string(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
 }
@@ -47,7 +49,7 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   // Open it. Unloading OpenNI2 would destroy the player's streams, which may crash: see OpenNiSensor.
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
-  static_cast<void>(library->release());  // unloaded it would destroy the player's streams: see OpenNiSensor
+  static_cast<void>(library->release());
   auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
   if (!sensor) return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kWhole : sensor.error().remedy);
   std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
@@ -92,13 +94,13 @@ std::optional<OpenNiFilePlayer::Pairing::Pair> OpenNiFilePlayer::next_pair() {
 }
 
 SourceEvent OpenNiFilePlayer::frame_of(const Pairing::Pair& pair) {
-  // The time counts from the first image.
+  // Count the time from the first depth image.
   const openni::VideoFrameRef& depth = pair.depth.picture;
   if (!first_us_) first_us_ = pair.depth.device_us;
   const std::string name = "picture " + std::to_string(position_ - 1);
   if (!complete(depth, sensor_->depth_mode(), 2)) return SkippedFrame{error(name + " is incomplete", "")};
 
-  // Depth.
+  // Fill in the frame and its depth.
   auto frame = std::make_shared<RgbdFrame>();
   frame->number = position_ - 1;
   frame->utime = OpenNiFileSource::kFirstUtime + pair.depth.device_us - *first_us_;
@@ -106,7 +108,7 @@ SourceEvent OpenNiFilePlayer::frame_of(const Pairing::Pair& pair) {
   frame->depth_unit = depth_unit(sensor_->depth_mode().getPixelFormat());
   copy_depth(depth, sensor_->mirrored(false), frame->depth);
 
-  // Colour, if it is complete.
+  // Add colour if it is complete.
   const openni::VideoMode& mode = sensor_->colour_mode();
   if (pair.colour && complete(*pair.colour, mode, colour_bytes_per_pixel(mode.getPixelFormat())))
     copy_colour(*pair.colour, sensor_->mirrored(true), frame->colour);

@@ -11,14 +11,15 @@
 
 namespace barehand {
 
-/// Reads the images of an .oni file in the order of the file, each exactly once. The file advances only when an image
-/// is requested, and whichever image comes next is taken.
+/// Reads an .oni file image by image, in the order of the file and each exactly once, and pairs depth with colour. The
+/// file advances only when an image is requested. OpenNiFileSource adds the first frame to play and the step between
+/// frames.
 class OpenNiFilePlayer {
  public:
   /// Opens a file. Errors: it cannot be read, it is not a recording, or it has no depth.
   static Result<std::unique_ptr<OpenNiFilePlayer>> open(const std::string& path, const OpenNiParams& params);
 
-  /// The next depth image with its colour, as a frame.
+  /// The next depth image with its colour, as a frame; EndOfStream after the last one.
   SourceEvent next();
   std::int64_t frames() const { return depth_total_; }
   /// The number of the frame that `next` will deliver.

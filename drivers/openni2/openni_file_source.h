@@ -12,8 +12,8 @@ namespace barehand {
 
 class OpenNiFilePlayer;
 
-/// Plays an .oni recording: every depth image once, in order, with the colour image that belongs to it by the time
-/// stamps. Times count from the first image, which gets the time of 1 s.
+/// Plays an .oni recording: every depth image once, in order, with the colour image whose time stamp fits. Times count
+/// from the first depth image, which gets the time stamp 1 s.
 class OpenNiFileSource : public FrameSource {
  public:
   static constexpr std::int64_t kFirstUtime = 1'000'000;

@@ -5,6 +5,7 @@
 namespace barehand {
 namespace {
 
+// Longest time that the destructor waits for the driver to return.
 constexpr std::chrono::milliseconds kLongestFarewell{1500};
 
 }  // namespace

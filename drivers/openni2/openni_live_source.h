@@ -15,8 +15,8 @@ namespace barehand {
 class LiveReader;
 
 /// Frames from an OpenNI2 sensor. It opens at once and never fails: it waits for a sensor that is absent, unplugged or
-/// faulty, and reports what is wrong as SourceNotice. A thread of its own reads the sensor; the newest frames wait
-/// here.
+/// faulty, and reports what is wrong as SourceNotice. A separate thread reads the sensor and keeps the newest frames
+/// for `next`.
 class OpenNiLiveSource : public FrameSource {
  public:
   /// `wanted`: an address or a part of one, as `barehand doctor` lists them; "": the first sensor found. `capacity`:
@@ -25,13 +25,13 @@ class OpenNiLiveSource : public FrameSource {
   /// from time to time.
   OpenNiLiveSource(const std::string& wanted, const OpenNiParams& params, std::size_t capacity, const Clock& clock,
                    std::unique_ptr<UsbBus> usb = nullptr);
-  /// Waits for the sensor's driver to return, but only for a while: a driver that hangs is left behind.
+  /// Waits for the sensor's driver to return, but only for a short time; the thread of a driver that hangs is detached.
   ~OpenNiLiveSource() override;
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return true; }
   std::string name() const override { return name_; }
-  /// "transit", the way from the sensor, and "inbox", the frames that wait here.
+  /// "transit" counts the frames on the way from the sensor, "inbox" those that wait here.
   std::vector<QueueHealth> queues() const override;
 
  private:

@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-// Difference of fx and fy; a larger one means that the field of view belongs to another mode.
+// Largest relative difference of fx and fy; if they differ more, the field of view belongs to another mode.
 constexpr double kMostPixelStretch = 0.05;
 constexpr const char* kGiveIntrinsics =
     "give fx, fy, cx and cy in the configuration's openni2 group; record and convert take --fx --fy --cx --cy";
@@ -84,7 +84,7 @@ Result<void> OpenNiSensor::create_depth() {
 }
 
 void OpenNiSensor::create_colour() {
-  // A sensor may have no colour, or refuse it.
+  // A sensor may have no colour, or may fail to create the stream.
   if (!device_.hasSensor(openni::SENSOR_COLOR)) {
     shortfalls_.push_back("has no colour: skin and objects are distinguished by depth alone");
     return;
@@ -112,7 +112,7 @@ void OpenNiSensor::create_colour() {
 }
 
 void OpenNiSensor::register_colour() {
-  if (playback_) {  // a file does not state it; it holds what the recorder saw
+  if (playback_) {  // a file does not state it: colour is as it was recorded
     registered_ = true;
     return;
   }
@@ -147,7 +147,8 @@ Result<void> OpenNiSensor::choose_intrinsics() {
     return fail("does not match the given fx, fy, cx and cy", where_, "give them in pixels of its depth image");
   }
 
-  // Otherwise they follow from the field of view. Registered depth is what the colour camera would measure.
+  // Otherwise they follow from the field of view. Depth that is registered to colour has the colour camera's
+  // intrinsics.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);
   camera_.fy = height / 2.0 / std::tan(eye.getVerticalFieldOfView() / 2.0);
@@ -174,7 +175,7 @@ Result<void> OpenNiSensor::start() {
 }
 
 bool OpenNiSensor::pair_streams(bool wanted) {
-  // When asked, OpenNI2 claims that the streams are paired even if the driver refused.
+  // Use the status of this call: asked later, OpenNI2 claims that the streams are paired even if the driver refused.
   paired_ = device_.setDepthColorSyncEnabled(wanted) == openni::STATUS_OK && wanted;
   return paired_;
 }

@@ -15,9 +15,9 @@
 namespace barehand {
 
 /// An open OpenNI2 sensor or .oni file with running streams: depth and, if available, colour of the same size. Used by
-/// one thread. Closing a sensor may take as long as its driver likes. A file is only stopped and its handles live
-/// until the end of the process, because OpenNI2's player crashes about once in a hundred times when its streams are
-/// destroyed.
+/// one thread. Closing a sensor takes as long as its driver needs, which is not bounded. A file is only stopped, and
+/// its handles live until the end of the process, because OpenNI2's player crashes about once in a hundred times when
+/// its streams are destroyed.
 class OpenNiSensor {
  public:
   /// `where`: the address of a sensor or the path of a file. Errors: it cannot be opened, has no depth, an unknown
@@ -36,8 +36,8 @@ class OpenNiSensor {
   /// The next image of any stream; none if nothing arrives within `patience`.
   std::optional<Picture> read(std::chrono::milliseconds patience);
 
-  /// Switches pairing on or off: paired streams deliver depth and colour together, others each on its own. Returns
-  /// whether the streams are paired then.
+  /// Switches pairing on or off: paired streams deliver depth and colour together, unpaired ones each on its own.
+  /// Returns whether the streams are paired afterwards.
   bool pair_streams(bool wanted);
 
   const std::string& where() const { return where_; }
@@ -50,16 +50,16 @@ class OpenNiSensor {
   /// For a file: the numbers of images in the depth and the colour stream; 0 for a sensor.
   int depth_pictures() { return playback_ ? playback_->getNumberOfFrames(depth_) : 0; }
   int colour_pictures() { return playback_ && has_colour() ? playback_->getNumberOfFrames(colour_) : 0; }
-  /// Text for messages, such as "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered, in
-  /// step".
+  /// For log output, such as "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered,
+  /// synchronised".
   std::string description() const;
-  /// What was wanted but is not available, one sentence each.
+  /// What was wanted but is not available, one entry each, worded to follow "the sensor".
   const std::vector<std::string>& shortfalls() const { return shortfalls_; }
 
  private:
   OpenNiSensor(std::string where, const OpenNiParams& params) : where_(std::move(where)), params_(params) {}
   Result<void> open_device();
-  // The remedy, or none for a file; see open().
+  // Returns the remedy for a sensor and "" for a file; see open().
   std::string unless_file(const char* remedy) const;
   Result<void> create_depth();
   void create_colour();
@@ -81,7 +81,7 @@ class OpenNiSensor {
   openni::Device& device_ = handles_->device;
   openni::VideoStream& depth_ = handles_->depth;
   openni::VideoStream& colour_ = handles_->colour;
-  openni::PlaybackControl* playback_ = nullptr;  ///< of a file, owned by the device; null for a sensor
+  openni::PlaybackControl* playback_ = nullptr;  ///< for a file, owned by the device; null for a sensor
   bool has_colour_ = false, paired_ = false;
   openni::VideoMode depth_mode_, colour_mode_;
   bool registered_ = false, depth_mirrored_ = false, colour_mirrored_ = false;

@@ -7,8 +7,7 @@
 
 namespace barehand {
 
-/// The place on the USB bus of an OpenNI2 sensor with an address like "1d27/0601@1/4"; none if it is not a USB
-/// address.
+/// The USB address that an OpenNI2 address like "1d27/0601@1/4" states; none if it is not the address of a USB device.
 std::optional<UsbAddress> usb_address(const std::string& uri);
 
 }  // namespace barehand

@@ -7,8 +7,8 @@ namespace barehand {
 namespace {
 
 constexpr Intrinsics kCamera = {320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double kDepthUnit = 0.0001;  // m per count
-constexpr double kPeriod = 2;          // s per swing
+constexpr double kDepthUnit = 0.0001;  // metres per count
+constexpr double kPeriod = 2;          // duration of one swing [s]
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Result<std::unique_ptr<PlaneSource>> PlaneSource::open(const Options& options) {
 SourceEvent PlaneSource::next(std::chrono::milliseconds) {
   if (next_ >= options_.frames) return EndOfStream{};
 
-  // The distance of the wall at this time.
+  // Compute the distance of the wall at this time.
   const double time = static_cast<double>(next_) / options_.fps;
   const double swing = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPeriod);
   const double z = options_.near + swing * (options_.far - options_.near);

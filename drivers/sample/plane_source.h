@@ -16,7 +16,7 @@ class PlaneSource : public FrameSource {
   struct Options {
     int frames = 90;
     double fps = 30;
-    double near = 0.5, far = 1.0;  ///< range of the swing [m]
+    double near = 0.5, far = 1.0;  ///< nearest and farthest distance of the wall [m]
   };
 
   /// Checks everything before the first frame. Errors: no frames, or a rate or distances that no camera has.

@@ -9,7 +9,7 @@ struct KnownSensor {
   const char* name;
 };
 constexpr KnownSensor kKnownSensors[] = {
-#include "known_sensors.inc"  // made of deploy/udev
+#include "known_sensors.inc"  // generated from deploy/udev
 };
 
 }  // namespace

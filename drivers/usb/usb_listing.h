@@ -30,7 +30,7 @@ class UsbListing {
   std::size_t count_ = 0;
 };
 
-/// An open device, which is closed at the end of its life.
+/// An open device; it is closed when the handle is destroyed.
 struct CloseUsb {
   void operator()(libusb_device_handle* handle) const { libusb_close(handle); }
 };

@@ -30,7 +30,7 @@ int run_program(int argc, char** argv) {
       "Exit codes: 0 done, 1 failed while running or too few frames could be read, 2 wrong arguments, configuration or "
       "files, 130 interrupted, 141 the reader of the output has gone.\n"
       "barehand COMMAND --help says more.");
-  cv::setNumThreads(1);  // OpenCV would spread its work over threads of its own, beside the one owner of the cores
+  cv::setNumThreads(1);  // otherwise OpenCV would start threads of its own, in addition to Workers
   int exit_code = kExitOk;
   add_track_command(app, exit_code);
   add_sim_command(app, exit_code);
@@ -47,7 +47,7 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? printed(kExitOk) : kExitUsage;
-  } catch (const std::exception& error) {  // out of memory, or an outside condition that nobody foresaw
+  } catch (const std::exception& error) {  // out of memory, or another failure that no code handles
     std::cerr << "barehand: failed: " << error.what() << std::endl;
     return kExitFailure;
   }

@@ -21,7 +21,7 @@ Result<std::string> read_stream(const std::string& path) {
   }
 }
 
-/// A device may go on for ever.
+/// Reads until the end, but at most kMost bytes, since a device may never end.
 Result<std::string> read_pipe(const std::string& path) {
   constexpr std::streamsize kMost = 64 << 20;
   std::ifstream file(path, std::ios::binary);
@@ -35,7 +35,7 @@ Result<std::string> read_pipe(const std::string& path) {
   return text;
 }
 
-/// Pipes of this process: what one of its readers took out of them is gone for the others.
+/// Reads every pipe once and keeps its content: what one reader takes out of a pipe is gone for the others.
 class PipesRead {
  public:
   Result<std::string> read(const std::string& path) {
@@ -51,7 +51,7 @@ class PipesRead {
   std::map<std::string, std::string> texts_;
 };
 
-/// Of the first bytes, since a text in our formats begins with two characters of ASCII.
+/// Looks at the first two bytes: a text in our formats begins with two ASCII characters.
 bool looks_like_utf16(std::string_view text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return true;
   return text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0');
@@ -83,7 +83,7 @@ Result<std::string> read_text(const std::string& path) {
   auto text = read_file(path);
   if (!text) return text;
   if (looks_like_utf16(*text)) return fail("is UTF-16, or not a text file", path, "save it as UTF-8");
-  if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);  // the byte order mark that Windows puts there
+  if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);  // the byte order mark, which Windows programs write
   return text->find('\r') == std::string::npos ? text : with_plain_line_ends(*text);
 }
 

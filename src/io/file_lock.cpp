@@ -15,13 +15,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One that a process of another user left can perhaps only be read, which is enough to lock it.
+/// Opens or creates the file. If another user's process left it, it may be only readable, which is enough to lock it.
 int open_file(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   return descriptor >= 0 || errno != EACCES ? descriptor : open(path.c_str(), O_RDONLY | O_CLOEXEC);
 }
 
-/// The holder before may have removed the file between opening and locking it.
+/// Whether the path still names the opened file, which the previous holder may have removed before it was locked here.
 bool is_still_there(const std::string& path, int descriptor) {
   struct stat opened {
   }, named{};
@@ -56,11 +56,11 @@ Result<FileLock> FileLock::take(const std::string& path, std::chrono::millisecon
     FileLock lock(path, descriptor);
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
       if (!is_still_there(path, descriptor)) {
-        lock.path_.clear();  // what has this name now is somebody else's
+        lock.path_.clear();  // the file that has this name now belongs to another process
         continue;
       }
       const std::string text = this_process();
-      // Without room for the name the lock holds all the same.
+      // If there is no room for the name, the lock is held nevertheless.
       if (ftruncate(descriptor, 0) == 0) std::ignore = pwrite(descriptor, text.data(), text.size(), 0);
       return lock;
     }
@@ -84,7 +84,7 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  if (!path_.empty()) unlink(path_.c_str());  // while it is held: nobody else's can have this name
+  if (!path_.empty()) unlink(path_.c_str());  // while it is locked: no other file can have this name yet
   close(descriptor_);
 }
 

@@ -7,14 +7,14 @@
 
 namespace barehand {
 
-/// Keeps other processes, and other locks of this one, away from something. The kernel holds it: it ends with the
-/// process, however that ends. On a network file system it holds between machines where that knows locks (NFS does).
+/// An exclusive lock, against other processes and other locks in this one. The kernel releases it when the process
+/// ends, in whatever way. On a network file system that supports locks (as NFS does), it works between machines.
 class FileLock {
  public:
-  /// Makes the file `path`, which names the holder while the lock is held and goes with it; one that a killed process
-  /// left is no obstacle. Waits for up to `patience` while somebody else has it. Errors: somebody still has it; the
-  /// file cannot be made. Where the file system knows no locks, or has no room for the file, nothing is locked, and no
-  /// error.
+  /// Creates the file `path`, which names the holder while the lock is held and is then removed; a file that a killed
+  /// process left does not prevent locking. Waits for up to `patience` while another one holds the lock. Errors:
+  /// another one still holds it; the file cannot be created. If the file system does not support locks or has no room
+  /// for the file, nothing is locked, which is no error.
   static Result<FileLock> take(const std::string& path, std::chrono::milliseconds patience);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

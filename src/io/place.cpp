@@ -9,9 +9,11 @@
 namespace barehand {
 namespace fs = std::filesystem;
 
+// Target: where something written to a path goes. Place: the identity of the file at a path, by device and inode.
+
 namespace {
 
-/// The number of a descriptor of this process; -1: `name` in `folder` is none.
+/// The descriptor of this process that `name` in `folder` stands for; -1 if it stands for none.
 int own_descriptor(const fs::path& folder, const std::string& name) {
   std::error_code error;
   const bool own =
@@ -28,7 +30,7 @@ Target target_of(const std::string& path) {
   std::error_code error;
   fs::path at = path;
   for (int links = 0; links < kMostLinks; ++links) {
-    // The links of a process's descriptors lead to files that are open already.
+    // Links in /proc stand for files that are open already, so they are not followed.
     const fs::path folder = fs::canonical(at.has_parent_path() ? at.parent_path() : fs::path("."), error);
     if (folder.string().starts_with("/proc/")) return {path, true, own_descriptor(folder, at.filename())};
 
@@ -41,18 +43,18 @@ Target target_of(const std::string& path) {
 }
 
 Place::Place(const std::string& path) {
-  // The real path: a link's parents are not its target's.
+  // Follow links first: the folders above a link are not those above its target.
   std::error_code error;
   const fs::path given = fs::absolute(target_of(path).path, error);
   fs::path at = fs::weakly_canonical(given, error);
   if (error) at = given.lexically_normal();
-  if (!at.has_filename()) at = at.parent_path();  // "folder/"
+  if (!at.has_filename()) at = at.parent_path();  // for a path like "folder/"
 
-  // Up to what is there; the names on the way are missing.
+  // Go up to the first path that exists; the names on the way are missing.
   for (; !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path())
     missing_.insert(missing_.begin(), at.filename().string());
 
-  // And what that is in.
+  // Identify that path and all folders above it.
   for (;; at = at.parent_path()) {
     struct stat status {};
     if (stat(at.c_str(), &status) == 0) there_.push_back({status.st_dev, status.st_ino});

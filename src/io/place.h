@@ -7,26 +7,26 @@
 
 namespace barehand {
 
-/// Where an output goes.
+/// Where something written to a path goes: needed to decide how to open an output.
 struct Target {
-  std::string path;     ///< where symbolic links lead
-  bool direct = false;  ///< a pipe, a device or a descriptor (/dev/stdout, /dev/fd/3): nothing that could be renamed
-  int descriptor = -1;  ///< of this process, where `path` names one
+  std::string path;     ///< the path after all symbolic links
+  bool direct = false;  ///< a pipe, a device or a descriptor (/dev/stdout), not a file to replace
+  int descriptor = -1;  ///< the descriptor of this process that `path` names; -1: none
 };
 Target target_of(const std::string& path);
 
-/// What a path names, told by device and inode and not by its letters: hard and symbolic links, bind mounts, "./" and
-/// upper case where the disk ignores it make no difference. What is not there yet is a name in the nearest folder that
-/// is.
+/// The identity of the file at a path, by device and inode: needed to decide whether two paths mean the same file. Hard
+/// and symbolic links, bind mounts, "./" and upper case where the disk ignores it make no difference. A file that does
+/// not exist yet is identified by the nearest folder above it that does, and the missing names below that.
 class Place {
  public:
   explicit Place(const std::string& path);
 
   bool exists() const { return missing_.empty(); }
   bool operator==(const Place& other) const;
-  /// Anywhere below `folder`.
+  /// Whether it is anywhere below `folder`.
   bool lies_in(const Place& folder) const;
-  /// Directly in `folder`.
+  /// Whether it is directly in `folder`.
   bool is_entry_of(const Place& folder) const;
 
  private:
@@ -35,8 +35,8 @@ class Place {
     ino_t inode;
     bool operator==(const Id&) const = default;
   };
-  std::vector<Id> there_;             ///< what is there, from the innermost outwards
-  std::vector<std::string> missing_;  ///< and the names below it that are not, from the outermost inwards
+  std::vector<Id> there_;             ///< the nearest path that exists and all folders above it, innermost first
+  std::vector<std::string> missing_;  ///< the names below it that do not exist, outermost first
 };
 
 }  // namespace barehand

@@ -54,7 +54,7 @@ Result<void> RowFile::write(std::string_view rows) {
     return fail("no program reads this pipe", path_, "the table starts again when one does");
   }
 
-  // Cut the file back to what was whole.
+  // Cut the file back to the end of the last complete write.
   torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
               torn_ ? "the table ends in an incomplete frame, which readers ignore"

@@ -10,23 +10,23 @@
 
 namespace barehand {
 
-/// Writes a table of text rows, which has its name when it is finished (WholeFile). Rows that belong together leave in
-/// one piece when they are written, so what was written survives a crash; when a write fails (disk full), the file is
-/// cut back to what was whole before, and later writes may succeed. Where the reader of a named pipe is gone, rows are
-/// lost until another one is there, who gets a table with its header.
+/// Writes a table of text rows, which gets its name when it is finished (WholeFile). The rows of one call are written
+/// in one piece, and survive a crash. If a write fails (disk full), the file is cut back to the end of the last
+/// complete write, and later writes may succeed. If the reader of a named pipe has gone, rows are lost until there is
+/// another one, which gets the header first.
 class RowFile {
  public:
-  /// Writes the header, a line without its end. An existing file is replaced only if `overwrite`; otherwise it is an
-  /// error.
+  /// Creates the file and writes the header, which is given without a line end. An existing file is replaced only if
+  /// `overwrite`; otherwise it is an error.
   static Result<RowFile> create(const std::string& path, std::string_view header, bool overwrite);
   RowFile(RowFile&&) noexcept = default;
   RowFile& operator=(RowFile&&) = delete;
   /// Finishes a file that has rows and removes one without.
   ~RowFile();
 
-  /// Whole lines. A full disk is an error.
+  /// Writes complete lines. A full disk is an error.
   Result<void> write(std::string_view rows);
-  /// Gives the file its name, also one without rows. Nothing is written afterwards.
+  /// Gives the file its name, even if it has no rows. Nothing can be written afterwards.
   Result<void> finish();
 
  private:
@@ -43,8 +43,8 @@ class RowFile {
   WholeFile whole_;
   std::unique_ptr<std::FILE, CloseFile> file_;  ///< null: finished, or moved away
   bool has_rows_ = false;
-  std::int64_t good_ = 0;  ///< size of the file up to the last whole write
-  bool torn_ = false;      ///< and could not be cut back
+  std::int64_t good_ = 0;  ///< size of the file up to the last complete write
+  bool torn_ = false;      ///< the file could not be cut back after a failed write
   bool unread_ = false;    ///< the reader of the pipe was gone at the last write
 };
 

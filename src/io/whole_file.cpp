@@ -23,7 +23,7 @@ tl::unexpected<Error> cannot_write(int reason, const std::string& path,
   return fail(std::string("cannot be written: ") + std::strerror(reason), path, remedy);
 }
 
-/// Pipes and some file systems cannot be synchronised, which is no failure.
+/// Returns 0 or errno. That pipes and some file systems cannot be synchronised is no failure.
 int synchronise(int file) {
   if (fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP) return 0;
   return errno;
@@ -37,16 +37,16 @@ void synchronise_folder_of(const std::string& path) {
   close(file);
 }
 
-/// 0, or why not.
+/// Renames a file unless `to` exists. Returns 0 or errno.
 int rename_unless_there(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  // A file system that cannot do both at once.
+  // The file system cannot check and rename in one step.
   if (access(to.c_str(), F_OK) == 0) return EEXIST;
   return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-/// 0, or why not.
+/// Writes all bytes. Returns 0 or errno.
 int write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(file, bytes.data(), bytes.size());
@@ -68,7 +68,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
   file.descriptor_ = target.descriptor;
   file.overwrite_ = overwrite;
 
-  // What is written at once must be open for it, or be allowed to be opened.
+  // A pipe, device or descriptor must be open for writing, or may be opened for it.
   if (target.direct) {
     if (target.descriptor >= 0) {
       const int mode = fcntl(target.descriptor, F_GETFL);
@@ -81,7 +81,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
     return file;
   }
 
-  // What is there must be of the right kind and may be protected.
+  // An existing file must be one that may be replaced.
   struct stat there {};
   if (stat(target.path.c_str(), &there) == 0) {
     if (S_ISDIR(there.st_mode)) return fail("is a folder", path, "give a file");
@@ -90,7 +90,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
       return cannot_write(errno, path, "choose another name");
   }
 
-  // A draft of its own, next to those that killed programs left.
+  // Create a new draft, next to those that killed programs left.
   for (int n = 1; n <= kMostDrafts; ++n) {
     const std::string draft = target.path + std::string(kUnfinished) + (n > 1 ? "-" + std::to_string(n) : "");
     file.lock_ = ::open(draft.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
@@ -126,7 +126,7 @@ Result<void> WholeFile::finish() {
   const int lock = std::exchange(lock_, -1);
   if (direct_ || draft.empty()) return {};
 
-  // Opened anew: the writer may have made another file of this name.
+  // Open the draft again: the writer may have created another file of this name.
   int reason = 0;
   const int file = ::open(draft.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) reason = errno;

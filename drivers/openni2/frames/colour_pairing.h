@@ -8,8 +8,9 @@
 namespace barehand {
 
 /// Finds the colour image that belongs to each depth image by the sensor's time stamps. A depth image waits for its
-/// colour only briefly, and not at all once colour has stopped, since depth is what is tracked. `Picture` is a handle
-/// that is empty by default. All times are in microseconds.
+/// colour only briefly, and not at all once colour has stopped, since tracking needs depth first of all. `Picture` is
+/// the type of a handle to an image, empty by default. Times are in microseconds: `device_us` by the sensor's clock,
+/// all others by the host's steady clock.
 template <class Picture>
 class ColourPairing {
  public:
@@ -26,22 +27,21 @@ class ColourPairing {
   /// it.
   explicit ColourPairing(std::int64_t period_us) : period_us_(period_us) {}
 
-  /// Adds a depth image. Returns a pair that is thereby complete, or the previous depth image, whose time to wait is
-  /// over.
+  /// Adds a depth image. Returns a pair that is now complete, or else the previous depth image, which waits no longer.
   std::optional<Pair> add_depth(Stamped depth) {
     std::optional<Pair> before;
     if (waiting_) before = flush();
     waiting_ = std::move(depth);
-    if (before) return before;  // the new one waits for its colour, or for the next call of `due`
+    if (before) return before;  // the new one waits for its colour or the next call of `due`
     return matched();
   }
-  /// Adds a colour image; returns the pair that is thereby complete.
+  /// Adds a colour image. Returns the pair that it completes.
   std::optional<Pair> add_colour(Stamped colour) {
     colour_ = std::move(colour);
     colour_taken_ = false;
     return matched();
   }
-  /// The waiting depth image if its colour has arrived.
+  /// The waiting depth image with its colour, if that has arrived.
   std::optional<Pair> matched() {
     if (!waiting_ || !colour_ || colour_taken_ || 2 * std::abs(waiting_->device_us - colour_->device_us) >= period_us_)
       return std::nullopt;
@@ -54,7 +54,7 @@ class ColourPairing {
     if (!waiting_) return std::nullopt;
     return Pair{std::move(*std::exchange(waiting_, std::nullopt)), std::nullopt};
   }
-  /// The waiting depth image if its colour has arrived or is no longer to be expected.
+  /// The waiting depth image if its colour has arrived or is no longer expected.
   std::optional<Pair> due(std::int64_t now_us) {
     if (auto pair = matched()) return pair;
     if (!waiting_ || (colour_runs(now_us) && now_us - waiting_->arrival_us < period_us_)) return std::nullopt;

@@ -6,19 +6,19 @@
 namespace barehand {
 namespace {
 
-constexpr double kWindow = 1e6;            // us, duration of a window
-constexpr std::size_t kMostMarks = 60;     // follows a drift that changes with temperature within a minute
+constexpr double kWindow = 1e6;            // duration of a window [us]
+constexpr std::size_t kMostMarks = 60;     // 60 windows follow a drift that changes with temperature within a minute
 constexpr std::size_t kMarksForDrift = 5;  // fewer marks show jitter rather than drift
-constexpr double kMaxDrift = 2e-3;         // no quartz is worse
-constexpr double kEarly = 50e3;  // us; a frame that arrives this long before its exposure means that the clock was set
-constexpr double kLearning = 2e6;  // us; at the beginning all arrivals may have been late
-// us; a frame later than kLate for kLatePatience is not late: the clock was set
+constexpr double kMaxDrift = 2e-3;         // largest drift that is fitted; quartz clocks are better
+constexpr double kEarly = 50e3;  // a frame that arrives this long [us] before its exposure shows that the clock was set
+constexpr double kLearning = 2e6;  // in the first part [us], 10 * kEarly is allowed: all arrivals may have been late
+// If all frames arrive later than kLate [us] for kLatePatience [us], they are not late: the sensor's clock was set.
 constexpr double kLate = 50e3, kLatePatience = 3e6;
 
 }  // namespace
 
 DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arrival_us) {
-  // The first frame starts the mapping; a jump of the sensor's clock starts it anew.
+  // The first frame starts the mapping, and a jump of the sensor's clock restarts it.
   Mapped mapped{arrival_us};
   if (!begun_) {
     begin(device_us, arrival_us);
@@ -34,7 +34,7 @@ DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arriva
     }
   }
 
-  // A frame is exposed neither after its arrival nor before its predecessor.
+  // The time must not be after the arrival, nor before that of the previous frame.
   mapped.host_us = std::max(std::min(mapped.host_us, arrival_us), last_host_ + 1);
   last_device_ = device_us;
   last_arrival_ = arrival_us;
@@ -84,7 +84,7 @@ void DeviceClock::fit() {
     return;
   }
 
-  // Linear regression.
+  // Otherwise fit offset and slope by linear regression.
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   for (const Mark& m : marks_) {
     mean_x += m.x / static_cast<double>(marks_.size());

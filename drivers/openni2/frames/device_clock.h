@@ -6,25 +6,26 @@
 
 namespace barehand {
 
-/// Maps a sensor's time stamps to the host's steady clock. A frame arrives after its exposure by a minimum delay plus
-/// a random one. In each window of time the earliest arrival (arrival - stamp) marks the minimum delay, and a straight
-/// line through the marks of the last windows gives offset and drift. So random delays do not shift the time of
-/// exposure; the minimum delay itself cannot be observed and remains in the result. All times are in microseconds.
+/// Maps a sensor's time stamps to the host's steady clock. A frame arrives after its exposure by a minimum delay plus a
+/// random one. In each window of time, the earliest arrival (arrival - time stamp) marks the minimum delay, and a
+/// straight line through the marks of the last windows gives offset and drift. Random delays therefore do not shift the
+/// estimated time of exposure; the minimum delay itself cannot be observed and remains in the result. All times are in
+/// microseconds.
 class DeviceClock {
  public:
   struct Mapped {
-    std::int64_t host_us = 0;                    ///< later than that of the previous frame, never after the arrival
+    std::int64_t host_us = 0;  ///< later than that of the previous frame, and otherwise not after the arrival
     std::optional<std::int64_t> jumped_by = {};  ///< the sensor's clock was set forward (or back) by this
   };
 
-  /// Maps the stamp of one frame; call it for the frames in the order of their arrival.
+  /// Maps the time stamp of one frame; call it for all frames in the order of their arrival.
   Mapped map(std::int64_t device_us, std::int64_t arrival_us);
 
   /// How much faster the sensor's clock runs than the host's, in parts per million; 0 until it is known.
   double drift_ppm() const { return -1e6 * slope_; }
 
  private:
-  /// Earliest arrival within a window: x = stamp, y = arrival - stamp, both relative to the first frame.
+  /// Earliest arrival within a window: x = time stamp, y = arrival - time stamp, both relative to the first frame.
   struct Mark {
     double x = 0, y = 0;
   };
@@ -37,10 +38,10 @@ class DeviceClock {
   bool begun_ = false;
   std::int64_t first_device_ = 0, first_arrival_ = 0;
   std::int64_t last_device_ = 0, last_arrival_ = 0, last_host_ = 0;
-  std::vector<Mark> marks_;  ///< of the last windows; the newest window is still open
+  std::vector<Mark> marks_;  ///< marks of the last windows; the newest window is still open
   double window_end_ = 0;
-  double intercept_ = 0, slope_ = 0;  ///< of the line y(x)
-  double late_since_ = -1;            ///< x since which all frames were late; < 0: the last one was not
+  double intercept_ = 0, slope_ = 0;  ///< offset and slope of the line y(x)
+  double late_since_ = -1;            ///< x since which all frames were late; negative: the last one was not late
 };
 
 }  // namespace barehand

@@ -19,14 +19,14 @@ const std::uint8_t* row_of(const openni::VideoFrameRef& frame, int v) {
 
 std::uint8_t clamped(int value) { return static_cast<std::uint8_t>(std::clamp(value >> 8, 0, 255)); }
 
-/// Conversion according to BT.601, video range, in 8-bit fixed point.
+/// Converts as BT.601 states for video range, in 8-bit fixed point.
 Rgb from_yuv(int y, int u, int v) {
   const int c = 298 * (y - 16) + 128, d = u - 128, e = v - 128;
   return {clamped(c + 409 * e), clamped(c - 100 * d - 208 * e), clamped(c + 516 * d)};
 }
 
-/// Two pixels share u and v. The arguments y1, u, y2 and v are the offsets of the bytes within the four that make up
-/// two pixels.
+/// Converts formats in which two pixels share u and v. The arguments y1, u, y2 and v are the offsets of these values
+/// within the four bytes of two pixels.
 void convert_yuv(const std::uint8_t* in, int width, int y1, int u, int y2, int v, Rgb* out) {
   for (int x = 0; x + 1 < width; x += 2, in += 4) {
     out[x] = from_yuv(in[y1], in[u], in[v]);

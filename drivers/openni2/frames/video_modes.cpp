@@ -25,7 +25,8 @@ std::optional<VideoMode> best(const openni::SensorInfo& sensor, Cost cost) {
   return found;
 }
 
-/// RGB is preferred: the other formats are converted, and have half of the colour or none.
+/// Order of preference, 0 first. RGB is the best: the other formats must be converted, and have half of the colour
+/// resolution or no colour.
 int rank(openni::PixelFormat format) {
   switch (format) {
     case openni::PIXEL_FORMAT_RGB888:

@@ -17,9 +17,9 @@ std::optional<openni::VideoMode> choose_colour_mode(const openni::SensorInfo& se
 
 /// Metres per count; 0 if this is not a depth format.
 double depth_unit(openni::PixelFormat format);
-/// 0 if the format is not known.
+/// Bytes per pixel of a colour format; 0 if the format is not known.
 int colour_bytes_per_pixel(openni::PixelFormat format);
-/// Text for messages, such as "640x480 at 30 Hz".
+/// For log output, such as "640x480 at 30 Hz".
 std::string to_text(const openni::VideoMode& mode);
 
 }  // namespace barehand

@@ -105,9 +105,9 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);
   if (!workers) return tl::unexpected(workers.error());
-  (*workers)->go_live();  // as beside a sensor, the scan of a mean hand only uses time that tracking leaves
+  (*workers)->go_live();  // as with a sensor, the scan of a mean hand uses only the time that tracking leaves
 
-  // The states go through LCM and come back.
+  // The states are sent through LCM and received again.
   auto opened = LcmBus::open(conditions.lcm_url);
   if (!opened) return tl::unexpected(opened.error());
   const std::shared_ptr<LcmBus> bus = std::move(*opened);

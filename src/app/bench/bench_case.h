@@ -11,13 +11,13 @@
 
 namespace barehand {
 
-// Bytes.
+// Bytes per megabyte.
 inline constexpr double kMegabyte = 1e6;
 
 /// One configuration of `barehand track` that is measured.
 struct BenchCase {
   std::string sweep;  ///< parameter that is varied; "": the base case
-  double value = 0;   ///< of that parameter
+  double value = 0;   ///< value of that parameter
   Config config;
   int threads = 1;
   int decimate = 1;  ///< every n-th pixel and row of the frames is used
@@ -32,12 +32,12 @@ struct BenchConditions {
   std::string lcm_url;  ///< where the states are published to and received from
 };
 
-/// What was measured in one case, all over the counted frames.
+/// What was measured in one case over all counted frames.
 struct BenchResult {
   double seconds = 0;  ///< wall clock time
   double frames_per_second = 0;
   double cpu_seconds_per_frame = 0;
-  double tracked_share = 0;         ///< share of frames with a tracked hand: a lost hand costs less
+  double tracked_share = 0;         ///< fraction of frames in which all hands are tracked: a lost hand costs less time
   PipelineHealth health;            ///< includes the times of stages and queues
   TimeSummary received;             ///< age of a hand's state when it is received through LCM; live runs only
   std::int64_t frame_bytes = 0;     ///< memory of the stored frames, which is part of the resident memory

@@ -17,14 +17,14 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   o.threads = available_cores();
   CLI::App* bench = app.add_subcommand("bench", "Measure speed, latency and memory of track, over frames in memory");
 
-  // What is tracked, and how.
+  // Add options for what is tracked, and how.
   bench->add_option("--source", o.source, "folder:DIR | log:FILE | sim:NAME")->capture_default_str();
   bench->add_option("--config", o.configs, "one or more configurations, measured in turn")->capture_default_str();
   bench->add_option("--hand", o.hands, "hand.json, or right, left, both: the shipped mean adult hand; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
-  // Which frames count.
+  // Add options for the frames that count.
   bench->add_option("--store", o.store, "frames to keep in memory; they are played back and forth")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -35,7 +35,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
 
-  // How the pipeline runs.
+  // Add options for how the pipeline runs.
   bench->add_option("--rate", o.rate, "frames per second of a live sensor; default: as fast as possible")
       ->check(CLI::Range(0.1, 10000.0));
   bench->add_option("--threads", o.threads, "cores to use")->capture_default_str();
@@ -43,7 +43,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   bench->add_option("--repeat", o.repeat, "number of times that all cases are measured, in turn")
       ->check(CLI::Range(1, 1000));
 
-  // What is varied, and where the results go.
+  // Add options for what is varied, and where the results go.
   bench->add_option("--sweep", o.sweeps, "vary one parameter: NAME=VALUE,VALUE... (" + sweep_names() + ")");
   bench->add_option("--lcm-url", o.lcm_url, "LCM network of the states")->capture_default_str();
   bench->add_option("--json", o.json, "file for the figures");

@@ -16,7 +16,7 @@ Json to_json(const TimeSummary& t) {
 }
 
 Json to_json(const BenchRow& row) {
-  // The case and its total figures.
+  // Write the case and its total figures.
   const BenchResult& r = row.result;
   Json json = {{"sweep", row.sweep},
                {"value", row.value},
@@ -29,13 +29,13 @@ Json to_json(const BenchRow& row) {
                {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
                {"tracked_share", rounded(r.tracked_share)},
 
-               // Dropped frames, and memory.
+               // Write dropped frames and memory.
                {"dropped", r.health.dropped},
                {"peak_mb", rounded(static_cast<double>(r.peak_bytes) / kMegabyte)},
                {"stored_frames_mb", rounded(static_cast<double>(r.frame_bytes) / kMegabyte)},
                {"resident_mb", r.resident_mb},
 
-               // Times of the whole path and of each stage and queue.
+               // Write the times of the whole path and of each stage and queue.
                {"capture_to_publish_ms", to_json(r.health.latency)},
                {"capture_to_reception_ms", to_json(r.received)},
                {"stages_ms", Json::object()},

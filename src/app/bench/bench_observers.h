@@ -5,8 +5,9 @@
 
 namespace barehand {
 
-/// Times a level's comparison by the CPU and by what runs OpenGL ES, with the configuration's number of samples and
-/// with a thousand for every segment. Error: nothing runs OpenGL ES, or the device fails.
+/// Times how long the CPU and an OpenGL ES device take to compare the samples of one level with the depth image: with
+/// the configuration's number of samples per segment, and with at least a thousand. Errors: there is no device, or it
+/// fails.
 Result<std::vector<ObserverRow>> compare_observers(const std::string& name, const Config& config, int threads);
 
 }  // namespace barehand

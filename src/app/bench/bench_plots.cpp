@@ -42,7 +42,7 @@ BoxChart stages_chart(const std::vector<Json>& rows) {
   for (const auto& [name, time] : rows[0].at("waits_ms").items()) chart.categories.push_back("wait " + name);
   chart.categories.push_back("latency");
 
-  // One series per case.
+  // Add one series per case.
   for (const Json& row : rows) {
     chart.series.push_back({label_of(row), {}});
     auto& boxes = chart.series.back().boxes;
@@ -83,18 +83,18 @@ LineChart memory_chart(const std::vector<Json>& rows, std::int64_t frames) {
 }
 
 Result<void> draw(const Json& report, const std::string& directory) {
-  // The cases, sorted by the parameter that they vary.
+  // Sort the cases by the parameter that they vary.
   std::map<std::string, std::vector<Json>> by_sweep;
   for (const Json& row : report.at("cases")) by_sweep[row.at("sweep")].push_back(row);
 
-  // One chart per parameter.
+  // Draw one chart per parameter.
   for (auto& [parameter, rows] : by_sweep) {
     if (parameter.empty()) continue;
     std::sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) { return a.at("value") < b.at("value"); });
     if (auto done = write_chart(sweep_chart(parameter, rows), directory + "/" + parameter + ".png"); !done) return done;
   }
 
-  // The charts of the unchanged configurations.
+  // Draw the charts of the unchanged configurations.
   if (by_sweep[""].empty()) return {};
   return write_chart(stages_chart(by_sweep[""]), directory + "/stages.png").and_then([&] {
     return write_chart(memory_chart(by_sweep[""], report.at("frames")), directory + "/memory.png");

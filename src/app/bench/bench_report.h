@@ -10,20 +10,20 @@
 
 namespace barehand {
 
-/// One measured case, as far as it is written to a file and drawn.
+/// One measured case, with everything that is written to a file and drawn.
 struct BenchRow {
   std::string sweep;  ///< parameter that is varied; "": the configuration as it is
   double value = 0;
   std::string config;
   int threads = 1;
-  int width = 0, height = 0;  ///< of the frames
+  int width = 0, height = 0;  ///< size of the frames [px]
   BenchResult result;
 };
 
-/// What one call that compares samples costs on the CPU and on a device.
+/// Times of one call that compares samples with the depth image, on the CPU and on a graphics device.
 struct ObserverRow {
   std::string config;
-  int threads = 1;  ///< of the CPU
+  int threads = 1;  ///< number of threads on the CPU
   GraphicsDevice device;
   TrialTimes trial;
 };
@@ -32,22 +32,22 @@ struct ObserverRow {
 struct BenchReport {
   std::string source, processor;
   int cores = 0;
-  int hands = 0;  ///< looked for at once
+  int hands = 0;  ///< number of hands that are tracked at once
   BenchConditions conditions;
   std::vector<BenchRow> rows;
   std::vector<ObserverRow> observers;
 };
 
-/// One case as text for people, several lines.
+/// A case as text of several lines.
 std::string bench_text(const BenchRow& row);
-/// The same in a line.
+/// A comparison of CPU and graphics device as one line of text.
 std::string bench_text(const ObserverRow& row);
 
-/// Durations in ms, memory in MB.
+/// Writes the report as JSON, with durations in ms and memory in MB.
 Result<void> write_bench_json(const BenchReport& report, const std::string& path);
 
 /// Draws a file that write_bench_json wrote as PNG images into a folder: the times of the stages; CPU time per frame
-/// against every swept parameter, beside the straight line of linear growth; memory over the run.
+/// against every swept parameter, with a straight line for linear growth; memory over the run.
 Result<void> draw_bench(const std::string& json_path, const std::string& directory);
 
 }  // namespace barehand

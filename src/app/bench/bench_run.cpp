@@ -35,7 +35,7 @@ std::string processor_name() {
 Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
   if (const auto workers = make_workers(options.threads); !workers) return tl::unexpected(workers.error());
 
-  // The configurations as they are.
+  // Add the configurations as they are.
   std::vector<NamedCase> cases;
   for (const std::string& name : options.configs) {
     auto config = read_configuration(name);
@@ -43,7 +43,7 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
     cases.push_back({name, {"", 0, std::move(*config), options.threads, 1}});
   }
 
-  // The sweeps.
+  // Add the sweeps of the first configuration.
   const NamedCase base = cases.front();
   for (const std::string& sweep : options.sweeps) {
     auto swept = parse_sweep(sweep, base.bench);
@@ -51,7 +51,7 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
     for (BenchCase& bench : *swept) cases.push_back({base.config, std::move(bench)});
   }
 
-  // None of the cases may need more memory than there is.
+  // Check that no case needs more memory than there is.
   for (const NamedCase& named : cases)
     if (const auto fits = check_memory(named.bench.config.tracker, available_memory()); !fits)
       return tl::unexpected(fits.error());
@@ -78,7 +78,8 @@ Result<Input> read_input(const BenchOptions& options) {
   return Input{std::move(*store), profiles_of(*hands)};
 }
 
-/// Of the plots those that are drawn whatever is swept, and those of the sweeps asked for.
+/// Checks that the files to be written may be written and are not read as well. The plots are those that are always
+/// drawn, and one for each sweep.
 Result<void> check_written(const BenchOptions& options) {
   std::vector<InputFile> inputs{{"--draw", options.draw}};
   for (const std::string& config : options.configs) inputs.push_back({"--config", find_config(config).value_or("")});
@@ -105,10 +106,11 @@ Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditio
                   camera.width,      camera.height,     std::move(*result)};
 }
 
-/// Also ends where what is measured is only printed and nobody reads it.
+/// Measures all cases, prints their figures and adds them to the report. Ends early if the figures are only printed and
+/// the reader of the output has gone.
 Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, const BenchOptions& options,
                          BenchReport& report, std::ostream& told) {
-  for (int round = 0; round < options.repeat; ++round)  // interleaved: other load on the machine meets all cases alike
+  for (int round = 0; round < options.repeat; ++round)  // interleaved: other load affects all cases
     for (const NamedCase& named : cases) {
       if (options.json.empty() && nobody_reads()) return {};
       auto row = measure(named, report.conditions, input);
@@ -119,7 +121,8 @@ Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input
   return {};
 }
 
-/// After all frames, as what is loaded for a device would count as theirs. Without one there is nothing to compare.
+/// Compares samples on the CPU and on a graphics device, if there is one. Call it after all cases are measured, since
+/// the memory of the device's driver would count as theirs.
 void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report, std::ostream& told) {
   for (const NamedCase& named : cases) {
     if (!named.bench.sweep.empty()) continue;
@@ -155,7 +158,7 @@ int run_bench(const BenchOptions& options) {
   const auto input = read_input(options);
   if (!input) return tell(input.error(), kExitUsage);
 
-  // The conditions belong to the report.
+  // Measure, and write the report with the conditions of the measurement.
   BenchReport report;
   report.source = options.source;
   report.processor = processor_name();

@@ -48,7 +48,7 @@ std::string sweep_names() {
 }
 
 Result<std::vector<BenchCase>> parse_sweep(const std::string& text, const BenchCase& base) {
-  // The name of the parameter.
+  // Find the parameter by its name.
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   const auto* parameter = std::find_if(kParameters.begin(), kParameters.end(), [&](auto& p) { return p.name == name; });
@@ -56,7 +56,7 @@ Result<std::vector<BenchCase>> parse_sweep(const std::string& text, const BenchC
     return fail("not a parameter that can be varied", "--sweep " + text,
                 "give NAME=VALUE,VALUE with one of " + sweep_names());
 
-  // One case per value.
+  // Make one case per value.
   std::vector<BenchCase> cases;
   std::istringstream values(text.substr(equals + 1));
   for (std::string value; std::getline(values, value, ',');) {

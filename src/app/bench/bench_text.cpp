@@ -14,18 +14,18 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
 }  // namespace
 
 std::string bench_text(const BenchRow& row) {
-  // The case and its total figures.
+  // Write the case and its total figures.
   const BenchResult& r = row.result;
   std::string text = formatted("%s, %dx%d, %d threads", row.config.c_str(), row.width, row.height, row.threads);
   if (!row.sweep.empty()) text += formatted(", %s = %g", row.sweep.c_str(), row.value);
   text += formatted(": %.1f frames/s, %.2f ms CPU per frame, tracked in %.0f %%, %lld dropped\n", r.frames_per_second,
                     r.cpu_seconds_per_frame * 1e3, r.tracked_share * 100, static_cast<long long>(r.health.dropped));
 
-  // Memory.
+  // Write the memory.
   text += formatted("  resident: peak %.0f MB, of which %.0f MB are the stored frames\n", r.peak_bytes / kMegabyte,
                     r.frame_bytes / kMegabyte);
 
-  // A table of times: stages, queues, and the whole path.
+  // Write a table of times: stages, queues, and the whole path.
   text += formatted("  %-20s %8s %8s %8s %8s %8s\n", "time [ms]", "mean", "median", "p95", "p99", "max");
   for (const StageHealth& stage : r.health.stages) text += time_row(stage.name, stage.time);
   for (const QueueHealth& queue : r.health.queues) text += time_row("wait " + queue.name, queue.wait);

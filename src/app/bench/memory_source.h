@@ -12,24 +12,25 @@ namespace barehand {
 /// Frames that were read beforehand, so that reading or rendering them costs nothing while something is measured.
 struct FrameStore {
   std::vector<FramePtr> frames;
-  std::int64_t bytes() const;  ///< of their images
+  std::int64_t bytes() const;  ///< memory that their images take
 };
 
 /// The first `count` frames of a source. Errors: those of the source, and a source without any frame.
 Result<FrameStore> read_frames(FrameSource& source, std::int64_t count);
 
-/// Every `factor`-th pixel of every factor-th row, with the intrinsics that belong to it. factor > 0.
+/// Keeps every `factor`-th pixel of every factor-th row, with the intrinsics that belong to it. `factor` must be > 0.
 FrameStore decimated(const FrameStore& store, int factor);
 
-/// Plays stored frames forth and back, so that the motion never jumps, until `count` were delivered. As a replay it
-/// hands out the stored frames themselves; at a rate it is live, as a sensor: each frame is a copy, captured when due.
+/// Plays stored frames alternately forwards and backwards, so that the motion never jumps, until `count` frames were
+/// delivered. Without a rate it is a replay and delivers the stored frames themselves. With a rate it is live, like a
+/// sensor: it delivers copies at that rate, with capture times of the present.
 class MemorySource : public FrameSource {
  public:
   struct Options {
     std::int64_t count = 0;
     std::optional<double> rate;  ///< frames per second; none: as fast as they are taken
   };
-  /// `store` and `clock` outlive the source; the store is not empty.
+  /// `store` must not be empty; `store` and `clock` must outlive the source.
   MemorySource(const FrameStore& store, Options options, const Clock& clock);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
@@ -44,7 +45,7 @@ class MemorySource : public FrameSource {
   const Options options_;
   const Clock& clock_;
   std::int64_t delivered_ = 0;
-  std::optional<std::int64_t> start_us_;  // steady clock, when the first frame was asked for
+  std::optional<std::int64_t> start_us_;  // steady clock at the first call of `next`
 };
 
 }  // namespace barehand

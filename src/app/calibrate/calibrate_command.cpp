@@ -36,9 +36,10 @@ int tell(const Error& error, int exit_code) {
 }
 
 constexpr int kSettling = 60;                 // tracked frames before the first that is kept
-constexpr int kMost = 128, kMostOfSkin = 64;  // frames to keep; the latter if the joints stay fixed
+constexpr int kMost = 128, kMostOfSkin = 64;  // most frames to keep; kMostOfSkin if joints are fixed
 
-/// Collects what a scan needs, the hand as it was fitted last and frames, and tells the user what to show next.
+/// Collects what a scan needs, which is the latest fitted hand and a selection of frames, and tells the user what to
+/// show next.
 class ScanSink : public Sink {
  public:
   // What was collected so far.
@@ -60,7 +61,7 @@ class ScanSink : public Sink {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kAdvise{4};  // time to follow the last advice
+  static constexpr std::chrono::seconds kAdvise{4};  // time that the user gets to follow an advice
 
   // Tells the user from time to time what is still missing.
   void advise() {
@@ -142,12 +143,13 @@ int run(const CalibrateOptions& o) {
   std::cerr << kHowTo << std::endl;
   const auto tracked = track(track_options, *config, {}, std::move(sinks));
   if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
-  if (!scan.profile && tracked->exit_code == kExitFailure) return tracked->exit_code;  // it said why
+  if (!scan.profile && tracked->exit_code == kExitFailure) return tracked->exit_code;  // track() has reported why
   if (!scan.profile)
     return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
 
-  // Save the fitted hand before the scan, which takes a while. From a pipe it could not be taken back.
+  // Save the fitted hand before the scan, which takes a while. In a pipe, the scanned hand could not replace it, so a
+  // pipe gets the final result only.
   const bool once = target_of(o.out).direct;
   if (!once)
     if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
@@ -169,7 +171,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   o.track.no_publish = true;
   o.track.threads = available_cores();
 
-  // Input and output.
+  // Add options for input and output.
   CLI::App* calibrate =
       app.add_subcommand("calibrate", "Measure the profile of the hand that a person shows to the sensor");
   calibrate->add_option("--source", o.track.source, "as for track: openni2, lcm, log:FILE, folder:DIR, sim:scan ...")
@@ -180,7 +182,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
                    "right or left: which hand is shown; or a hand.json, whose joints are kept if it was measured")
       ->capture_default_str();
 
-  // How the hand is tracked.
+  // Add options for how the hand is tracked.
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
   calibrate->add_option("--overlay", o.track.overlay, "as for track, to check the fitted hand");
   add_overwrite_option(*calibrate, o.track.overwrite);

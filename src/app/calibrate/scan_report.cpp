@@ -23,7 +23,7 @@ void ScanReport::add(const HandEstimate& estimate) {
     if (back > kFacing) ++segment.back_side;
     if (back < -kFacing) ++segment.palm_side;
 
-    // The range of flexion.
+    // Extend the range of flexion.
     const double bent = joint_angles(*estimate.profile, pose, s).flexion;
     segment.least_bent = segment.seen == 0 ? bent : std::min(segment.least_bent, bent);
     segment.most_bent = segment.seen == 0 ? bent : std::max(segment.most_bent, bent);

@@ -11,8 +11,8 @@ namespace barehand {
 /// What was seen of one segment during a scan.
 struct ScannedSegment {
   int seen = 0;                      ///< tracked frames in which the segment was seen
-  int palm_side = 0, back_side = 0;  ///< those of them in which that side faced the camera
-  /// Smallest and largest flexion of its joint in them [rad]; zeros for the palm.
+  int palm_side = 0, back_side = 0;  ///< number of these frames in which that side faced the camera
+  /// Smallest and largest flexion of its joint in these frames [rad]; zeros for the palm.
   double least_bent = 0, most_bent = 0;
 };
 
@@ -20,15 +20,15 @@ struct ScannedSegment {
 /// joints were bent.
 class ScanReport {
  public:
-  static constexpr int kEnoughFrames = 15;       ///< per side
-  static constexpr double kEnoughBending = 0.5;  ///< [rad]
+  static constexpr int kEnoughFrames = 15;       ///< frames that must show each side of a segment
+  static constexpr double kEnoughBending = 0.5;  ///< range of flexion that a joint must show [rad]
 
   /// Adds a frame; frames in which the hand is not tracked are ignored.
   void add(const HandEstimate& estimate);
 
   int frames() const { return frames_; }
   const ScannedSegment& segment(int s) const { return segments_[s]; }
-  /// One sentence for each thing that is still to be shown; empty if everything was seen.
+  /// One sentence for each kind of view or motion that is still missing; empty if everything was seen.
   std::vector<std::string> missing() const;
 
  private:

@@ -121,7 +121,7 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
     fields >> interface >> std::hex >> destination >> gateway;
     for (auto& field : skipped) fields >> field;
     fields >> mask;
-    // Little-endian words; 239.255.76.67 is LCM's own address, a default route (mask 0) covers it as well.
+    // The words are little-endian. 239.255.76.67 is LCM's default address; a default route (mask 0) covers it as well.
     const std::uint32_t lcm_address = 239u | 255u << 8 | 76u << 16 | 67u << 24;
     if (fields && (lcm_address & mask) == destination)
       return {Level::ok, "multicast route", "through " + interface, ""};
@@ -139,7 +139,7 @@ Finding check_graphics(const std::string& egl_library) {
     return {Level::note, subject, observer.error().message() + "; samples are compared on the CPU",
             "only with a GPU: install its driver and libegl1"};
 
-  // What observer: auto would find out with its first batch.
+  // Measure what `observer: auto` measures with its first batch of samples.
   const GraphicsDevice& device = (*observer)->device();
   const std::string name = device.renderer + ", " + device.version;
   Workers workers(available_cores());

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// What one look at the machine showed.
+/// The result of one check of the machine.
 struct Finding {
   enum class Level {
     ok,
@@ -21,21 +21,24 @@ struct Finding {
   std::string remedy;  ///< "": nothing to do
 };
 
-/// All checks, in the order in which to mend what they find; `report` gets each finding as it is made.
+/// Runs all checks, in the order in which the problems should be fixed; `report` gets each finding as soon as it is
+/// made.
 void examine(const std::string& lcm_url, const std::function<void(const Finding&)>& report);
 
 Finding check_processor();
 std::vector<Finding> check_files();
-/// `rmem_max_file`: where the kernel tells the largest receive buffer.
+/// Checks how much the kernel can buffer for LCM. `rmem_max_file`: the file in which the kernel states the size of the
+/// largest receive buffer.
 Finding check_receive_buffer(const std::string& lcm_url,
                              const std::string& rmem_max_file = "/proc/sys/net/core/rmem_max");
-/// Routes as in /proc/net/route.
+/// Checks that there is a route for LCM's multicast messages. `route_file` has the format of /proc/net/route.
 Finding check_multicast_route(const std::string& lcm_url, const std::string& route_file = "/proc/net/route");
-/// Sends messages of a frame's size to itself.
+/// Sends messages of a frame's size over LCM, and counts how many come back.
 Finding check_lcm(const std::string& lcm_url);
-/// What the samples could be compared on besides the CPU (observer in the configuration).
+/// Whether a graphics device can compare samples instead of the CPU (key `observer` of the configuration), and which is
+/// faster.
 Finding check_graphics(const std::string& egl_library = kEglLibrary);
-/// OpenNI2 and the sensors that it sees.
+/// The version of OpenNI2, and the sensors that it finds.
 std::vector<Finding> check_openni();
 /// The known depth sensors on the USB bus: port, speed, permission.
 std::vector<Finding> check_usb();

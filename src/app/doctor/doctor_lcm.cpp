@@ -12,11 +12,13 @@
 namespace barehand {
 namespace {
 
+// At least kMessages are sent, one after the other: the next one when all have come back, or after kAgain. kPatience
+// bounds the time until all must have come back.
 constexpr int kMessages = 5;
 constexpr std::chrono::milliseconds kPatience{10'000}, kAgain{500};
-constexpr std::size_t kSize = 150'000;  // a compressed VGA depth image
+constexpr std::size_t kSize = 150'000;  // size of a compressed VGA depth image [bytes]
 
-/// Counts what comes back.
+/// Counts the messages that come back.
 struct Mailbox {
   std::mutex mutex;
   std::condition_variable changed;
@@ -27,7 +29,7 @@ struct Mailbox {
     ++received;
     changed.notify_all();
   }
-  /// How many came, as soon as it is `count`, or after a while.
+  /// Waits for `count` messages, but not longer than kAgain; returns how many have come so far.
   int wait_for(int count) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, kAgain, [&] { return received >= count; });
@@ -49,7 +51,8 @@ Finding check_lcm(const std::string& lcm_url) {
     if (message.size() == kSize) mailbox.put();
   });
   const std::vector<std::uint8_t> message(kSize, 0x5a);
-  // Until everything came back: on a busy machine that may take a while, and what is lost never does.
+  // Send until all messages have come back: on a busy machine some may be late. Lost ones never come, so there is a
+  // deadline.
   int sent = 0, received = 0;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (sent < kMessages || (received < sent && std::chrono::steady_clock::now() < deadline)) {

@@ -45,7 +45,8 @@ Result<void> check(const EvalOptions& o) {
   return {};
 }
 
-/// Against all that is read; of the plots those that will be drawn.
+/// Checks that the files to be written may be written and are none of those that are read. The plots are those that
+/// will be drawn.
 Result<void> check_written(const EvalOptions& o) {
   std::vector<InputFile> inputs{{"--hand", o.hand}, {"--fingertips", o.fingertips}};
   for (const std::string& path : o.results) inputs.push_back({"--result", path});
@@ -65,7 +66,7 @@ Result<void> check_written(const EvalOptions& o) {
   return check_outputs(recording, inputs, outputs, o.overwrite);
 }
 
-/// Tables without a row were read, too, and are the worst of results.
+/// Reports results without any tracked hand. A table without rows is valid input, and the worst of results.
 void say_untracked(const EvalReport& report) {
   for (const EvaluatedRun& run : report.runs)
     if (run.evaluation.untracked == run.evaluation.frames.size())

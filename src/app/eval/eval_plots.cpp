@@ -76,23 +76,23 @@ LineChart reliability_chart(const std::vector<ReliabilityBin>& bins, ChartText t
 }  // namespace
 
 Result<void> write_plots(const EvalReport& report, const std::string& directory) {
-  // The folder may be missing.
+  // Create the folder if it is missing.
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) return fail("cannot be created: " + error.message(), directory, "check the path and its permissions");
 
-  // Errors of the runs.
+  // Draw the errors of the runs.
   Result<void> done;
   if (!report.runs.empty())
     done = write_chart(runs_chart(report.runs), directory + "/runs.png")
                .and_then([&] { return write_chart(segments_chart(report.runs), directory + "/segments.png"); })
                .and_then([&] { return write_chart(time_chart(report.runs), directory + "/time.png"); });
 
-  // Fingertips, if there are labels.
+  // Draw the fingertips, if there are labels.
   if (done && report.fingertips)
     done = write_chart(fingertips_chart(*report.fingertips), directory + "/fingertips.png");
 
-  // Stated uncertainty, if the result has it.
+  // Draw the stated uncertainty, if the result has it.
   if (done && report.reliability) {
     const Reliability& r = *report.reliability;
     const ChartText errors{"Error of segment ends (root mean square)", "stated [mm]", "actual [mm]"};

@@ -32,12 +32,12 @@ struct EvalReport {
   std::optional<Reliability> reliability;
 };
 
-/// Tables for people, in millimetres and pixels.
+/// The report as text tables, in millimetres and pixels.
 std::string text_report(const EvalReport& report);
-/// The same for programs.
+/// Writes the report as JSON, in millimetres and pixels.
 Result<void> write_json_report(const EvalReport& report, const std::string& path);
-/// runs.png (paper Fig. 7), segments.png, time.png, fingertips.png, reliability.png, confidence.png: those there is
-/// something for. Makes the folder.
+/// Draws runs.png (paper Fig. 7), segments.png, time.png, fingertips.png, reliability.png and confidence.png, each if
+/// the report has data for it. Creates the folder.
 Result<void> write_plots(const EvalReport& report, const std::string& directory);
 
 }  // namespace barehand

@@ -40,7 +40,8 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
   return text;
 }
 
-/// Frames where a hand was reported although there was none, and how long a returning hand took to be tracked.
+/// Prints the frames in which a hand was reported although there was none, and how long it took to track a returning
+/// hand.
 void print_returns(std::string& out, const Evaluation& e) {
   if (!e.phantoms.empty()) out += "  frames with a hand although there is none: " + frame_list(e.phantoms) + "\n";
   if (e.returns.empty()) return;
@@ -52,7 +53,7 @@ void print_returns(std::string& out, const Evaluation& e) {
 }
 
 void print_run(std::string& out, const EvaluatedRun& run, const std::optional<double>& hand_length) {
-  // What was compared, and how many frames were tracked.
+  // Print what was compared, and how many frames were tracked.
   const Evaluation& e = run.evaluation;
   out += formatted("%s: %s against %s\n", run.label.c_str(), run.result_path.c_str(), run.truth_path.c_str());
   if (run.truncated) out += formatted("  the result is truncated; its incomplete last frame is ignored\n");
@@ -60,11 +61,11 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
                    e.frames.size(), e.frames.size() - e.untracked, e.lost.size(), e.untracked,
                    e.lost.size() - e.untracked, kLostFrameError * kMillimetre);
 
-  // Frames that were lost.
+  // Print the frames that were lost.
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
   print_returns(out, e);
 
-  // Distributions of the errors.
+  // Print the distributions of the errors.
   print_head(out, "error [mm]");
   print_row(out, "frame", e.frame_error, kMillimetre);
   print_row(out, "frame without palm", e.frame_error_without_palm, kMillimetre);
@@ -73,7 +74,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
   print_row(out, "segment hidden", e.hidden, kMillimetre);
   for (int s = 0; s < kSegmentCount; ++s) print_row(out, std::string(kSegmentNames[s]), e.per_segment[s], kMillimetre);
 
-  // The mean error relative to the hand's length, and the joint gap.
+  // Print the mean error relative to the hand's length, and the joint gap.
   if (hand_length && e.frame_error.count > 0)
     out += formatted("  mean frame error = %.2f %% of a hand length of %.0f mm\n",
                      e.frame_error.mean / *hand_length * 100, *hand_length * kMillimetre);
@@ -90,14 +91,14 @@ void print_fingertips(std::string& out, const FingertipEvaluation& e) {
   for (int f = 0; f < kFingerCount; ++f) print_row(out, std::string(kFingerNames[f]), e.per_finger[f], 1);
 }
 
-/// How often the truth lies within the stated 90 % intervals, and the stated and actual size of the errors.
+/// Prints how often the truth lies within the stated 90 % intervals, and the stated and actual size of the errors.
 void print_coverage(std::string& out, const char* name, const Coverage& c) {
   if (c.intervals == 0) return;
   out += formatted("  %-22s %9zu %9.1f %% %12.2f %12.2f\n", name, c.intervals, c.covered * 100, c.stated * kMillimetre,
                    c.actual * kMillimetre);
 }
 
-/// Stated against actual values, one line per bin.
+/// Prints stated and actual values, one line per bin.
 void print_bins(std::string& out, const char* title, const std::vector<ReliabilityBin>& bins, double scale) {
   out += formatted("  %-22s %9s %12s %12s\n", title, "count", "stated", "actual");
   for (const ReliabilityBin& bin : bins)

@@ -14,14 +14,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFarthest = 1e6;          // m
-constexpr double kLargestVariance = 1e12;  // m^2
+constexpr double kFarthest = 1e6;          // largest coordinate of a valid state [m]
+constexpr double kLargestVariance = 1e12;  // largest variance of a valid state [m^2]
 
 StatedSegment stated(const segment_state_t& state) {
   StatedSegment out;
   out.proximal = Eigen::Map<const Vector3d>(state.position);
   out.distal = Eigen::Map<const Vector3d>(state.distal);
-  const Matrix6d covariance = Eigen::Map<const Matrix6d>(state.covariance[0]);  // symmetric: either order
+  const Matrix6d covariance = Eigen::Map<const Matrix6d>(state.covariance[0]);  // symmetric, so either order is right
   const auto J_distal = point_jacobian(out.distal - out.proximal);
   out.proximal_covariance = covariance.topLeftCorner<3, 3>();
   out.distal_covariance = J_distal * covariance * J_distal.transpose();
@@ -30,7 +30,7 @@ StatedSegment stated(const segment_state_t& state) {
   return out;
 }
 
-/// Whether the numbers can be judged, NaN cannot: a log may come from anywhere.
+/// Whether the numbers are finite and plausible: the log may be of any origin.
 bool sensible(const StatedSegment& segment) {
   const auto near = [](const Vector3d& point) { return (point.array().abs() <= kFarthest).all(); };
   const auto variance = [](const Matrix3d& covariance) {

@@ -39,7 +39,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   o.threads = available_cores();
   CLI::App* command = app.add_subcommand("experiment", "Repeat the paper's experiments with the simulator");
 
-  // Which experiment.
+  // Add the name of the experiment.
   command
       ->add_option("name", a->name,
                    "fist (Fig. 6a), occlusion (seven levels, Fig. 6b-c and 7), grasp (mug, ball and pliers, Fig. 8) or "
@@ -47,7 +47,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
       ->required()
       ->check(CLI::IsMember(experiment_names()));
 
-  // Where the results go, and what is compared.
+  // Add options for where the results go, and what is compared.
   command->add_option("--out", o.out, "folder to create: recordings, results, snapshots, plots and figures")
       ->required();
   command
@@ -63,7 +63,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
 
   command->add_flag("--overwrite", o.overwrite, "replace an earlier experiment in this folder; other files stay");
 
-  // How the hand is tracked.
+  // Add options for how the hand is tracked.
   command->add_option("--hand", o.hand, "hand.json for the tracker; default: measured on the simulated hand");
   command->add_option("--init", a->init, "first pose: truth, or auto (found in the image)")
       ->check(CLI::IsMember({"truth", "auto"}))

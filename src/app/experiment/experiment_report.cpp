@@ -68,7 +68,7 @@ Json json_of(const ExperimentReport& report) {
   return json;
 }
 
-/// Index of `name` in `names`, to which a new name is appended.
+/// Index of `name` in `names`, to which it is appended if it is new.
 std::size_t place(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto index = static_cast<std::size_t>(found - names.begin());
@@ -99,11 +99,11 @@ std::string experiment_table(const ExperimentReport& report) {
     variant = std::max(variant, row.run.label.size());
   }
 
-  // The heading.
+  // Write the heading.
   std::string text = padded("sequence", sequence) + "  " + padded("variant", variant);
   for (const Figure& figure : figures_of(report.rows.front())) text += "  " + std::string(figure.name);
 
-  // One line per row.
+  // Write one line per row.
   for (const ExperimentRow& row : report.rows) {
     text.append("\n").append(padded(row.sequence, sequence)).append("  ").append(padded(row.run.label, variant));
     for (const Figure& figure : figures_of(row))

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Step = tl::expected<void, TrackFailure>;
 
-constexpr const char* kMark = "/.experiment";  // in the folder of an experiment
+constexpr const char* kMark = "/.experiment";  // file that marks the folder of an experiment
 constexpr std::int64_t kSnapshots = 8;         // frames per run that are stored with the tracked hand drawn over them
 
 /// A failure as the result of a step.
@@ -71,7 +71,7 @@ tl::expected<ExperimentReport, TrackFailure> ExperimentRun::run() {
 }
 
 Step ExperimentRun::check() const {
-  // What is there is an experiment's, or stays.
+  // Refuse a folder with other content than an experiment that is to be replaced.
   std::error_code error;
   const bool folder = fs::is_directory(options_.out, error);
   const bool replaced = options_.overwrite && folder && fs::exists(options_.out + kMark, error);
@@ -81,7 +81,7 @@ Step ExperimentRun::check() const {
                                     : "choose another folder, or replace an experiment's with --overwrite"},
                 kExitUsage);
 
-  // The input is good, and not what would be replaced.
+  // Check the input, and that it is not in the folder to be replaced.
   const SystemClock clock;
   if (const auto source = synthetic::SyntheticSource::open(spec_of(plan_.sequences.front()), clock); !source)
     return stop(source.error(), kExitUsage);

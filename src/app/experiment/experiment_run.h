@@ -27,11 +27,11 @@ struct ExperimentOptions {
 /// - snapshots/SEQUENCE.VARIANT/, up to eight frames with the tracked hand drawn over them,
 /// - plots/SEQUENCE/ and figures/SEQUENCE.json, as `barehand eval` writes them,
 /// - the report (write_experiment), and
-/// - .experiment, which says that all these are an experiment's.
-/// A folder that is not empty is refused. With `overwrite`, these go from one that an experiment made, just before the
-/// first rendering, and whatever else is in it stays.
-/// Progress is printed on standard error. The run ends at the first failure, or with kExitInterrupted; what was
-/// finished until then stays. A wrong hand, key or folder is noticed before anything is written.
+/// - .experiment, which marks the folder as that of an experiment.
+/// A folder that is not empty is refused. With `overwrite`, a folder that an experiment made is accepted: the above is
+/// removed from it just before the first rendering, and other files stay.
+/// Progress is printed to standard error. The run ends at the first failure, or with kExitInterrupted; what was
+/// finished until then stays. A wrong hand, key or folder is reported before anything is written.
 tl::expected<ExperimentReport, TrackFailure> run_experiment(const ExperimentPlan& plan,
                                                             const ExperimentOptions& options);
 

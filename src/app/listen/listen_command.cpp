@@ -29,7 +29,7 @@ const char* status_text(int status) {
   return status >= 0 && status < 4 ? to_string(static_cast<TrackStatus>(status)).data() : "?";
 }
 
-/// One line: frame, hand, status and, with a pose, where the palm is and how sure the tracker is of it.
+/// Prints one line: frame, hand, status and, if there is a pose, the palm's position [m] and confidence.
 void print_state(const hand_state_t& m) {
   std::printf("frame %lld  %s hand %d  %-9s", static_cast<long long>(m.frame_number),
               m.handedness == hand_state_t::LEFT ? "left" : "right", m.hand_id, status_text(m.status));

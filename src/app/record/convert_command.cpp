@@ -13,9 +13,10 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-/// A folder is a recording, or holds logs. A recording may have other files ending in .log beside it.
+/// Whether the path is a recording folder rather than a folder of logs. A recording may also contain files that end in
+/// .log.
 bool is_recording(const fs::path& path) {
-  std::error_code ignored;  // what cannot be looked at shows when it is opened
+  std::error_code ignored;  // a path without access is reported when it is opened
   if (!fs::is_directory(path, ignored)) return false;
   return fs::exists(path / "depth.txt", ignored) || fs::exists(path / "camera.json", ignored) || !find_logs(path);
 }

@@ -10,6 +10,7 @@
 namespace barehand {
 namespace {
 
+/// One run of copy_frames.
 class Copy {
  public:
   Copy(FrameSource& source, FrameWriter& writer, const CopyOptions& options, const Clock& clock, std::ostream& report)
@@ -38,7 +39,7 @@ class Copy {
   }
   double seconds_since(std::int64_t time_us) const { return 1e-6 * static_cast<double>(clock_.steady_us() - time_us); }
 
-  /// False: the copy is over.
+  /// Returns false when copying must stop (enough frames, end of the source, or an error).
   bool handle(const SourceEvent& event) {
     if (const auto* frame = std::get_if<FramePtr>(&event)) return store(**frame);
     if (const auto* skipped = std::get_if<SkippedFrame>(&event)) return skip(skipped->error);
@@ -70,8 +71,9 @@ class Copy {
     return true;
   }
 
-  /// Gaps in the numbers of a live source, where every sensor of a network counts its own frames, less those of skipped
-  /// frames, which may be told before their turn.
+  /// Counts missing frames by the gaps in the frame numbers of a live source. Every sensor on a network numbers its own
+  /// frames. A skipped frame also leaves a gap but is not missing; since it may be reported before its gap is seen, the
+  /// totals are subtracted.
   void count_missing(const RgbdFrame& frame) {
     const auto [last, first] = last_numbers_.try_emplace(frame.sensor, frame.number);
     const std::int64_t between = first ? 0 : frame.number - last->second - 1;
@@ -134,7 +136,7 @@ class Copy {
   RepeatFilter filter_{clock_, 1'000'000};
   CopyResult result_;
   std::int64_t start_us_ = 0, shown_us_ = 0, gaps_ = 0;
-  std::map<std::string, std::int64_t> last_numbers_;  // by sensor
+  std::map<std::string, std::int64_t> last_numbers_;  // number of the last frame of each sensor
   bool line_open_ = false, losing_ = false;
 };
 

@@ -14,29 +14,29 @@
 namespace barehand {
 
 struct CopyOptions {
-  std::int64_t frames = 0;                    ///< stop after this many; 0 = all
-  double seconds = 0;                         ///< stop after this time; 0 = no limit
-  std::optional<std::int64_t> expected = {};  ///< how many will come, where that is known: for progress
-  bool terminal = false;                      ///< progress rewrites one line
-  bool quiet = false;                         ///< no progress, only trouble
+  std::int64_t frames = 0;                    ///< stop after this many frames; 0 = no limit
+  double seconds = 0;                         ///< stop after this time [s]; 0 = no limit
+  std::optional<std::int64_t> expected = {};  ///< number of frames to come, if known, shown with the progress
+  bool terminal = false;                      ///< show the progress in one line, which is rewritten
+  bool quiet = false;                         ///< report only problems, no progress
   std::function<void(const struct CopyResult&)> on_step = {};  ///< called after every answer of the source
 };
 
 struct CopyResult {
   std::int64_t written = 0;
-  std::int64_t skipped = 0;  ///< unreadable at the source
-  std::int64_t missing =
-      0;  ///< numbered by a live source but never delivered: lost on the way or dropped from the input queue
-  std::int64_t dropped = 0;    ///< of those: dropped here, because frames came faster than they could be written
+  std::int64_t skipped = 0;    ///< frames that the source could not read
+  std::int64_t missing = 0;    ///< frames that a live source numbered but did not deliver
+  std::int64_t dropped = 0;    ///< the missing frames that were dropped here, since they came too fast to be written
   std::int64_t lost = 0;       ///< delivered but not written
-  std::string lost_why;        ///< the last of them
+  std::string lost_why;        ///< why the last of them was not written
   std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
-  bool stopped = false;        ///< by `stop`
+  bool stopped = false;        ///< ended by `stop`
 };
 
-/// Copies frames from a source to a writer until the source ends, a limit is reached or `stop` becomes true. A frame of
-/// a live source that cannot be written is lost, and the copy goes on: there may be room again. Otherwise it ends. Says
-/// on `report` how far it is, and what was skipped (each kind of trouble once in a while, the count always).
+/// Copies frames from a source to a writer until the source ends, a limit is reached or `stop` becomes true. A frame
+/// that cannot be written ends the copy, except with a live source: then it counts as lost and the copy continues,
+/// since there may be room again later. Prints progress and problems to `report`, a problem of one kind at most once a
+/// second.
 CopyResult copy_frames(FrameSource& source, FrameWriter& writer, const CopyOptions& options,
                        const std::atomic<bool>& stop, const Clock& clock, std::ostream& report);
 

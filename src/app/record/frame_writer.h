@@ -11,33 +11,34 @@
 
 namespace barehand {
 
-/// Where recorded or converted frames go. Its destructor finishes it, too, but cannot report errors.
+/// The destination of recorded or converted frames. The destructor finishes it, too, but cannot report errors.
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
-  /// What was written before stays readable whatever happens in this call; a full disk is an error, after which the
-  /// next frame may succeed.
+  /// Writes a frame. Whatever happens in this call, frames written before stay readable. A full disk is an error, after
+  /// which later frames may succeed.
   virtual Result<void> write(const RgbdFrame& frame) = 0;
-  /// After the last frame: everything is on the disk and has its name when it returns. Nothing is left without a frame.
+  /// Call it after the last frame. On return, everything is on the disk under its final name. If no frame was written,
+  /// nothing is left on the disk.
   virtual Result<void> finish() = 0;
-  /// "LCM log /data/a.lcmlog", for messages.
+  /// For log output and errors, e.g. "LCM log /data/a.lcmlog".
   virtual std::string name() const = 0;
 };
 
 struct FrameWriterOptions {
-  FrameEncoding encoding = {};               ///< of a log; of a folder only colour, which is never raw there
-  std::string channel = "RGBD_FRAME";        ///< of a log
-  double fps = 0;                            ///< nominal rate, noted in a folder; 0 = not noted
-  bool overwrite = false;                    ///< of a log; a folder with a recording is never overwritten
-  std::optional<LogRotation> rotation = {};  ///< of a log: a set of files instead of one
-  const Clock* clock = nullptr;              ///< of the rotation; outlives the writer
+  FrameEncoding encoding = {};               ///< for a log; a folder uses only the colour, with raw as PNG
+  std::string channel = "RGBD_FRAME";        ///< for a log
+  double fps = 0;                            ///< nominal frame rate [Hz], stored in a folder; 0: not stored
+  bool overwrite = false;                    ///< replace a log; a folder with a recording is never replaced
+  std::optional<LogRotation> rotation = {};  ///< for a log: write a set of files instead of one
+  const Clock* clock = nullptr;              ///< for the rotation; must outlive the writer
 };
 
-/// Whether frames written to `path` make an LCM log (is_log_name).
+/// Whether `path` is written as an LCM log (is_log_name).
 bool is_log_path(const std::string& path);
 
-/// A recording folder, or an LCM log if is_log_path. Errors: it exists, it cannot be made, or
-/// it ends in .oni, which is not written; a folder does not rotate.
+/// Creates an LCM log if is_log_path(path), and otherwise a recording folder. Errors: it exists or cannot be created,
+/// `path` ends in .oni, which is not written, or a folder is to rotate.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 
 }  // namespace barehand

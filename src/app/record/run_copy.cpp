@@ -42,7 +42,7 @@ FrameWriterOptions writer_options(const CopyRequest& request, double fps, const 
   return options;
 }
 
-/// The file of a configuration; "": none is read.
+/// Path of a configuration's file; "" if none is read.
 std::string config_file(const std::string& name) { return name.empty() ? "" : find_config(name).value_or(""); }
 
 Output output_of(const CopyRequest& request, bool rotates) {
@@ -50,7 +50,7 @@ Output output_of(const CopyRequest& request, bool rotates) {
   return {request.out_option, request.out, is_log_path(request.out) ? log : Output::Kind::recording};
 }
 
-/// What makes a copy that came to its end a failed one.
+/// Why a copy that reached the end of its source has failed all the same; none if it has not.
 std::optional<Error> failure_of(const CopyResult& result, const std::string& source, bool live) {
   const std::string frames = std::to_string(result.written + result.skipped);
   if (result.written == 0 && live) return Error{"no frame arrived, so nothing is written", source, ""};
@@ -78,13 +78,13 @@ std::string counts(const CopyResult& result, const std::string& place) {
          part(result.lost, " lost: " + result.lost_why);
 }
 
-/// The folders around an output that are not there yet. Those that are still empty in the end go again.
+/// Finds the folders above an output that do not exist yet. The destructor removes those that are empty.
 class NewFolders {
  public:
   explicit NewFolders(const std::string& output) {
     std::error_code ignored;
     fs::path folder = fs::absolute(output, ignored);
-    if (!folder.has_filename()) folder = folder.parent_path();  // "folder/"
+    if (!folder.has_filename()) folder = folder.parent_path();  // for a path like "folder/"
     for (folder = folder.parent_path(); !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
       folders_.push_back(folder);
   }
@@ -96,10 +96,10 @@ class NewFolders {
   NewFolders& operator=(const NewFolders&) = delete;
 
  private:
-  std::vector<fs::path> folders_;  // from the innermost outwards
+  std::vector<fs::path> folders_;  // created by this run, innermost first
 };
 
-/// Tells systemd, where it listens, that the copy moves and how far it is.
+/// Reports to systemd, if it listens, that the copy is alive, and every second its counts.
 class ServiceReport {
  public:
   ServiceReport(ServiceManager& service, std::string place, const Clock& clock)
@@ -143,7 +143,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
   if (request.source.foreign.any()) input.openni2.camera = request.source.foreign;
   auto source = open_source(input, clock);
-  if (!source && input.spec == "lcm") {  // the network may come later
+  if (!source && input.spec == "lcm") {  // no usage error: the network may come later
     refuse(source.error());
     return kExitFailure;
   }
@@ -157,10 +157,10 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   const NewFolders around(request.out);
   std::optional<FileLock> lock;
   if (written_as.rotation && is_log_path(request.out)) {
-    auto taken = lock_set(request.out, std::chrono::seconds(3));  // a service before this one may be about to end
+    auto taken = lock_set(request.out, std::chrono::seconds(3));  // a previous service may be about to end
     if (!taken) {
       refuse(taken.error());
-      return kExitFailure;  // it may be free later
+      return kExitFailure;  // no usage error: the set may be free later
     }
     lock = std::move(*taken);
   }

@@ -11,11 +11,11 @@ class App;
 
 namespace barehand {
 
-/// What `record` and `convert` have in common: frames from a source into a log or folder.
+/// A request to copy frames from a source into a log or folder, as `record` and `convert` do.
 struct CopyRequest {
   SourceRequest source;
-  std::string config;  ///< its groups foreign_camera and openni2 hold where `source` gives no intrinsics; "": none
-  std::string out, out_option = "--out";  ///< its path; how messages call it
+  std::string config;  ///< configuration for sensor, depth range and intrinsics, unless `source` gives them; "": none
+  std::string out, out_option = "--out";  ///< path of the output; its option in messages
   std::string colour = "png";             ///< png, jpeg, raw, none
   std::string depth = "rvl";              ///< rvl, zlib, raw
   int jpeg_quality = 92;
@@ -23,14 +23,15 @@ struct CopyRequest {
   bool overwrite = false;
   std::int64_t frames = 0;
   double seconds = 0;
-  std::uint64_t max_size = 0, quota = 0;  ///< [bytes] of one file, of all; 0: no limit
-  double max_age = 0;                     ///< [s] of one file; 0: no limit
+  std::uint64_t max_size = 0, quota = 0;  ///< largest size of one file and of all files [bytes]; 0: no limit
+  double max_age = 0;                     ///< longest time in one file [s]; 0: no limit
 };
 
-/// Runs it to the end, a limit or Ctrl-C; returns the exit code. `command` starts the messages on standard error.
+/// Copies until the source ends, a limit is reached or Ctrl-C is pressed; returns the exit code. Messages on standard
+/// error start with `command`.
 int run_copy(const CopyRequest& request, const std::string& command);
 
-/// The options that both commands have.
+/// Adds the options that both commands have.
 void add_copy_options(CLI::App& command, CopyRequest& request);
 
 }  // namespace barehand

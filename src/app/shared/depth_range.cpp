@@ -8,11 +8,11 @@
 namespace barehand {
 namespace {
 
-constexpr int kPixelStep = 4;  // every fourth pixel of every fourth row says enough
+constexpr int kPixelStep = 4;  // every fourth pixel of every fourth row is enough
 constexpr int kMostFrames = 30;
-constexpr std::int64_t kLongest = 1'000'000;  // us
-constexpr double kNearest = 0.18;             // m, of the median
-constexpr double kFew = 1e-3;                 // of what is measured; less is noise
+constexpr std::int64_t kLongest = 1'000'000;  // time that is checked at most [us]
+constexpr double kNearest = 0.18;             // smallest plausible median depth [m]
+constexpr double kFew = 1e-3;                 // fraction of the measured values; fewer within the limits are noise
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::optional<std::string> DepthRange::conclude() {
   std::vector<std::uint16_t> values = std::exchange(values_, {});
   if (values.empty()) return "no pixel has depth: is the lens covered, or is everything out of range?";
 
-  // Where it lies: a unit that is wrong puts all of it out of reach.
+  // Compare the depth with the limits: with a wrong unit, all of it is out of range.
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   const double median = unit_ * *middle;

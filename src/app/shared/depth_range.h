@@ -10,19 +10,20 @@
 
 namespace barehand {
 
-/// Where the tracker looks for a hand [m]; by default as PreprocessParams does.
+/// Range of depth in which the tracker searches for a hand [m]; by default that of PreprocessParams.
 struct DepthLimits {
   double nearest = PreprocessParams{}.min_depth, farthest = PreprocessParams{}.max_depth;
 };
 
-/// Looks at the first second of a camera's frames: whether anything lies where a hand is looked for.
+/// Checks in the first second of a camera's frames whether any depth lies in the range in which a hand is searched for.
+/// If none does, the depth unit may be wrong.
 class DepthRange {
  public:
   explicit DepthRange(const DepthLimits& limits) : limits_(limits) {}
 
-  /// What is to be said after this frame; most often nothing.
+  /// Adds a frame. Returns a warning for the user, usually none.
   std::optional<std::string> look(const RgbdFrame& frame);
-  /// The same when no more frames come.
+  /// Call it when no more frames come. Returns a warning as `look` does.
   std::optional<std::string> finish();
 
  private:
@@ -32,9 +33,9 @@ class DepthRange {
   bool done_ = false;
   int frames_ = 0;
   std::int64_t first_utime_ = 0;
-  double unit_ = 0;                    // m
-  std::int64_t within_ = 0;            // of the values
-  std::vector<std::uint16_t> values_;  // some of the measured ones
+  double unit_ = 0;                    // metres per count
+  std::int64_t within_ = 0;            // number of `values_` within the limits
+  std::vector<std::uint16_t> values_;  // a sample of the measured depths [counts]
 };
 
 }  // namespace barehand

@@ -9,7 +9,7 @@ enum ExitCode : int {
                      ///< then is kept
   kExitUsage = 2,    ///< wrong arguments, configuration, input or output file; nothing was started
   kExitInterrupted = 130,  ///< Ctrl-C, or SIGTERM before a recording's end; what was written is complete and flushed
-  kExitBrokenPipe = 141,   ///< nobody reads any more what a command prints, as of a filter that SIGPIPE ends
+  kExitBrokenPipe = 141,   ///< the reader of the output has gone; the shell's code for an end by SIGPIPE
 };
 
 }  // namespace barehand

@@ -44,7 +44,8 @@ std::string InterruptWatcher::name() const {
   return signal_ == SIGINT ? "Ctrl-C" : signal_ == SIGHUP ? "SIGHUP" : "SIGTERM";
 }
 
-/// The terminal sends Ctrl-C to all that were started from it, whoever it is for.
+/// Whether this is a terminal's Ctrl-C that is meant for other processes: a terminal sends it to all that were started
+/// from it.
 bool InterruptWatcher::is_for_others(const siginfo_t& info) const {
   return in_background_ && info.si_signo == SIGINT && info.si_code == SI_KERNEL;
 }
@@ -61,8 +62,8 @@ void InterruptWatcher::watch(const std::stop_token& stop) {
     }
     signal_ = received;
 
-    // The next signal has its default effect, through this thread. Not so SIGHUP: a terminal that goes away sends it
-    // twice, through the shell and by itself.
+    // The next signal has its default effect, through this thread. SIGHUP stays blocked: a terminal that closes sends
+    // it twice, through the shell and by itself.
     sigdelset(&watched_, SIGHUP);
     pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
     on_signal_();

@@ -8,24 +8,25 @@
 
 namespace barehand {
 
-/// Turns Ctrl-C, SIGTERM and SIGHUP into a call. To be made before other threads start: they inherit that these signals
-/// are left to the watcher. A second SIGINT or SIGTERM ends the process at once, for whoever cannot wait.
+/// Calls a function on Ctrl-C, SIGTERM or SIGHUP. Create it before other threads start: they inherit its signal mask,
+/// which leaves these signals to the watcher. A second SIGINT or SIGTERM ends the process at once.
 ///
-/// What the process was started to ignore stays ignored: SIGHUP under nohup, and the Ctrl-C of a terminal where a shell
-/// without job control started it in the background. `kill -INT` means this very process and is followed there, too.
+/// Signals that the process was started to ignore stay ignored: SIGHUP under nohup, and the terminal's Ctrl-C if a
+/// shell without job control started the process in the background. A SIGINT from `kill -INT` is meant for this process
+/// and is obeyed there, too.
 class InterruptWatcher {
  public:
-  /// `on_signal` is called once. `on_hangup`, where there is one, is called for every SIGHUP before that (several that
-  /// come at once count as one) instead. Both on the watcher's thread.
+  /// Both functions are called on the watcher's thread. `on_signal` is called once. If `on_hangup` is given, it is
+  /// called instead for every SIGHUP before that (several at once count as one).
   explicit InterruptWatcher(std::function<void()> on_signal, std::function<void()> on_hangup = {});
   ~InterruptWatcher();
 
-  /// Any thread: from now on SIGHUP means the end here, too.
+  /// From now on, SIGHUP calls `on_signal`, too. Any thread may call this.
   void stop_on_hangup() { hangup_stops_ = true; }
 
-  /// SIGINT, SIGTERM or SIGHUP; 0: none came.
+  /// The signal that came: SIGINT, SIGTERM or SIGHUP; 0 if none did.
   int signal() const { return signal_; }
-  /// Its name, for people.
+  /// Name of that signal, for messages.
   std::string name() const;
 
  private:
@@ -33,7 +34,7 @@ class InterruptWatcher {
   bool is_for_others(const siginfo_t& info) const;
 
   const std::function<void()> on_signal_, on_hangup_;
-  const bool in_background_;  // started to ignore SIGINT
+  const bool in_background_;  // the process was started to ignore SIGINT
   sigset_t watched_{}, before_{};
   std::atomic<bool> hangup_stops_;
   std::atomic<int> signal_ = 0;

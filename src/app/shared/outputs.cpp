@@ -26,7 +26,8 @@ bool is_called(const std::string& path, const std::string& name) {
   return path.ends_with(name) && (path.size() == name.size() || path[path.size() - name.size() - 1] == '/');
 }
 
-/// What is there is told by its inode alone: links to it may have any name. Else only files of its name matter.
+/// Returns which of `files` is the file at `path`; null if none is. A file that exists is identified by its inode,
+/// since links to it may have any name. For one that does not exist, only files of its name are compared.
 const std::string* same_file(const std::vector<std::string>& files, const std::string& path, const Place& place) {
   struct stat wanted {};
   const bool exists = stat(path.c_str(), &wanted) == 0;
@@ -48,7 +49,7 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
       return refuse(output, "is or lies in " + folder + ", where images of the source " + source.name + " are",
                     "choose another folder");
 
-  // A log of the set: now, or when it is written.
+  // A set of logs must not contain a log of the source, nor add one to it.
   if (output.kind == Output::Kind::log_set)
     for (const std::string& file : source.files)
       if (belongs_to_set(file, output.path))
@@ -57,7 +58,7 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   if (source.set_of_logs && log && place.is_entry_of(Place(source.folder)))
     return refuse(output, "would become a part of the source " + source.name, "choose another folder");
 
-  // A folder around the source, or the source itself.
+  // A folder must neither be the source nor contain it.
   if (!is_folder(output.kind)) return {};
   const std::vector<std::string>& whole =
       source.folder.empty() ? source.files : std::vector<std::string>{source.folder};
@@ -67,7 +68,8 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   return {};
 }
 
-/// The images of a recording, whichever, are named as pictures are, and would go with them.
+/// Refuses a folder with images of any recording: they are named like the images of an earlier run, and would be
+/// removed with those.
 Result<void> check_images(const Output& output, const Place& place) {
   const fs::path folder = fs::path(target_of(output.path).path) / "";
   const std::string recording = folder.parent_path().parent_path().string();
@@ -77,7 +79,7 @@ Result<void> check_images(const Output& output, const Place& place) {
   return {};
 }
 
-/// A device or a socket: what goes in and what comes out are apart.
+/// Whether the path is a device or a socket, where writing replaces nothing that can be read.
 bool is_endless(const std::string& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);

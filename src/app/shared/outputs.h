@@ -14,7 +14,7 @@ namespace barehand {
 
 /// A file that a run reads besides its source.
 struct InputFile {
-  std::string option;  ///< "--hand"
+  std::string option;  ///< such as "--hand"
   std::string path;    ///< "": none
 };
 
@@ -22,33 +22,33 @@ struct InputFile {
 struct Output {
   enum class Kind {
     file,
-    pictures,   ///< a folder with a picture a frame
-    recording,  ///< a folder that becomes a recording, which looks after itself what is there
+    pictures,   ///< a folder with one image per frame
+    recording,  ///< a folder that becomes a recording; its writer checks what the folder contains
     log_set,    ///< logs whose names begin with this one's (RotatingLog)
   };
-  std::string option;  ///< "--result"
+  std::string option;  ///< such as "--result"
   std::string path;    ///< "": not written
   Kind kind = Kind::file;
 };
 
-/// To be asked before the first output is opened. Refuses an output
-/// - that is an input or another output, whatever it is called (Place);
+/// Call it before the first output is opened. Refuses an output
+/// - that is an input or another output, even under another name (Place);
 /// - that is a file of the source, lies in one of its image folders, or as a folder is or contains the source. A new
-///   file or folder beside the files of a recording is none of these;
-/// - that is a folder of pictures and holds images of a recording;
-/// - that exists, unless `overwrite`. A folder of pictures exists where there are pictures of frames in it.
-/// Devices are never refused, and pipes and descriptors only where they are an input or another output.
+///   file or folder next to the files of a recording is allowed;
+/// - that is a folder of images and holds images of a recording;
+/// - that exists, unless `overwrite`. A folder of images counts as existing if it contains images of frames.
+/// Devices are never refused; pipes and descriptors are refused only if they are an input or another output.
 Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,
                            const std::vector<Output>& outputs, bool overwrite);
 
-/// Whether check_outputs refuses it because of what is there, and --overwrite would help.
+/// Whether check_outputs refuses the output because it exists, so that --overwrite would help.
 bool is_taken(const Output& output);
 
-/// Whether it goes where the standard output goes, by whatever name. Then nothing else belongs there: a command tells
-/// people on standard error what it would print.
+/// Whether `path` is the standard output, by any name. If so, a command prints to standard error what it would
+/// otherwise print to standard output.
 bool is_standard_output(const std::string& path);
 
-/// --overwrite, the same for every command.
+/// Adds --overwrite, which is the same for every command.
 void add_overwrite_option(CLI::App& command, bool& overwrite);
 
 }  // namespace barehand

@@ -11,7 +11,7 @@ Result<NamedHand> named(Result<HandProfile> profile, const std::string& name) {
   return NamedHand{std::make_shared<const HandProfile>(std::move(*profile)), name};
 }
 
-/// The mean adult hand.
+/// Loads the shipped mean adult hand.
 Result<NamedHand> shipped(const std::string& side) {
   return find_data_file("configs/hands/adult_" + side + ".json").and_then([](const std::string& path) {
     return named(load_profile(path), path);

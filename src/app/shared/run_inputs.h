@@ -10,19 +10,20 @@
 
 namespace barehand {
 
-/// A path, the name of a shipped configuration, or "builtin": the values in the code, to write a new file from when
-/// keys were added. Errors: everything that is wrong in the file.
+/// Reads a configuration. `name`: a path, the name of a shipped configuration, or "builtin" for the values in the code,
+/// from which a new file can be written when keys were added. The error names everything that is wrong in the file.
 Result<Config> read_configuration(const std::string& name);
 
 struct NamedHand {
   std::shared_ptr<const HandProfile> profile;
-  std::string name;  ///< where it comes from, for messages
+  std::string name;  ///< where the profile comes from, for messages
 };
 
-/// Every `wanted`: a profile's path; right, left or both: the shipped mean adult hand. None: those that come with the
-/// source, else the shipped right hand. Errors: more than a right and a left one.
+/// Loads the hands to track. An entry of `wanted` is the path of a profile, or right, left or both for the shipped mean
+/// adult hand. If it is empty, these are the hands that the source knows, or else the shipped right hand. Errors: a
+/// profile that cannot be read, two hands of the same side.
 Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source);
-/// Of each, in that order.
+/// The profiles of these hands, in the same order.
 std::vector<std::shared_ptr<const HandProfile>> profiles_of(const std::vector<NamedHand>& hands);
 
 }  // namespace barehand

@@ -20,7 +20,8 @@ constexpr const char* kKinds = "folder:DIR, log:FILE, lcm, openni2, openni2:SENS
 
 bool is_oni_file(const std::string& name) { return name.ends_with(".oni"); }
 
-/// A list that somebody else made may name any file of this machine.
+/// Returns a warning if the recording's lists name images outside of its folder: a list of unknown origin may name any
+/// file of this machine.
 std::optional<std::string> outside_warning(const Recording& recording) {
   std::int64_t count = 0;
   std::string first;
@@ -83,7 +84,7 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   return open;
 }
 
-/// An .oni file plays; anything else is (part of) a sensor's address, and the sensor may come later.
+/// Opens an .oni file, or a sensor whose address contains `argument` and which may be plugged in later.
 Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
   if (const auto possible = check(request.openni2.camera, request.spec + ", fx, fy, cx, cy"); !possible)
     return tl::unexpected(possible.error());
@@ -139,7 +140,7 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
 
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
   auto open = open_kind(request, clock);
-  // The simulator's pictures are what it was asked for: without noise they may well stand still.
+  // The simulator's images are not checked: without noise, they may rightly stay the same.
   if (open && !request.spec.starts_with("sim:"))
     open->source = std::make_unique<WatchedSource>(std::move(open->source), request.depth, clock);
   return open;

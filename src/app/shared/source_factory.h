@@ -17,35 +17,35 @@
 
 namespace barehand {
 
-/// What `--source` and its neighbours say.
+/// What `--source` and the options that belong to it ask for.
 struct SourceRequest {
   std::string spec;                   ///< folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME
   std::optional<std::int64_t> start;  ///< first frame of a recording
   std::int64_t step = 1;              ///< every step-th frame; negative plays backwards
-  std::string lcm_url;                ///< of the source `lcm`; "": LCM's default
+  std::string lcm_url;                ///< for the source `lcm`; "": LCM's default
   std::string channel;                ///< glob of LCM channels with frames; "": the driver chooses one
   GivenIntrinsics foreign;            ///< intrinsics of frames that come without
-  OpenNiParams openni2;               ///< what is wanted of a sensor
-  std::size_t live_capacity = 1;      ///< live frames that may wait; 1: the newest wins
-  DepthLimits depth;                  ///< where a hand is looked for; where nothing is measured there, that is said
+  OpenNiParams openni2;               ///< wanted mode of a sensor
+  std::size_t live_capacity = 1;      ///< live frames that may wait; 1: only the newest
+  DepthLimits depth;                  ///< where a hand is searched for; a warning is given if nothing is measured there
 };
 
 /// A hand that a source knows.
 struct SourceHand {
   std::function<Result<HandProfile>()> load;  ///< reads its profile
-  std::string name;                           ///< where that comes from, for messages
+  std::string name;                           ///< where the profile comes from, for messages
 };
 
 struct OpenSource {
   std::unique_ptr<FrameSource> source;
-  std::vector<SourceHand> hands;       ///< the very hands that are seen, the first one first; empty: not known
+  std::vector<SourceHand> hands;       ///< exactly the hands in the frames, in the source's order; empty: not known
   double fps = 0;                      ///< nominal rate at which frames come; 0: not known
-  std::optional<std::int64_t> frames;  ///< how many will come, where that is known
-  std::vector<std::string> warnings;   ///< what the user should know of a source that opened all the same
+  std::optional<std::int64_t> frames;  ///< number of frames to come, if known
+  std::vector<std::string> warnings;   ///< problems to report, although the source could be opened
 };
 
-/// Errors: an unknown kind of source, and whatever the driver says (no such file, no frames, no multicast route, ...).
-/// `clock` outlives the source and paces a live simulator.
+/// Opens a source. Errors: an unknown kind of source, and those of its driver (no such file, no frames, no multicast
+/// route, ...). `clock` must outlive the source; it paces a live simulator.
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock);
 
 }  // namespace barehand

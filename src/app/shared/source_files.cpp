@@ -14,18 +14,19 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_recording(const std::string& directory, SourceFiles& files) {
-  // What a recording is read from, whether it has all of it or not: somebody's result is nobody's truth.
+  // The files from which a recording is read, even those that it lacks: a result that is written there would be taken
+  // for its truth.
   files.folder = directory;
   for (const char* name : {"camera.json", "depth.txt", "rgb.txt", "truth.csv", "truth_left.csv", "truth_right.csv",
                            "fingertips.csv", "fingertips_2d.csv", "start_pose.json", "start_pose_left.json"})
     files.files.push_back(directory + "/" + name);
 
-  // A hand may be added to a recording that has none.
+  // Its hand profiles, if they exist: a new one may be written into a recording without.
   std::error_code ignored;
   for (const char* name : {"hand.json", "hand_left.json", "hand_right.json"})
     if (const std::string hand = directory + "/" + name; fs::exists(hand, ignored)) files.files.push_back(hand);
 
-  // The images, and the folders they are in unless that is all of the recording.
+  // The images, and their folders unless that is the recording's own.
   files.image_folders = {directory + "/depth", directory + "/rgb"};
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     const auto list = read_stamped_list(directory + "/" + name);
@@ -44,7 +45,7 @@ void add_recording(const std::string& directory, SourceFiles& files) {
                             files.image_folders.end());
 }
 
-/// Whatever its name is.
+/// Whether a file is an LCM log, by its first bytes and not by its name.
 bool is_log(const fs::path& path) {
   constexpr std::array<unsigned char, 4> kSync{0xED, 0xA1, 0xDA, 0x01};
   std::error_code ignored;

@@ -7,9 +7,9 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kRepeatEvery = 10'000'000;  // us
-constexpr std::int64_t kStillFor = 1'000'000;      // us of a recording
-constexpr int kStillFrames = 10;
+constexpr std::int64_t kRepeatEvery = 10'000'000;  // time [us] in which a problem of one kind is reported once
+constexpr std::int64_t kStillFor = 1'000'000;      // an unchanged image of a recording is reported after this time [us]
+constexpr int kStillFrames = 10;                   // and after this number of frames
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
@@ -37,7 +37,7 @@ SourceEvent WatchedSource::next(std::chrono::milliseconds patience) {
   return take_next();
 }
 
-/// Whether the frame is to be used; what is to be said comes before it.
+/// Returns whether the frame is to be used. Messages about it are queued before it.
 bool WatchedSource::look(const FramePtr& frame) {
   if (!before_ || !(before_->camera == frame->camera) || before_->depth_unit != frame->depth_unit) {
     look_at_camera(*frame);
@@ -74,7 +74,7 @@ bool WatchedSource::look_at_picture(const FramePtr& frame) {
   return true;
 }
 
-/// Of a recording. A sensor's noise never repeats, but a rendered hand may keep still.
+/// Reports a recording whose depth image stays the same. A sensor's noise never repeats, but a rendered hand may rest.
 void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
   if (!still) {
     still_since_.reset();

@@ -11,12 +11,12 @@
 
 namespace barehand {
 
-/// Stands between a source, of whatever kind, and whoever takes its frames, and says what looks wrong about them:
-/// colour that is left out, intrinsics that no camera has, depth out of range, a picture that stands still, noise. Of a
-/// live source pictures that stand still or are noise are skipped; a recording's are its own, and may be rendered.
+/// Passes on the frames of another source and reports what looks wrong in them: colour that was left out, intrinsics
+/// that no camera has, depth out of range, an image that does not change, noise. Frames of a live source whose image
+/// does not change or is noise are skipped. Those of a recording are kept, since they may be rendered.
 class WatchedSource : public FrameSource {
  public:
-  /// `clock` outlives it.
+  /// `clock` must outlive the source.
   WatchedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
@@ -35,11 +35,11 @@ class WatchedSource : public FrameSource {
   std::unique_ptr<FrameSource> source_;
   const DepthLimits limits_;
   RepeatFilter filter_;
-  std::optional<DepthRange> range_;  ///< of the camera in force; none: no frame came
+  std::optional<DepthRange> range_;  ///< check of the current camera; none before the first frame
   FramePtr before_;
   FramePtr still_since_;  ///< first of a run of frames with the same depth image; null: none
   int still_frames_ = 0;
-  std::deque<SourceEvent> to_come_;  ///< before anything new is read
+  std::deque<SourceEvent> to_come_;  ///< events to deliver before another frame is read
 };
 
 }  // namespace barehand

@@ -4,8 +4,8 @@
 
 namespace barehand {
 
-/// Says on standard error how far a rendering is: a line that is rewritten on a terminal, a line at every tenth of the
-/// work elsewhere. Always true (go on), as run_sim asks.
+/// Prints the progress of a rendering to standard error: on a terminal as one line that is rewritten, otherwise as a
+/// line at every tenth of the frames. Returns true, which makes run_sim continue.
 bool render_progress(std::int64_t done, std::int64_t all);
 
 }  // namespace barehand

@@ -82,7 +82,7 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<SimArguments>();
   CLI::App* sim = app.add_subcommand("sim", "Render a synthetic sequence of a hand with ground truth");
 
-  // What is rendered, and where to.
+  // Add options for what is rendered, and where it is written.
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
   sim->add_option("--out", a->out, "folder to create, or FILE.lcmlog");
   add_overwrite_option(*sim, a->overwrite);
@@ -92,7 +92,7 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   sim->add_option("--fps", a->fps, "frames per second, other than the sequence's own");
   sim->add_option("--hand", a->hand, "right or left, where a sequence shows one hand");
 
-  // Everything else.
+  // Add options for all other keys and for the list.
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
   sim->add_flag("--list", a->list, "list the sequences and keys");
   sim->footer(

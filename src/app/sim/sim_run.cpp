@@ -23,7 +23,7 @@ std::string beside(const std::string& out, const std::string& name) {
   return is_log_path(out) ? std::filesystem::path(out).replace_extension(name).string() : out + "/" + name;
 }
 
-/// Logs get JPEG, as from a camera that streams; folders lossless colour.
+/// Logs get JPEG colour, as from a camera that streams; folders get lossless colour.
 Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double fps, bool overwrite) {
   FrameWriterOptions options;
   options.encoding.colour = is_log_path(out) ? ColourEncoding::jpeg : ColourEncoding::png;
@@ -32,7 +32,7 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
   return open_frame_writer(out, options);
 }
 
-/// The log, and what goes with it or with a recording.
+/// Checks that the log or recording, and the files that belong to it, may be written.
 Result<void> check_written(const SimOptions& options, const std::vector<SimulatedHand>& hands) {
   std::vector<Output> outputs{
       {"--out", options.out, is_log_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
@@ -46,7 +46,7 @@ Result<void> check_written(const SimOptions& options, const std::vector<Simulate
 /// The files about one hand: its profile, its truth, and its pose in the first frame if it is seen there.
 class HandFiles {
  public:
-  /// Of the k-th hand.
+  /// Creates the files of the k-th hand.
   static Result<HandFiles> create(const SimOptions& options, int k, const HandProfile& profile) {
     const auto path = [&](const char* name) { return path_of_hand(beside(options.out, name), k, profile.handedness); };
     if (auto ok = save_profile(profile, path("hand.json")); !ok) return tl::unexpected(ok.error());
@@ -105,7 +105,7 @@ Result<std::int64_t> run_sim(const SimOptions& options,
     const auto* frame = std::get_if<FramePtr>(&event);
     if (!frame) break;
 
-    // The frame, and the truth about each hand.
+    // Write the frame, and the truth about each hand.
     if (auto ok = (*writer)->write(**frame); !ok) return tl::unexpected(ok.error());
     for (std::size_t i = 0; i < hand_files->size(); ++i)
       if (auto ok = (*hand_files)[i].write((*source)->hands()[i], (*frame)->number); !ok)

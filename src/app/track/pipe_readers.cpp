@@ -19,7 +19,7 @@ PipeReaders::~PipeReaders() {
 
 std::optional<std::string> PipeReaders::wait_for(const std::string& path, const std::stop_token& stop,
                                                  const std::function<void()>& on_wait) {
-  // A pipe that this process was started with has its reader, or never will.
+  // A pipe that this process got as an open descriptor has its reader already, or will never get one.
   std::error_code ignored;
   if (!std::filesystem::is_fifo(path, ignored) || target_of(path).descriptor >= 0) return path;
 
@@ -27,7 +27,7 @@ std::optional<std::string> PipeReaders::wait_for(const std::string& path, const 
   std::condition_variable_any never;
   while (!stop.stop_requested()) {
     const int pipe = open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-    if (pipe < 0 && errno != ENXIO) return path;  // whoever opens it says why not
+    if (pipe < 0 && errno != ENXIO) return path;  // opening it later reports the error
     if (pipe >= 0) {
       fcntl(pipe, F_SETFL, fcntl(pipe, F_GETFL) & ~O_NONBLOCK);
       return "/dev/fd/" + std::to_string(pipes_.emplace_back(pipe));

@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// Readers of named pipes. Opening such a pipe for writing waits for one, and neither a signal nor a service manager
-/// could end that; here they can.
+/// Waits for readers of named pipes. Opening such a pipe for writing blocks until it has a reader, and neither a signal
+/// nor a service manager could end that; this wait can be stopped.
 class PipeReaders {
  public:
   PipeReaders() = default;
@@ -17,8 +17,9 @@ class PipeReaders {
   PipeReaders(const PipeReaders&) = delete;
   PipeReaders& operator=(const PipeReaders&) = delete;
 
-  /// Where to write what is to go to `path`: of a named pipe, once it has a reader, the descriptor that this object
-  /// holds open (/dev/fd/5); else `path` itself, at once. `on_wait` is called now and then. None: `stop` came first.
+  /// Returns where to write what is meant for `path`: for a named pipe, once it has a reader, the descriptor that this
+  /// object holds open (such as /dev/fd/5); otherwise `path` itself, at once. `on_wait` is called repeatedly while it
+  /// waits. Returns none if `stop` came first.
   std::optional<std::string> wait_for(const std::string& path, const std::stop_token& stop,
                                       const std::function<void()>& on_wait);
 

@@ -6,7 +6,7 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand track`, the daemon. When it has run, `exit_code` holds its result (exit_code.h).
+/// Adds `barehand track`, the daemon. After it has run, `exit_code` holds its result (exit_code.h).
 void add_track_command(CLI::App& app, int& exit_code);
 
 }  // namespace barehand

@@ -18,16 +18,16 @@ struct TrackOptions {
   std::string init = "auto";
   std::string result, states_log, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
-  bool overwrite = false;   ///< outputs replace files that exist
-  int overlay_every = 1;    ///< every so many frames are drawn
+  bool overwrite = false;   ///< outputs may replace existing files
+  int overlay_every = 1;    ///< every n-th frame is drawn
   std::string lcm_url;
-  std::optional<std::int64_t> seed;  ///< instead of the configuration's
+  std::optional<std::int64_t> seed;  ///< replaces the configuration's seed
   int threads = 1;
   bool single_threaded = false;  ///< --inline
   bool no_publish = false;
   std::string print_config;  ///< which keys: user, all or changed; "": none
   bool health = false;
-  std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: there is none
+  std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: no page is served
   std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
 
   /// The outputs that are one file each.

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = Output::Kind;
 
-/// One a hand.
+/// The outputs of an option that writes one file per hand.
 std::vector<Output> of_hands(const std::string& option, const std::string& path,
                              const TwoHandTracker::Profiles& hands) {
   std::vector<Output> outputs;
@@ -22,21 +22,21 @@ std::vector<Output> of_hands(const std::string& option, const std::string& path,
   return outputs;
 }
 
-/// A pipe or a device takes the table or the profile of one hand.
+/// Refuses a pipe or a device if there are two hands: it can take the table or the profile of only one.
 Result<void> check_room_for(const TwoHandTracker::Profiles& hands, const std::string& option, const std::string& path) {
   if (hands.size() < 2 || path.empty() || !target_of(path).direct) return {};
   return fail("is one pipe or device, and two hands are tracked", option + " " + path,
               "give a file, or track one hand");
 }
 
-/// LCM's own logs: file://PATH?mode=w.
+/// The log that LCM itself writes if the network is file://PATH?mode=w.
 Output of_network(const std::string& url) {
   const std::string file = "file://";
   const bool writes = url.starts_with(file) && url.find("mode=w") != std::string::npos;
   return {"--lcm-url", writes ? url.substr(file.size(), url.find('?') - file.size()) : ""};
 }
 
-/// A video, whose name ends like one, is a file; anything else is a folder of pictures.
+/// An overlay whose name ends like a video is a file; any other is a folder of images.
 Kind kind_of_overlay(const std::string& path) { return video_format(path) ? Kind::file : Kind::pictures; }
 
 std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Profiles& hands) {
@@ -52,11 +52,11 @@ std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Prof
 
 std::string numbered(const std::string& path, int number) {
   std::filesystem::path whole(path);
-  if (!whole.has_filename()) whole = whole.parent_path();  // "folder/"
+  if (!whole.has_filename()) whole = whole.parent_path();  // for a path like "folder/"
   return whole.parent_path() / (whole.stem().string() + "-" + std::to_string(number) + whole.extension().string());
 }
 
-/// `path`, or the first with a number that is free for all that is_taken asks about.
+/// `path` if it is free by `is_taken`, or else the first numbered name that is.
 template <class IsTaken>
 std::string free_name(const std::string& path, const IsTaken& is_taken) {
   std::string name = path;
@@ -73,7 +73,7 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
   });
   if (!room) return tl::unexpected(room.error());
 
-  // What is read is told by its name as given, before any of the names changes.
+  // Check the names as they were given, before any of them gets a number.
   std::vector<InputFile> inputs{{"--config", config_path}};
   for (const std::string& hand : options.hands)
     if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
@@ -84,7 +84,7 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
     return tl::unexpected(good.error());
   if (!number) return options;
 
-  // A service goes on beside what the run before it wrote.
+  // Give a number to the names that an earlier run has taken.
   const auto some_taken = [](const std::vector<Output>& outputs) {
     for (const Output& output : outputs)
       if (is_taken(output)) return true;

@@ -6,14 +6,14 @@
 
 namespace barehand {
 
-/// The outputs that `options` names, with those of the second hand, after check_outputs. A live run is not refused
-/// because of files that exist: a service starts again with the same arguments. There, without --overwrite, a taken
-/// name gets the first free number: states.lcmlog becomes states-2.lcmlog. `config_path`: the configuration's file, "":
-/// none.
+/// Checks all outputs, with those of a second hand, by check_outputs, and returns `options` with their final names. A
+/// live run does not fail because a file exists, since a service is restarted with the same arguments: without
+/// --overwrite, a name that is taken gets the first free number (states.lcmlog becomes states-2.lcmlog). `config_path`:
+/// the configuration's file; "": none.
 Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
                                     const TwoHandTracker::Profiles& hands, bool live);
 
-/// Whether one of the outputs goes to the standard output. To be asked before they are written.
+/// Whether one of the outputs goes to the standard output. Call it before they are written.
 bool writes_to_standard_output(const TrackOptions& options);
 
 }  // namespace barehand

@@ -45,9 +45,9 @@ using Step = tl::expected<void, TrackFailure>;
 tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
 tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
 
-constexpr double kUsualRate = 30;  // Hz, of a film of frames whose rate is not known
+constexpr double kUsualRate = 30;  // frame rate of a video if that of the source is not known [Hz]
 
-/// One run, put together step by step: all input is checked before the first output file is touched.
+/// One run, which is set up step by step: all input is checked before the first output file is touched.
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread,
@@ -93,8 +93,8 @@ class TrackRun {
   ServiceManager service_{clock_};
   std::stop_source stop_;
   PendingParams pending_;
-  Reload reload_;               // watcher's thread only
-  InterruptWatcher interrupt_;  // before anything that starts threads
+  Reload reload_;               // used by the watcher's thread only
+  InterruptWatcher interrupt_;  // declared before anything that starts threads
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
   TwoHandTracker::Profiles profiles_;
@@ -139,7 +139,7 @@ Step TrackRun::open_input() {
   if (input_.source->live())
     workers_->go_live();
   else
-    interrupt_.stop_on_hangup();  // a recording is tracked with one configuration from end to end
+    interrupt_.stop_on_hangup();  // the configuration must not change within a recording
   for (const std::string& warning : input_.warnings) log_.logger().warn(warning);
   return {};
 }
@@ -245,7 +245,7 @@ Step TrackRun::open_bus() {
       BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &pending_.bus));
 }
 
-/// What needs the LCM network. A run that waits for live frames waits for a network that is not there yet, too.
+/// Opens something that needs the LCM network. A live run waits until the network is there.
 template <class Open>
 auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   std::mutex mutex;
@@ -253,7 +253,7 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   while (true) {
     auto opened = open();
     if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
-    if (LcmBus::open(options_.lcm_url)) return open();  // it is there now, or something else is wrong
+    if (LcmBus::open(options_.lcm_url)) return open();  // the network is there now, or another error occurred
     log_.warn("LCM", opened.error().message() + "; trying again every second");
     service_.ready("waiting for the LCM network");
     service_.alive();
@@ -262,7 +262,8 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   }
 }
 
-/// The page is an extra: what keeps it from being served does not keep hands from being tracked.
+/// Starts the server of the live page. The page is optional: if the server cannot be started, tracking continues
+/// without.
 Step TrackRun::open_view() {
   const auto address = parse_web_address(*options_.view);
   if (!address) return usage(address.error());
@@ -278,7 +279,7 @@ Step TrackRun::open_view() {
   return {};
 }
 
-/// With the queue of frames for the page.
+/// Adds the queue of frames for the live page.
 PipelineHealth TrackRun::with_view(PipelineHealth health) const {
   if (view_) health.queues.push_back(view_->health());
   return health;
@@ -289,7 +290,7 @@ TrackFailure TrackRun::no_network(const Error& error) const {
   return stopped("stopped while waiting for the LCM network").value();
 }
 
-/// Before the first frame.
+/// The result of a run that was stopped before its first frame.
 tl::unexpected<TrackFailure> TrackRun::stopped(const std::string& when) const {
   const bool done = interrupt_.signal() != SIGINT && (!input_.source || input_.source->live());
   return tl::unexpected(TrackFailure{{when, "", ""}, done ? kExitOk : kExitInterrupted});
@@ -349,11 +350,11 @@ int TrackRun::conclude(const RunResult& result) {
   if (result.stopped) {
     const bool by_user = interrupt_.signal() == SIGINT;
     log_.logger().info("stopped by {}; everything tracked until then is written", interrupt_.name());
-    if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // a recording is not done before its end
+    if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // the recording was not tracked to its end
   }
   for (const std::string& sink : result.incomplete) {
     log_.logger().error("{}: frames are missing", sink);
-    if (!input_.source->live()) exit_code = kExitFailure;  // the world around a daemon is not its failure
+    if (!input_.source->live()) exit_code = kExitFailure;  // a live run does not fail because of a disk or the network
   }
   if (result.error) {
     log_.logger().error(result.error->message());
@@ -362,7 +363,8 @@ int TrackRun::conclude(const RunResult& result) {
   return exit_code == kExitOk ? judge_frames(result.health) : exit_code;
 }
 
-/// Of a run that went to its end: whether a recording was read, and a line where nobody would notice otherwise.
+/// The exit code of a run that reached its end. Reports if most frames of a recording could not be used, and if no hand
+/// was found in any frame.
 int TrackRun::judge_frames(const PipelineHealth& health) {
   const std::int64_t frames = health.captured + health.skipped, unusable = health.skipped + health.failed;
   if (!input_.source->live() && health.published == 0) {
@@ -416,7 +418,7 @@ int run_track(const TrackOptions& options) {
   }
   if (options.source.empty())
     return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
-  // Where there is a terminal, SIGHUP means that it is gone.
+  // In a terminal, SIGHUP means that the terminal was closed. Without one, it reloads the configuration.
   const bool daemon = isatty(STDIN_FILENO) == 0;
   const auto reread = [&]() -> Result<Config> {
     if (is_pipe(options.config))

@@ -20,23 +20,23 @@ struct TrackFailure {
 /// How a run went.
 struct TrackOutcome {
   PipelineHealth health;
-  std::vector<StatusCounts> status;  ///< one a hand
-  double seconds = 0;                ///< wall clock
+  std::vector<StatusCounts> status;  ///< one for each hand
+  double seconds = 0;                ///< duration of the run [s]
   bool stopped = false;              ///< by a signal; everything tracked until then is written
   int exit_code = kExitOk;
 };
 
-/// Tracks as `config` and the rest of `options` say; its config, seed and print_config are not looked at. Progress and
-/// log on standard error, nothing on standard output. All input is checked before the first output file is touched.
-/// `reread`: the configuration as it is now, asked for at SIGHUP by a run over live frames. Without it, and over a
-/// recording, SIGHUP ends the run as SIGTERM does.
-/// `more`: sinks besides those of the options.
+/// Tracks with `config` and `options`. Of the latter, seed and print_config are not used, and config only to protect
+/// its file from the outputs. Progress and log go to standard error, nothing to standard output. All input is checked
+/// before the first output file is touched. `reread` returns the configuration as it is now; a run over live frames
+/// calls it at SIGHUP. Without it, and over a recording, SIGHUP ends the run as SIGTERM does. `more`: sinks in addition
+/// to those of the options.
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread = {},
                                                std::vector<std::unique_ptr<Sink>> more = {});
 
-/// Runs `barehand track` and returns its exit code (exit_code.h). Errors are told on standard error, the closing
-/// summary on standard output.
+/// Runs `barehand track` and returns its exit code (exit_code.h). Errors are printed to standard error; so is the final
+/// summary if an output goes to standard output, where it is printed otherwise.
 int run_track(const TrackOptions& options);
 
 }  // namespace barehand

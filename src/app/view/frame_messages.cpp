@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-/// How much larger the tracked hand is than the profile: by the lengths of its segments.
+/// Size of the tracked hand relative to the profile, by the summed lengths of the segments.
 double relative_size(const hand_state_t& state, const HandProfile& profile) {
   double tracked = 0, own = 0;
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -14,33 +14,33 @@
 
 namespace barehand {
 
-/// What the page may show of the messages on LCM.
+/// The kinds of LCM messages that the page can show.
 enum class MessageKind { hand_state, glove_state, health, frame, other };
-/// By the fingerprint of a message's type.
+/// The kind of a message, by the fingerprint of its type.
 MessageKind kind_of(std::int64_t hash);
 
-/// One message as it came.
+/// A message as it was received.
 struct LcmMessage {
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };
 
-/// The skins of the hands that the states tell of. States carry no skin, so that one is shown whose profile the user
-/// gave, or the mean adult hand's, made as large as the tracked one.
+/// Skins to draw the hands in states with. States carry no skin; the skin of a profile that the user gave, or of the
+/// mean adult hand, is scaled to the size of the tracked hand.
 class ShownHands {
  public:
-  /// `profiles`: by Handedness, both there.
+  /// `profiles` are indexed by Handedness; none may be null.
   explicit ShownHands(std::array<std::shared_ptr<const HandProfile>, 2> profiles) : profiles_(std::move(profiles)) {}
   ViewSkinPtr skin_of(const hand_state_t& state);
 
  private:
   std::array<std::shared_ptr<const HandProfile>, 2> profiles_;
   std::array<ViewSkinPtr, 2> skins_;
-  std::array<double, 2> sizes_{};  // of the skins, against the profiles
+  std::array<double, 2> sizes_{};  // sizes of the skins relative to the profiles
 };
 
-/// All that `messages`, which are of one frame, say of it; what is damaged is left out. `foreign`: intrinsics of frames
-/// that come without.
+/// Collects what the messages of one frame contain; damaged messages are left out. `foreign`: intrinsics of frames
+/// whose type carries none.
 ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
                                  const GivenIntrinsics& foreign);
 

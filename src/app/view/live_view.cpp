@@ -9,8 +9,8 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kCompleteUs = 10'000;  // the messages of one frame come within this time
-constexpr std::size_t kImages = 8;            // kept for states that are still to come
+constexpr std::int64_t kCompleteUs = 10'000;  // the messages of one frame arrive within this time
+constexpr std::size_t kImages = 8;            // number of images that are kept until their states arrive
 
 TimeSummary summary_of(std::int64_t count, double mean, double p50, double p95, double p99, double max) {
   return {count, mean, p50, p95, p99, max};

@@ -11,12 +11,12 @@
 
 namespace barehand {
 
-/// Shows what trackers send on an LCM network: gathers the messages of one frame by their time.
+/// Shows what trackers send on an LCM network. Messages with the same time stamp belong to one frame.
 class LiveView {
  public:
-  /// `prefix`: of the tracker's channels. `server` and `clock` outlive it.
+  /// `prefix`: that of the tracker's channels. `server` and `clock` must outlive the view.
   LiveView(std::shared_ptr<LcmBus> bus, std::string prefix, ShownHands hands, ViewServer& server, const Clock& clock);
-  /// Waits no longer than `patience` for a message, and shows the frame that is complete then.
+  /// Waits at most `patience` for a message, and shows the current frame if it is complete.
   void step(std::chrono::milliseconds patience);
   bool broken() const { return listener_.broken(); }
 
@@ -30,12 +30,12 @@ class LiveView {
   ShownHands hands_;
   ViewServer& server_;
   const Clock& clock_;
-  std::vector<LcmMessage> gathered_;  // states of one frame
-  std::vector<LcmMessage> images_;    // the last ones, oldest first; states come after the image that they are of
+  std::vector<LcmMessage> gathered_;  // messages of one frame, without its image
+  std::vector<LcmMessage> images_;    // the latest images, oldest first; states arrive after their image
   std::optional<PipelineHealth> health_;
-  std::int64_t frame_us_, status_us_ = 0, gathered_us_ = 0;  // steady clock
+  std::int64_t frame_us_, status_us_ = 0, gathered_us_ = 0;  // times by the steady clock [us]
   BoundedQueue<LcmMessage> queue_{"LCM", 64, Overflow::drop_oldest};
-  LcmListener listener_;  // last: it fills the queue
+  LcmListener listener_;  // declared last: its thread fills the queue
 };
 
 }  // namespace barehand

@@ -32,7 +32,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
   return index;
 }
 
-/// Where there are states, a frame is what has one; images alone are frames only in a log without states.
+/// Finds the frames: all times with a hand state, or, if there are no states, all times with an image or glove values.
 void LogIndex::find_frames() {
   std::map<std::int64_t, std::vector<Place>> of_time;
   for (std::size_t log = 0; log < logs_.size(); ++log) {

@@ -10,7 +10,8 @@
 
 namespace barehand {
 
-/// The frames of one or more LCM logs, put together by their times: states in one log, images in another.
+/// The frames of one or more LCM logs. Messages with the same time stamp belong to one frame; its states may be in one
+/// log and its image in another.
 class LogIndex {
  public:
   /// Errors: a log that cannot be read; neither states nor frames in any of them.
@@ -19,8 +20,9 @@ class LogIndex {
   std::int64_t frames() const { return static_cast<std::int64_t>(frames_.size()); }
   /// Time of a frame since the first one [s].
   double seconds(std::int64_t frame) const;
+  /// Sequences of frames in which no hand has a pose; empty if there are no states.
   const std::vector<LostFrames>& lost() const { return lost_; }
-  /// The messages of a frame; those that the disk does not give back are left out.
+  /// The messages of a frame; those that cannot be read are left out.
   std::vector<LcmMessage> messages(std::int64_t frame);
 
  private:
@@ -36,7 +38,7 @@ class LogIndex {
   bool has_pose(const Frame& frame);
 
   std::vector<LcmLogReader> logs_;
-  std::vector<Frame> frames_;  // by time
+  std::vector<Frame> frames_;  // in the order of time
   std::vector<LostFrames> lost_;
   bool any_states_ = false;
 };

@@ -5,7 +5,7 @@
 
 namespace barehand {
 namespace {
-constexpr double kLongestGap = 2.0;  // s, pauses in a log are shortened to this
+constexpr double kLongestGap = 2.0;  // longest pause [s]; longer pauses in a log are shortened to this
 constexpr double kSlowest = 0.01, kFastest = 100;
 }  // namespace
 
@@ -43,10 +43,11 @@ void LogPosition::follow(const PlayerCommand& command, std::int64_t now_us) {
 void LogPosition::go_to(std::int64_t frame, std::int64_t now_us) {
   frame_ = std::clamp<std::int64_t>(frame, 0, static_cast<std::int64_t>(seconds_.size()) - 1);
   shown_us_ = now_us;
-  started_ = false;  // it has to be shown
+  started_ = false;  // it must be shown even if it is the same frame
 }
 
-/// The first frame of the next stretch without a hand, or of the one before; where there is none, the frame itself.
+/// First frame of the next sequence of frames without a hand, or of the previous one; the current frame if there is
+/// none.
 std::int64_t LogPosition::next_lost(bool forwards) const {
   if (forwards) {
     const auto after = std::ranges::find_if(lost_, [&](const LostFrames& lost) { return lost.first > frame_; });

@@ -9,18 +9,19 @@
 
 namespace barehand {
 
-/// Where a log that is played stands, and when its next frame is due. Owns no thread.
+/// The position in a log that is played, and the time when its next frame is due. Owns no thread.
 class LogPosition {
  public:
-  /// `seconds`: of every frame since the first one, rising; not empty. `lost`: as LogIndex::lost().
+  /// `seconds`: time of every frame since the first one, increasing; must not be empty. `lost`: as LogIndex::lost().
   LogPosition(std::vector<double> seconds, std::vector<LostFrames> lost);
 
   void follow(const PlayerCommand& command, std::int64_t now_us);
-  /// Nobody looks: the frame that is due now is the one that was due before.
+  /// Call it while nobody watches: the position stays, and the current frame is due at `now_us`.
   void wait(std::int64_t now_us) { go_to(frame_, now_us); }
-  /// Goes on to the frame that is to be shown at `now_us` (steady clock). True: it is another one.
+  /// Moves to the frame to be shown at `now_us` (steady clock). Returns whether it must be shown, since it changed or
+  /// was not shown yet.
   bool advance(std::int64_t now_us);
-  /// When the next frame is due, steady clock; none: nothing is played.
+  /// Time by the steady clock at which the next frame is due; none if the log is not playing.
   std::optional<std::int64_t> due_us() const;
   PlayedLog state() const;
   std::int64_t frame() const { return frame_; }
@@ -34,7 +35,7 @@ class LogPosition {
   std::int64_t frame_ = 0;
   bool playing_ = true;
   double speed_ = 1;
-  std::int64_t shown_us_ = 0;  // when frame_ was due
+  std::int64_t shown_us_ = 0;  // time at which frame_ was due
   bool started_ = false;
 };
 

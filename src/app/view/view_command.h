@@ -6,7 +6,7 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand view`, which shows what another tracker sends, or a log. When it has run, `exit_code` holds its
+/// Adds `barehand view`, which shows what another tracker sends, or a log. After it has run, `exit_code` holds its
 /// result (exit_code.h).
 void add_view_command(CLI::App& app, int& exit_code);
 

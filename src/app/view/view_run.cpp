@@ -24,7 +24,7 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
-/// Of both sides: what the user gave, else the mean adult hand.
+/// A hand for each side: the one that the user gave, or else the mean adult hand.
 Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   std::array<std::shared_ptr<const HandProfile>, 2> profiles;
   for (const auto& names : {std::vector<std::string>{"both"}, wanted}) {
@@ -72,10 +72,10 @@ class LogShow {
 };
 
 void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
-  constexpr std::int64_t kPatienceUs = 50'000;  // bounds the time to stop
+  constexpr std::int64_t kPatienceUs = 50'000;  // bounds the time that stopping takes
   std::unique_lock lock(mutex_);
   while (!stop) {
-    if (!server.has_clients() && !stop) {  // it begins when somebody looks
+    if (!server.has_clients() && !stop) {  // playing starts when a page connects
       changed_.wait_for(lock, std::chrono::microseconds(kPatienceUs));
       position_.wait(clock_.steady_us());
       continue;
@@ -84,7 +84,7 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
     const PlayedLog state = position_.state();
     commanded_ = false;
 
-    // Reading and showing take a while; commands may come meanwhile.
+    // Reading and showing take a while, during which commands may arrive.
     lock.unlock();
     if (moved)
       server.show(std::make_shared<const ViewFrame>(frame_content(index_.messages(state.position), hands_, {})));

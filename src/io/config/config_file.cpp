@@ -33,7 +33,7 @@ std::string text_of(double value) {
   return text.str();
 }
 
-/// Quoted scalars carry the tag "!": text, whatever it looks like.
+/// Converts a scalar. A quoted one has the tag "!" and is always text.
 template <class T>
 bool convert(const YAML::Node& node, T& value) {
   return node.IsScalar() && node.Tag() != "!" && YAML::convert<T>::decode(node, value);
@@ -49,14 +49,14 @@ bool within(T value, T lo, T hi) {
 struct ConfigReader::State {
   struct Group {
     YAML::Node node;   ///< a map, unless the file does not name the group
-    std::string path;  ///< "tracker."
+    std::string path;  ///< its prefix, such as "tracker."
     std::vector<std::string> known;
   };
 
   std::string file;
   std::vector<Group> groups;
-  std::map<std::string, YAML::Node> values;          ///< those found, by "group.key"
-  std::map<int, std::vector<std::string>> problems;  ///< by line
+  std::map<std::string, YAML::Node> values;          ///< scalars found so far, by "group.key"
+  std::map<int, std::vector<std::string>> problems;  ///< texts by line number
 
   void problem(const YAML::Mark& mark, const std::string& text) { problems[mark.line + 1].push_back(text); }
 

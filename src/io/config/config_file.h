@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// Fills a parameter struct from a YAML file. A key that the file does not name keeps its value. Strict otherwise: an
-/// unknown, doubled, mistyped or out-of-range key is an error; all of them are collected, with file, line and key.
+/// Fills a parameter struct from a YAML file. A key that the file does not name keeps its value. An unknown or repeated
+/// key and a value of a wrong type or out of range are errors; all of them are collected, with file, line and key.
 class ConfigReader final : public ConfigVisitor {
  public:
   static Result<ConfigReader> open(const std::string& path);
@@ -24,10 +24,10 @@ class ConfigReader final : public ConfigVisitor {
   void operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
                   const char* doc) override;
   void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) override;
-  /// Accepted where the file gives `now` the same value, as older files do.
+  /// Accepts the old key `key` if the file gives the same value to `now`, as older files do.
   void retired(const char* key, const char* now) override;
 
-  /// After the last key: everything that was wrong, or nothing.
+  /// Call it after the last key. The error lists everything that was wrong.
   Result<void> finish();
 
  protected:
@@ -40,7 +40,7 @@ class ConfigReader final : public ConfigVisitor {
   std::unique_ptr<State> state_;
 };
 
-/// The configuration that a file makes of the defaults.
+/// Reads a configuration: the defaults, changed by the keys in a file.
 template <class Config>
 Result<Config> load_config(const std::string& path) {
   auto reader = ConfigReader::open(path);

@@ -3,6 +3,10 @@
 #include <charconv>
 
 namespace barehand {
+
+// Parameter structs to YAML text: ConfigText formats each key, ConfigCollector gathers them in a flat map (reload
+// compares two of them).
+
 namespace {
 
 /// The shortest text that reads back as the same number.

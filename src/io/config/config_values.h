@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Turns every key of a parameter struct into text as it stands in a YAML file.
+/// Base of visitors that need the value of every key of a parameter struct as text, as it is written in a YAML file.
 class ConfigText : public ConfigVisitor {
  public:
   using ConfigVisitor::operator();
@@ -22,14 +22,15 @@ class ConfigText : public ConfigVisitor {
   void retired(const char*, const char*) final {}
 
  protected:
-  /// `value` as YAML; `range`: what the value may be, "[0 .. 1]" or "[auto | cpu]", empty for free text.
+  /// Called for every key. `value`: its value as YAML; `range`: the allowed values, such as "[0 .. 1]" or "[auto |
+  /// cpu]", empty for free text.
   virtual void entry(const std::string& key, const std::string& value, const std::string& range, const char* doc) = 0;
 };
 
-/// Every key with its groups, "tracker.fusion.levels", and its value as YAML.
+/// The values of all keys as YAML; a key includes its groups, as in "tracker.fusion.levels".
 using ConfigValues = std::map<std::string, std::string>;
 
-/// Collects the values of a parameter struct.
+/// Collects the values of a parameter struct in a flat map.
 class ConfigCollector final : public ConfigText {
  public:
   const ConfigValues& values() const { return values_; }
@@ -40,7 +41,7 @@ class ConfigCollector final : public ConfigText {
   void end_group() override { paths_.pop_back(); }
 
  private:
-  std::vector<std::string> paths_ = {""};  // of the open groups, each with its final dot
+  std::vector<std::string> paths_ = {""};  // prefixes of the open groups, each with its final dot
   ConfigValues values_;
 };
 

@@ -8,13 +8,13 @@
 
 namespace barehand {
 
-/// For whom a key is meant: users set theirs to fit a sensor, a network or a machine; the rest belongs to the method
-/// and is for experts. Only what is shown depends on it: files may name every key.
+/// For whom a key is meant. Users set the keys that fit a sensor, a network or a machine; the others belong to the
+/// method and are for experts. The level only decides which keys are shown: files may contain every key.
 enum class ConfigLevel { user, expert };
 
-/// What a parameter struct names its keys to: `template <class V> void visit(V& v, FooParams& p)` calls v once per key
-/// with the field, its range and its meaning. Files are read, written and checked by visitors alone, so a key is
-/// declared in one place; its default is the field's initial value. Ranges are inclusive.
+/// Visits the keys of a parameter struct: `template <class V> void visit(V& v, FooParams& p)` calls v once per key with
+/// the field, its range and its meaning. Files are read, written and checked only by visitors, so a key is declared in
+/// one place; its default is the field's initial value. Ranges are inclusive.
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
@@ -28,7 +28,7 @@ class ConfigVisitor {
   /// Any number of values, each within the range.
   virtual void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) = 0;
 
-  /// The same for a key that is meant for users.
+  /// Visits a key that is meant for users.
   template <class... Arguments>
   void user(const char* key, Arguments&&... arguments) {
     level_ = ConfigLevel::user;
@@ -38,7 +38,7 @@ class ConfigVisitor {
   void user(const char* key, std::string& value, std::initializer_list<std::string_view> choices, const char* doc) {
     user<>(key, value, choices, doc);
   }
-  /// A key of older files that `now` ("group.key") has replaced.
+  /// Visits a key of older files that `now` ("group.key") has replaced.
   virtual void retired(const char* key, const char* now) = 0;
 
   void operator()(const char* key, int& value, int lo, int hi, const char* doc) {
@@ -46,7 +46,7 @@ class ConfigVisitor {
     (*this)(key, wide, lo, hi, doc);
     value = static_cast<int>(wide);
   }
-  /// A struct with a visitor of its own.
+  /// Visits a group of keys: a struct that has a visit() of its own.
   template <class Group>
   void operator()(const char* key, Group& group, const char* doc) {
     begin_group(key, doc);
@@ -57,7 +57,7 @@ class ConfigVisitor {
  protected:
   virtual void begin_group(const char* key, const char* doc) = 0;
   virtual void end_group() = 0;
-  /// Of the key that is being visited.
+  /// The level of the key that is being visited.
   ConfigLevel level() const { return level_; }
 
  private:

@@ -13,7 +13,7 @@ bool ConfigWriter::is_shown(const std::string& key, const std::string& value) co
 void ConfigWriter::entry(const std::string& key, const std::string& value, const std::string& range, const char* doc) {
   if (!is_shown(key, value)) return;
 
-  // The groups around the key, unless an earlier key has brought them.
+  // Write the groups that contain the key, unless they are there already.
   for (std::size_t depth = 0; depth < groups_.size(); ++depth) {
     Group& group = groups_[depth];
     if (group.written) continue;

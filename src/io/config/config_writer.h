@@ -7,11 +7,12 @@
 
 namespace barehand {
 
-/// Which keys are written: all; those for users and what else differs from the defaults; or what differs alone. Each
-/// reads back as the same configuration.
+/// Which keys are written: all; those for users and all others that differ from the defaults; or only those that
+/// differ. Each choice reads back as the same configuration.
 enum class ConfigKeys { all, user, changed };
 
-/// Writes a parameter struct as YAML that ConfigReader accepts; meaning and range stand above each key.
+/// Writes a parameter struct as YAML that ConfigReader accepts, with the meaning and range of each key in a comment
+/// above it.
 class ConfigWriter final : public ConfigText {
  public:
   ConfigWriter(ConfigKeys keys, ConfigValues defaults) : keys_(keys), defaults_(std::move(defaults)) {}
@@ -36,7 +37,7 @@ class ConfigWriter final : public ConfigText {
   std::string text_;
 };
 
-/// The configuration as a file. The defaults are those of the struct itself.
+/// The configuration as the text of a file. The defaults are the initial values of the struct.
 template <class Config>
 std::string print_config(Config config, ConfigKeys keys = ConfigKeys::all) {
   ConfigWriter writer(keys, config_values(Config{}));

@@ -7,20 +7,20 @@
 
 namespace barehand {
 
-/// Writes the decisions of a tracker, one a row (docs/formats.md).
+/// Writes the decisions of a tracker, one per row (docs/formats.md).
 class DecisionTable {
  public:
   static Result<DecisionTable> create(const std::string& path, bool overwrite);
-  /// Those of one hand in one frame, if there were any.
+  /// Writes the decisions about one hand in one frame, if there are any.
   Result<void> write(const HandEstimate& estimate);
-  /// Gives the table its name; there may have been no decision.
+  /// Gives the table its name, even if there was no decision.
   Result<void> finish() { return rows_.finish(); }
 
  private:
   explicit DecisionTable(RowFile rows) : rows_(std::move(rows)) {}
 
   RowFile rows_;
-  std::string text_;  // scratch
+  std::string text_;  // the rows of one call, kept to reuse its memory
 };
 
 }  // namespace barehand

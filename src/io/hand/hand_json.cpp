@@ -18,13 +18,13 @@ using json_fields::Json;
 using json_fields::Object;
 using json_fields::rounded;
 
-constexpr double kLongest = 0.3;      // m; more is no bone, but perhaps millimetres
-constexpr double kThinnest = 0.0005;  // m
-constexpr double kThickest = 0.1;     // m
+constexpr double kLongest = 0.3;      // longest bone [m]; a longer one is perhaps given in millimetres
+constexpr double kThinnest = 0.0005;  // smallest radius of the skin [m]
+constexpr double kThickest = 0.1;     // largest radius of the skin [m]
 
 using ParentNames = std::map<std::string, std::string>;
 
-/// "a -> b -> a" if the parents lead back to a segment on the way, else "".
+/// Returns a cycle of parents as "a -> b -> a"; "" if there is none.
 std::string find_cycle(const ParentNames& parents) {
   for (const auto& [start, ignored] : parents) {
     std::string way = start;
@@ -52,7 +52,8 @@ Result<void> check_parents(const ParentNames& parents, const std::string& path) 
   return {};
 }
 
-/// Else the skin, which is made on a grid around all joints, takes more memory than there is.
+/// Checks that no joint is too far from its parent's: the skin is computed on a grid around all joints, which would
+/// then need more memory than there is.
 Result<void> check_joints(const HandProfile& profile, const std::string& path) {
   for (int s = 0; s < kSegmentCount; ++s) {
     if (s == kPalm) continue;

@@ -7,14 +7,15 @@
 
 namespace barehand {
 
-/// Reads a hand profile (docs/formats.md). Unknown keys are allowed; elliptic skin that is absent is round. Errors
-/// name file, segment and key: missing, doubled or unknown segments, a wrong parent, a cycle, numbers that no hand has.
+/// Reads a hand profile (docs/formats.md). Unknown keys are allowed; without half_width and half_thickness the skin is
+/// round. Errors name file, segment and key: missing, repeated or unknown segments, a wrong parent, a cycle, numbers
+/// that no hand has.
 Result<HandProfile> load_profile(const std::string& path);
-/// The same from the text of such a file; `where` stands for its name in messages.
+/// Reads a profile from the text of such a file; `where` stands for the file's name in messages.
 Result<HandProfile> parse_profile(const std::string& text, const std::string& where);
-/// Whether `path` can be written, to be known before there is something to save.
+/// Checks that `path` can be written, before there is something to save.
 Result<void> check_profile_path(const std::string& path);
-/// Writes what load_profile reads, to 1e-9 m. A profile that is there already stays until the new one is whole.
+/// Writes a file that load_profile reads, rounded to 1e-9 m. An existing profile stays until the new one is complete.
 Result<void> save_profile(const HandProfile& profile, const std::string& path);
 
 }  // namespace barehand

@@ -45,7 +45,7 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 }
 
 Result<void> write_json(const std::string& path, const Json& json) {
-  // Paths need not be UTF-8.
+  // A path in the text may be invalid UTF-8; its wrong bytes are replaced.
   return write_whole_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -59,13 +59,13 @@ Result<double> Object::number_or(const char* key, double fallback, double lo, do
 }
 
 Result<std::vector<double>> Object::numbers(const char* key, std::size_t count, double lo, double hi) const {
-  // The shape of the list.
+  // Check the shape of the list.
   const std::string wanted = "a list of " + std::to_string(count) + " numbers";
   if (!has(key)) return bad(*this, key, "is missing", wanted);
   const Json& list = json.at(key);
   if (!list.is_array() || list.size() != count) return bad(*this, key, "has the wrong shape", wanted);
 
-  // Its values.
+  // Check and copy its values.
   std::vector<double> values;
   for (const Json& element : list) {
     const auto value = checked(*this, key, element, lo, hi);
@@ -84,12 +84,12 @@ Result<std::string> Object::text(const char* key) const {
 Result<SE3> Object::transform(const char* key) const {
   const char* wanted = "a 4x4 rigid transform, row by row, in metres";
 
-  // The shape of the matrix.
+  // Check the shape of the matrix.
   if (!has(key)) return bad(*this, key, "is missing", wanted);
   const Json& rows = json.at(key);
   if (!rows.is_array() || rows.size() != 4) return bad(*this, key, "does not have 4 rows", wanted);
 
-  // Its numbers.
+  // Check and copy its numbers.
   Eigen::Matrix4d m;
   for (int r = 0; r < 4; ++r) {
     if (!rows[r].is_array() || rows[r].size() != 4) return bad(*this, key, "has a row without 4 numbers", wanted);

@@ -31,7 +31,7 @@ struct Object {
   bool has(const char* key) const { return json.contains(key); }
 };
 
-/// The matrix 4x4, row by row, rounded to 1e-9; Object::transform() reads this form.
+/// The 4x4 matrix, row by row, rounded to 1e-9; Object::transform() reads this form.
 Json to_json(const SE3& T);
 /// A quantity rounded to 1e-9, which has a short decimal form.
 double rounded(double value);

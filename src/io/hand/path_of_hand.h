@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// Where a file of the k-th hand is: the first one's at `path`, that of another one, of the other side, beside it:
-/// out.csv, out_left.csv.
+/// The path of a file of the k-th hand: `path` for the first hand; for another one, `path` with its side, such as
+/// out_left.csv for out.csv.
 std::string path_of_hand(const std::string& path, int k, Handedness side);
 
 }  // namespace barehand

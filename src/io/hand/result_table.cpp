@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,visible";
 constexpr std::size_t kColumns = 10;
-// No table has more; differences and sums of what is within stay numbers.
+// Limits that no real table exceeds; sums and differences of numbers within them are finite.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
-constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // s: no source has later frames
-constexpr double kFarthest = 1e6;                                          // m
+constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // [s], no source has later frames
+constexpr double kFarthest = 1e6;                                          // largest coordinate [m]
 
 struct ParsedLine {
   std::int64_t number = 0;
@@ -36,7 +36,7 @@ bool parse(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// False for NaN.
+/// Whether the absolute value is at most `largest`; false for NaN.
 bool within(double value, double largest) { return std::abs(value) <= largest; }
 
 std::vector<std::string_view> split(std::string_view text) {
@@ -67,7 +67,7 @@ std::optional<ParsedLine> parse_line(std::string_view text) {
 /// Collects rows into frames.
 class TableBuilder {
  public:
-  /// What is wrong with the line, or "".
+  /// Adds a line; returns what is wrong with it, or "".
   std::string add(const ParsedLine& line) {
     if (!open() || line.number != table_.frames.back().number) {
       if (open()) return "frame " + std::to_string(table_.frames.back().number) + " ended before all its segments";

@@ -22,7 +22,7 @@ struct TableFrame {
   std::array<TableRow, kSegmentCount> rows;
 };
 
-/// The rows of an estimate with a pose (`has_pose()`) and a profile.
+/// The table's rows of an estimate, which must have a pose (`has_pose()`) and a profile.
 TableFrame table_frame(const HandEstimate& estimate);
 
 struct ResultTable {
@@ -30,22 +30,22 @@ struct ResultTable {
   bool truncated = false;          ///< the last frame was cut short (its writer was stopped) and is left out
 };
 
-/// Reads a truth or result table (docs/formats.md). An error names the line; a frame without all segments, other than
-/// a cut last one, a frame that occurs twice and a number beyond all measure are errors.
+/// Reads a truth or result table (docs/formats.md). Errors name the line: a frame without all segments (except a last
+/// one that was cut short), a frame that occurs twice, an implausibly large number.
 Result<ResultTable> read_table(const std::string& path);
 
-/// Writes such a table. Every frame leaves in one piece (RowFile).
+/// Writes such a table, every frame in one piece (RowFile).
 class TableWriter {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
   static Result<TableWriter> create(const std::string& path, bool overwrite = false);
 
-  /// A full disk is an error.
+  /// Writes a frame. A full disk is an error.
   Result<void> write(const TableFrame& frame);
   /// Writes nothing unless the hand is tracked: a pose that is merely held is no measurement.
   Result<void> write(const HandEstimate& estimate);
-  /// Gives the table its name, also one without frames. Nothing is written afterwards. Without it, a table that has
-  /// frames is finished by the destructor, and one without is removed.
+  /// Gives the table its name, even if it has no frames. Nothing can be written afterwards. If it is not called, the
+  /// destructor finishes a table that has frames and removes one that has none.
   Result<void> finish() { return rows_.finish(); }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 using json_fields::Json;
 
 constexpr std::size_t kMostEntries = 200'000;
-constexpr double kFarthest = 0.5;  // m, from the origin of a segment
+constexpr double kFarthest = 0.5;  // largest distance of a vertex from the origin of its segment [m]
 
 /// Rounds a coordinate to micrometres.
 double micrometres(float metres) { return std::round(metres * 1e6) / 1e6; }
@@ -36,14 +36,14 @@ bool read_vertex(const Json& row, SkinVertex& v) {
   const auto point = [&](std::size_t i) { return Eigen::Vector3d(number(i), number(i + 1), number(i + 2)); };
   const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthest; };  // false for NaN, too
 
-  // The first segment.
+  // Read the first segment.
   if (!is_segment(number(0)) || !near(point(1))) return false;
   v.a = v.b = static_cast<std::int16_t>(number(0));
   v.in_a = v.in_b = point(1).cast<float>();
   v.normal_in_a.setZero();
   if (row.size() == 4) return true;
 
-  // The second segment, which must be a neighbour of the first.
+  // Read the second segment, which must be a neighbour of the first.
   if (!is_segment(number(4)) || !(number(5) > 0 && number(5) <= 0.5) || !near(point(6))) return false;
   v.b = static_cast<std::int16_t>(number(4));
   v.weight_b = static_cast<float>(number(5));

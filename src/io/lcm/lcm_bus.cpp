@@ -13,7 +13,7 @@ constexpr long kReceiveBuffer = 2 << 20;
 
 bool is_udp(const std::string& url) { return url.starts_with("udpm://"); }
 
-/// The URL with this option, unless it has one of this name.
+/// Adds an option to a URL, unless the URL has one of this name.
 std::string with_option(const std::string& url, const std::string& name, long value) {
   for (const char before : {'?', '&'})
     if (url.find(before + name + "=") != std::string::npos) return url;
@@ -26,7 +26,8 @@ std::string chosen_url(const std::string& url) {
   return !url.empty() ? url : in_environment ? from_environment : kDefaultUrl;
 }
 
-/// A stock receive buffer loses almost every depth image; 2 MiB loses none (the kernel grants less if it must).
+/// The URL with a hop limit and a receive buffer. With the kernel's default buffer almost every depth image is lost,
+/// with 2 MiB none (the kernel may grant less).
 std::string effective_url(const std::string& url, int ttl) {
   const std::string chosen = chosen_url(url);
   return is_udp(chosen) ? with_option(with_option(chosen, "ttl", ttl), kBufferOption, kReceiveBuffer) : chosen;

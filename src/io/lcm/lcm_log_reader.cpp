@@ -14,21 +14,22 @@
 namespace barehand {
 namespace {
 
-// Event: sync word, event number, time stamp, length of channel and message (4, 8, 8, 4, 4 bytes, big endian), then
-// both (LCM's log file format).
+// An event has a sync word, event number, time stamp, length of the channel and length of the message (4, 8, 8, 4, 4
+// bytes, big endian), then the channel and the message (LCM's log file format).
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
 
+/// Finds the complete events of a log.
 class Scanner {
  public:
   Scanner(std::FILE* file, std::int64_t size) : file_(file), size_(size) {}
 
-  /// Fills `entries` and returns the number of bytes that are no part of them.
+  /// Fills `entries` and returns the number of bytes that belong to none of them.
   std::int64_t scan(std::vector<LogEntry>& entries) {
     std::int64_t damaged = 0;
     for (std::int64_t at = 0; at < size_;) {
       auto entry = event_at(at);
       std::int64_t next = entry ? end_of(*entry) : next_sync(at + 1);
-      if (entry && !may_follow(next)) {  // it may have been torn, and what was written later lies within its length
+      if (entry && !may_follow(next)) {  // it may be incomplete, with later events within its stated length
         if (const auto within = whole_event(at + 1, next)) {
           entry.reset();
           next = *within;
@@ -56,13 +57,13 @@ class Scanner {
   static std::int64_t end_of(const LogEntry& entry) {
     return entry.position + kEventHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
   }
-  /// The file ends at `at` or goes on with a sync word, which may be cut off.
+  /// Whether the file ends at `at` or continues with a sync word, of which the end may be missing.
   bool may_follow(std::int64_t at) {
     std::array<std::uint8_t, kSync.size()> word{};
     const auto count = static_cast<std::size_t>(std::min<std::int64_t>(word.size(), size_ - at));
     return read(at, word.data(), count) && std::equal(word.begin(), word.begin() + count, kSync.begin());
   }
-  /// Position of the first event in [from, to) that something whole may follow.
+  /// Position of the first event in [from, to) at whose end may_follow() is true.
   std::optional<std::int64_t> whole_event(std::int64_t from, std::int64_t to) {
     for (std::int64_t at = next_sync(from); at < to; at = next_sync(at + 1))
       if (const auto entry = event_at(at); entry && may_follow(end_of(*entry))) return at;
@@ -127,7 +128,7 @@ Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
 Result<void> LcmLogReader::open_file() {
   file_.reset(std::fopen(path_.c_str(), "rb"));
 
-  // A recorder that goes on with a set gives a draft in it its name.
+  // If it was a draft, a recorder that continues its set may have given it its name.
   if (const std::string name = finished_name(path_); !file_ && errno == ENOENT && !name.empty())
     file_.reset(std::fopen(name.c_str(), "rb"));
   if (!file_) return fail(std::string("cannot open the log: ") + std::strerror(errno), path_);

@@ -19,7 +19,8 @@ LcmLogWriter::~LcmLogWriter() {
 
 namespace {
 
-/// LCM opens logs by their names alone, so this one becomes the descriptor of `whole`. Null: errno says why not.
+/// Opens a log that writes to the descriptor of `whole`: LCM opens logs only by name, so the descriptor is exchanged
+/// afterwards. Returns null with errno set if it fails.
 std::unique_ptr<lcm::LogFile> open_log(const WholeFile& whole) {
   const int file = whole.open();
   if (file < 0) return nullptr;
@@ -68,7 +69,8 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   return {};
 }
 
-/// Now and then, so that not all of a large log is left to be waited for when it is finished.
+/// From time to time, tells the operating system to write to the disk, so that finishing a large log need not wait for
+/// all of it.
 void LcmLogWriter::start_write_back() {
   constexpr std::int64_t kPiece = 8 << 20;
   if (good_ - written_back_ < kPiece) return;
@@ -78,7 +80,7 @@ void LcmLogWriter::start_write_back() {
 
 tl::unexpected<Error> LcmLogWriter::cut_back(int reason) {
   std::FILE* file = log_->getFilePtr();
-  __fpurge(file);  // or closing the file would append the rest of the event that failed
+  __fpurge(file);  // otherwise closing the file would append the rest of the failed event
   std::clearerr(file);
   if (reason == EPIPE) return fail("no program reads this pipe", path_, "the log continues when one does");
   const bool cut = !file_.direct() && ftruncate(fileno(file), good_) == 0 && fseeko(file, good_, SEEK_SET) == 0;

@@ -13,13 +13,14 @@ class LogFile;
 
 namespace barehand {
 
-/// What an event of a log takes besides its channel and its message [bytes].
+/// Size of an event in a log without its channel and its message [bytes].
 inline constexpr std::int64_t kEventHeader = 28;
 
-/// Writes an LCM log, which has its name when it is finished (WholeFile); the destructor finishes one that has events
-/// and removes one without. Every event is handed to the operating system before `send` returns, so a crash of the
-/// program loses nothing; when a write fails (disk full) the file is cut back to the last whole event, stays readable,
-/// and later events may succeed. Where the reader of a named pipe is gone, events are lost until another one is there.
+/// Writes an LCM log, which gets its name when it is finished (WholeFile); the destructor finishes a log that has
+/// events and removes one that has none. Every event is handed to the operating system before `send` returns, so a
+/// crash of the program loses nothing. If a write fails (disk full), the file is cut back to the last complete event
+/// and stays readable, and later events may succeed. If the reader of a named pipe has gone, events are lost until
+/// there is another one.
 class LcmLogWriter : public MessageSink {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
@@ -28,17 +29,17 @@ class LcmLogWriter : public MessageSink {
   LcmLogWriter(const LcmLogWriter&) = delete;
   LcmLogWriter& operator=(const LcmLogWriter&) = delete;
 
-  /// Appends one event with `utime` as its stamp. Where a failed write could not be cut off, every later call fails
+  /// Appends one event with `utime` as its time stamp. If a failed write could not be cut off, every later call fails,
   /// too.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
-  /// Closes the log and gives it its name, also one without events. Nothing is sent afterwards.
+  /// Closes the log and gives it its name, even if it has no events. Nothing can be sent afterwards.
   Result<void> finish() override;
 
   std::int64_t events() const { return events_; }
   std::int64_t bytes() const { return good_; }
-  /// The last event failed for want of room, and there may be room again.
+  /// Whether the last event failed because the disk was full; there may be room again.
   bool disk_full() const { return disk_full_; }
-  /// A failed write could not be cut off: nothing more is written.
+  /// Whether a failed write could not be cut off, so that nothing more is written.
   bool failed() const { return failed_; }
 
  private:
@@ -50,8 +51,8 @@ class LcmLogWriter : public MessageSink {
   WholeFile file_;
   std::unique_ptr<lcm::LogFile> log_;  ///< null: finished
   std::int64_t events_ = 0;
-  std::int64_t good_ = 0;          ///< size of the file up to the last whole event
-  std::int64_t written_back_ = 0;  ///< up to where the operating system was told to write to the disk
+  std::int64_t good_ = 0;          ///< size of the file up to the last complete event
+  std::int64_t written_back_ = 0;  ///< position up to which the operating system was told to write to the disk
   bool failed_ = false, disk_full_ = false;
 };
 

@@ -12,7 +12,7 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-/// "take.lcmlog.01" is part 1 of "take.lcmlog"; a whole log is a base of its own.
+/// "take.lcmlog.01" is part 1 of "take.lcmlog"; the base of a whole log is its own name.
 struct LogName {
   std::string base;
   std::int64_t part = -1;  ///< -1: whole
@@ -32,13 +32,13 @@ bool begins_as_log(const fs::path& path) {
          std::string_view(start.data(), start.size()) == "\xed\xa1\xda\x01";
 }
 
-/// Of a draft the name that it is to get.
+/// The name that a draft will get; `path` itself if it is no draft.
 fs::path final_name(const fs::path& path) {
   const std::string name = finished_name(path.string());
   return name.empty() ? path : fs::path(name);
 }
 
-/// In the order they were written.
+/// The paths in the order in which the logs were written.
 std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> sets;
   std::map<std::string, bool> rotated;
@@ -56,7 +56,7 @@ std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   return files;
 }
 
-/// Why a draft is not played; none: it is, or `path` is no draft.
+/// Why a draft is not played; none if it is played or `path` is no draft.
 std::optional<Error> why_left_out(const fs::path& path) {
   const fs::path name = final_name(path);
   std::error_code ignored;
@@ -67,7 +67,7 @@ std::optional<Error> why_left_out(const fs::path& path) {
   return std::nullopt;
 }
 
-/// The files of a folder that have bytes and whose names are wanted.
+/// The files of a folder that are not empty and whose final names are wanted.
 template <class Wanted>
 FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
   FoundLogs logs;
@@ -75,7 +75,7 @@ FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
   std::error_code error;
   for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
-    // What cannot be looked at is no log.
+    // A file that cannot be accessed does not count as a log.
     const fs::path& path = entry->path();
     std::error_code ignored;
     if (!entry->is_regular_file(ignored) || entry->file_size(ignored) == 0 || !wanted(final_name(path))) continue;
@@ -126,7 +126,7 @@ Result<FoundLogs> find_logs(const std::string& path) {
     const bool part = name.part >= 0 && name.base == set.filename();
     return part || number_in_set(file, set).has_value() || file.filename() == set.filename();
   });
-  if (logs.files.empty() && logs.left_out.empty()) logs.files.push_back(path);  // opening it says what is wrong
+  if (logs.files.empty() && logs.left_out.empty()) logs.files.push_back(path);  // opening it reports what is wrong
   return logs;
 }
 

@@ -9,16 +9,17 @@
 
 namespace barehand {
 
-/// Longest channel name that LCM takes, on a bus and in a log [bytes].
+/// Longest channel name that LCM accepts, on a bus and in a log [bytes].
 inline constexpr std::size_t kLongestChannel = 63;
 
-/// Where encoded LCM messages go: a bus, a log file.
+/// A destination of encoded LCM messages: a bus or a log file.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
-  /// `utime`: time of the measurement [us]; sinks that stamp events use it, never the wall clock.
+  /// Sends a message. `utime`: time of the measurement [us]; sinks that give time stamps to events use it, never the
+  /// wall clock.
   virtual Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) = 0;
-  /// After the last message: what was sent is where it belongs when this returns.
+  /// Call it after the last message. On return, everything that was sent has reached its destination.
   virtual Result<void> finish() { return {}; }
 };
 

@@ -69,7 +69,7 @@ Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path
   return log;
 }
 
-/// Before the first file of this run is made: until then no draft of the set is this one's.
+/// Call it before the first file of this run is created: until then, every draft of the set is from an earlier run.
 void RotatingLog::finish_abandoned_files() const {
   const std::string ending = path_.extension().string() + std::string(kUnfinished);
   std::error_code ignored;
@@ -83,7 +83,7 @@ void RotatingLog::finish_abandoned_files() const {
 }
 
 void RotatingLog::find_files() {
-  std::error_code ignored;  // a folder that cannot be read shows when a file is made
+  std::error_code ignored;  // an unreadable folder is reported when a file is created
   for (const auto& entry : fs::directory_iterator(folder_of(path_), ignored))
     if (const auto number = number_in_set(entry.path(), path_))
       files_.push_back({entry.path(), *number, static_cast<std::int64_t>(entry.file_size(ignored))});
@@ -139,7 +139,7 @@ bool RotatingLog::remove_oldest() {
   if (files_.size() <= (log_ ? 1u : 0u)) return false;
   std::error_code error;
   fs::remove(files_.front().path, error);
-  files_.pop_front();  // also one that cannot be removed, or is gone: it is not asked for again
+  files_.pop_front();  // even if it cannot be removed or is gone: it is not tried again
   return true;
 }
 

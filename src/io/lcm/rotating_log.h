@@ -13,29 +13,30 @@
 
 namespace barehand {
 
-/// When a recording goes on in a new file, and how much of it is kept. 0: no limit.
+/// When a recording continues in a new file, and how much of it is kept. 0: no limit.
 struct LogRotation {
-  std::int64_t max_bytes = 0;   ///< of one file
-  std::int64_t max_age_us = 0;  ///< of one file
-  std::int64_t quota = 0;       ///< of all files together [bytes]
+  std::int64_t max_bytes = 0;   ///< largest size of one file [bytes]
+  std::int64_t max_age_us = 0;  ///< longest time in one file [us]
+  std::int64_t quota = 0;       ///< largest size of all files together [bytes]
 };
 
-/// Whether `file` is, by its name and folder, one of the logs of the set "take.lcmlog".
+/// Whether `file`, by its name and folder, is one of the logs of the set `set`, such as "take.lcmlog".
 bool belongs_to_set(const std::filesystem::path& file, const std::filesystem::path& set);
 
-/// Whoever writes the set of logs `path` has its lock, .take.lcmlog.lock in the folder, which is made: two at once
-/// would remove each other's files. Waits for up to `patience` for one who is about to end. Readers need none.
+/// Locks the set of logs `path` for writing: two writers at once would remove each other's files. The lock is the file
+/// .take.lcmlog.lock in the folder, which is created. Waits for up to `patience` for a writer that is about to end.
+/// Readers need no lock.
 Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds patience);
 
-/// A recording that never ends: a set of LCM logs, each complete in itself. "take.lcmlog" becomes
-/// take-000001-20261122T090000Z.lcmlog and so on, counted on from the files that are there. A file has its name when it
-/// is closed (WholeFile); one that a killed program left gets it when the set goes on. When the quota is used up, and
-/// when the disk is full, the oldest files of the set are removed, never the one that is written. Without a quota
-/// nothing is removed.
+/// An endless recording: a set of LCM logs, each complete in itself. "take.lcmlog" becomes
+/// take-000001-20261122T090000Z.lcmlog and so on; the numbers continue those of existing files. A file gets its name
+/// when it is closed (WholeFile); one that a killed program left gets it when the set is continued. When the quota is
+/// used up, and when the disk is full, the oldest files of the set are removed, never the one that is being written.
+/// Without a quota nothing is removed.
 class RotatingLog : public MessageSink {
  public:
-  /// Makes the folder; the first file is made for the first event. `clock` outlives it. Errors: the folder cannot be
-  /// made, or the quota does not hold two files.
+  /// Creates the folder; the first file is created for the first event. `clock` must outlive the log. Errors: the
+  /// folder cannot be created, or the quota does not hold two files.
   static Result<std::unique_ptr<RotatingLog>> create(const std::string& path, LogRotation rotation, const Clock& clock);
 
   /// An event that cannot be written is lost; the next one may succeed, in a new file if need be.
@@ -60,7 +61,7 @@ class RotatingLog : public MessageSink {
   const std::filesystem::path path_;
   const LogRotation rotation_;
   const Clock& clock_;
-  std::deque<File> files_;  ///< by number; the last one is written while `log_` is open
+  std::deque<File> files_;  ///< in the order of their numbers; the last one is being written while `log_` is open
   std::unique_ptr<LcmLogWriter> log_;
   std::int64_t opened_us_ = 0;
 };

@@ -14,7 +14,7 @@ namespace barehand {
 namespace fs = std::filesystem;
 namespace {
 
-/// A name that nobody wants for a folder.
+/// Whether the path ends like a video of another format, so that it cannot be meant as a folder.
 bool is_other_video(const std::string& path) {
   constexpr std::array kEndings = {".mov", ".m4v", ".mpg", ".mpeg", ".wmv", ".flv", ".ogv", ".gif"};
   const std::string ending = lower_case_ending(path);
@@ -22,14 +22,14 @@ bool is_other_video(const std::string& path) {
   return !fs::is_directory(path, error) && std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-/// Whether a picture of a frame could have this name: 000012.jpg.
+/// Whether the image of a frame can have this name, such as 000012.jpg.
 bool is_picture_name(const fs::path& name) {
   const std::string stem = name.stem().string();
   const bool number = stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
   return number && (stem.size() == 6 || stem[0] != '0') && name.extension() == ".jpg";
 }
 
-/// The pictures of an earlier run, and nothing else. What cannot be removed stays.
+/// Removes the images of an earlier run, and nothing else. An image that cannot be removed stays.
 void remove_pictures(const std::string& folder) {
   std::error_code ignored;
   std::vector<fs::path> pictures;
@@ -58,7 +58,7 @@ class OverlayWriter::Folder : public OverlayWriter::Output {
 
  private:
   std::string path_;
-  bool old_pictures_;  ///< of an earlier run may be there, and are to go
+  bool old_pictures_;  ///< images of an earlier run may be there and are to be removed
 };
 
 class OverlayWriter::Video : public OverlayWriter::Output {
@@ -90,7 +90,7 @@ OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
 OverlayWriter::~OverlayWriter() = default;
 
 void OverlayWriter::Outline::follow(const HandEstimate& estimate) {
-  constexpr int kPoints = 240;  // a segment; enough for a smooth outline
+  constexpr int kPoints = 240;  // points per segment, enough for a smooth outline
   if (!estimate.profile || estimate.profile == profile) return;
   profile = estimate.profile;
   surface = make_cylinder_surface(*profile, kPoints);

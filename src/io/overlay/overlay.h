@@ -11,18 +11,18 @@
 
 namespace barehand {
 
-/// Writes what draw_overlay draws: to a video (VideoFile; `path` ends in .mp4, .mkv, .webm or .avi) or as one JPEG per
-/// frame, named by its number, into a folder, which is made.
+/// Writes what draw_overlay draws: to a video (VideoFile; `path` ends in .mp4, .mkv, .webm or .avi), or as one JPEG per
+/// frame, named by the frame's number, to a folder, which is created.
 class OverlayWriter {
  public:
-  /// `fps`: of the video. `overwrite`: the first picture in a folder takes the place of all that an earlier writer left
-  /// there; other files stay. Errors: a folder that cannot be made; those of VideoFile.
+  /// `fps`: frame rate of a video. `overwrite`: the first image that is written to a folder replaces all images that an
+  /// earlier writer left there; other files stay. Errors: a folder that cannot be created; those of VideoFile.
   static Result<OverlayWriter> open(const std::string& path, double fps, bool overwrite = false);
   OverlayWriter(OverlayWriter&&) noexcept;
   OverlayWriter& operator=(OverlayWriter&&) noexcept;
   ~OverlayWriter();
 
-  /// Errors: a full disk; in a video, frames that change their size.
+  /// Draws and writes a frame. Errors: a full disk; in a video, frames that change their size.
   Result<void> write(const RgbdFrame& frame, const HandEstimates& estimates);
   /// Ends a video and gives it its name; the destructor does so too, but cannot report errors.
   Result<void> finish();
@@ -33,7 +33,7 @@ class OverlayWriter {
   class Video;
   explicit OverlayWriter(std::unique_ptr<Output> output);
 
-  /// Of the cylinders of a hand's profile.
+  /// Surface of the cylinders of a hand's profile, whose outline is drawn.
   struct Outline {
     std::shared_ptr<const HandProfile> profile;
     HandSurface surface;
@@ -41,7 +41,7 @@ class OverlayWriter {
   };
 
   std::unique_ptr<Output> output_;
-  std::vector<Outline> outlines_;  // one a hand
+  std::vector<Outline> outlines_;  // one for each hand
 };
 
 }  // namespace barehand

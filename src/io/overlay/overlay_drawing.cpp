@@ -15,7 +15,7 @@ namespace barehand {
 namespace {
 
 constexpr int kSmallWidth = 480;       // narrower frames are enlarged
-constexpr double kDepthAround = 0.12;  // m in front of and behind the hand that depth colours show
+constexpr double kDepthAround = 0.12;  // depth in front of and behind the hand that the colours show [m]
 constexpr int kShift = 4;              // fractional bits of drawing coordinates
 const cv::Scalar kDistalBlue(40, 80, 255), kWhite(255, 255, 255);
 const cv::Scalar kPalmColour(210, 210, 210);
@@ -24,7 +24,7 @@ const std::array<cv::Scalar, kFingerCount> kFingerColours = {
 
 cv::Scalar colour_of(int segment) { return segment == kPalm ? kPalmColour : kFingerColours[finger_of(segment)]; }
 
-/// Draws one hand onto one picture of the frame.
+/// Draws one hand onto one image of the frame.
 class HandDrawing {
  public:
   HandDrawing(cv::Mat picture, const Intrinsics& camera, int scale, const HandEstimate& estimate,
@@ -58,7 +58,7 @@ class HandDrawing {
   Pixel project(const Eigen::Vector3d& p) const {
     constexpr double kFar = 1e5;  // keeps the fixed-point coordinates within 32 bits
     if (!(p.z() > 0.01)) return {};
-    // Pixel centres lie at integers: the enlarged picture keeps the edges of pixels, not their centres.
+    // Pixel centres lie at integers: enlarging keeps the edges of pixels in place, not their centres.
     const Eigen::Vector2d pixel = (camera_.project(p).array() + 0.5) * scale_ - 0.5;
     if (!(pixel.cwiseAbs().maxCoeff() < kFar)) return {};
     return cv::Point(cvRound(pixel.x() * (1 << kShift)), cvRound(pixel.y() * (1 << kShift)));

@@ -9,9 +9,9 @@
 
 namespace barehand {
 
-/// Pixels of the caption below the pictures.
+/// Height of the caption below the images [px].
 inline constexpr int kCaptionHeight = 28;
-/// Small frames are enlarged by this factor, so that lines stay legible.
+/// The factor by which small frames are enlarged, so that lines stay legible.
 int overlay_scale(const Intrinsics& camera);
 
 struct DrawnHand {
@@ -19,9 +19,10 @@ struct DrawnHand {
   const HandSurface& surface;  ///< skin to outline
 };
 
-/// Colour and depth side by side with the hands drawn over both: bones in one colour per finger, the outline of the
-/// skin filled the more the higher the confidence, distal ends as blue dots (paper Fig. 8). Segments that are inferred
-/// stay hollow. Below: frame number, time, status of each. Without a pose only pictures and caption.
+/// Draws colour and depth side by side with the hands over both: bones in one colour per finger, the outline of the
+/// skin filled with an opacity that grows with the confidence, distal ends as blue dots (paper Fig. 8). Inferred
+/// segments are not filled. The caption below states frame number, time and the status of each hand. Without a pose,
+/// only images and caption are drawn.
 Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands);
 
 }  // namespace barehand

@@ -42,7 +42,7 @@ Result<void> read_numbers(const json_fields::Object& object, CameraFile& file) {
       });
 }
 
-/// Coefficients in OpenCV's order under the names that lists of them have; none: there is no such list.
+/// The coefficients in OpenCV's order, from a list under one of its usual names; none if there is no such list.
 std::optional<std::vector<double>> listed(const Json& json) {
   for (const char* key : {"D", "d", "coeffs", "dist_coeffs", "distCoeffs", "distortion_coefficients",
                           "distortion_coeffs", "distortion_parameters", "distortion"}) {
@@ -58,7 +58,7 @@ std::optional<std::vector<double>> listed(const Json& json) {
   return std::nullopt;
 }
 
-/// The same of coefficients that have a key each.
+/// The same for coefficients that have one key each.
 std::optional<std::vector<double>> named(const Json& json) {
   constexpr std::array<const char*, 8> kNames = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
   std::vector<double> values(kNames.size(), 0);
@@ -75,18 +75,20 @@ bool has_part(const std::string& name, std::initializer_list<const char*> parts)
   return std::ranges::any_of(parts, [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
-/// Models with other formulas: of wide lenses, and librealsense's variants of Brown and Conrady's.
+/// Whether the model has other formulas: those for wide-angle lenses, and librealsense's variants of Brown and
+/// Conrady's.
 bool is_other(const std::string& model) {
   return has_part(model, {"inverse", "modified", "fisheye", "fish_eye", "equidistant", "kannala", "theta", "fov",
                           "omni", "division"});
 }
 
-/// Models whose coefficients are those of struct Distortion.
+/// Whether the model's coefficients are those of struct Distortion.
 bool is_known(const std::string& model) {
   return !is_other(model) && has_part(model, {"plumb", "brown", "rational", "radtan", "radial", "opencv", "pinhole"});
 }
 
-/// In lower case; "": none is stated. `model` may also be the maker's name of the camera.
+/// The name of the distortion model in lower case; "" if none is stated. The key `model` may also hold the camera's
+/// product name.
 std::string model_of(const Json& json) {
   for (const char* key : {"distortion_model", "distortion", "model", "camera_model", "type"}) {
     if (!json.contains(key) || !json.at(key).is_string()) continue;
@@ -106,7 +108,7 @@ const Json& part_with_distortion(const Json& json) {
 }
 
 void read_distortion(const Json& json, const std::string& path, CameraFile& file) {
-  constexpr std::size_t kMost = 8;  // further ones are of thin prisms and tilted sensors
+  constexpr std::size_t kMost = 8;  // further coefficients are for thin prisms and tilted sensors
   const Json& part = part_with_distortion(json);
   auto values = listed(part);
   if (!values || values->empty()) values = named(part);

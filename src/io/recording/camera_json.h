@@ -14,12 +14,13 @@ struct CameraFile {
   Intrinsics camera;
   double depth_unit = 0.001;        ///< metres per count
   double fps = 0;                   ///< nominal frames per second; 0 = not stated
-  Distortion distortion;            ///< all 0: none is given, or one that is not known here
-  std::vector<std::string> doubts;  ///< sentences: coefficients that are given and not used
+  Distortion distortion;            ///< all 0 if none is given, or its model is not supported
+  std::vector<std::string> doubts;  ///< warnings in sentences: coefficients that are given and not used
 };
 
-/// An error names the file and the key that is missing or no number a camera can have. Coefficients of distortion are
-/// found under the names that ROS, OpenCV, Kalibr, the Azure Kinect and librealsense give them.
+/// Reads a camera.json. An error names the file and the key that is missing or has a value that no camera can have.
+/// Coefficients of distortion are found under the names that ROS, OpenCV, Kalibr, the Azure Kinect and librealsense
+/// give them.
 Result<CameraFile> read_camera_json(const std::string& path);
 
 }  // namespace barehand

@@ -44,8 +44,8 @@ Result<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes) {
   return fail("JPEG without a frame header");
 }
 
-/// Compressed rows that are cut short look like any others to libjpeg, which fills what they lack with grey and only
-/// warns; the end marker tells. Cameras may pad after it.
+/// Whether the JPEG has its end marker. If its compressed rows are cut short, libjpeg fills the rest with grey and only
+/// warns. Cameras may pad after the marker.
 bool has_jpeg_end(std::span<const std::uint8_t> bytes) {
   for (std::size_t i = bytes.size() - 1; i > 0 && bytes.size() - i < 1024; --i) {
     if (bytes[i - 1] == 0xFF && bytes[i] == 0xD9) return true;

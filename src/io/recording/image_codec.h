@@ -17,8 +17,8 @@ struct ImageSize {
 /// Size that the header of a PNG or JPEG in memory states, without decoding it. An error if it is neither.
 Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes an 8-bit PNG or JPEG in memory. The header is compared with `expected` first, so a lying or foreign image
-/// is an error before memory is spent on it.
+/// Decodes an 8-bit PNG or JPEG in memory. The header is compared with `expected` first, so a wrong image is an error
+/// before memory is allocated for it.
 Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected);
 
 /// Decodes a 16-bit PNG of one channel in memory, counts as stored. A JPEG is an error, as is any other PNG.

@@ -8,16 +8,17 @@
 
 namespace barehand {
 
-/// 16-bit single-channel PNG, counts as stored. Missing, damaged or of another kind: an error naming the file.
+/// Reads a 16-bit single-channel PNG, counts as stored. A file that is missing, damaged or of another kind is an error
+/// that names it.
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path);
-/// 8-bit colour PNG or JPEG; a JPEG that ends early is an error, not a half grey picture.
+/// Reads an 8-bit colour PNG or JPEG. A JPEG that ends early is an error, not a half grey image.
 Result<Image<Rgb>> read_colour(const std::string& path);
-/// Error unless an image has the size that the camera states.
+/// Returns an error unless an image has the size that the camera states.
 Result<void> check_size(int width, int height, const Intrinsics& camera, const std::string& path);
 
-/// Lossless; a full disk is an error.
+/// Writes a PNG, which is lossless. A full disk is an error.
 Result<void> write_depth_png(const std::string& path, const Image<std::uint16_t>& depth);
-/// PNG (lossless) where `path` ends in .png, else JPEG of quality 95.
+/// Writes a PNG (lossless) if `path` ends in .png, otherwise a JPEG of quality 95.
 Result<void> write_colour(const std::string& path, const Image<Rgb>& colour);
 
 }  // namespace barehand

@@ -7,7 +7,7 @@
 #include <new>
 #include <string>
 
-// After <cstdio>, whose FILE it names.
+// Must follow <cstdio>, since it uses FILE.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -15,7 +15,8 @@ namespace barehand {
 namespace {
 
 constexpr int kCmykChannels = 4;
-/// Of a progressive JPEG; encoders write about ten. Each one costs as much time as the whole picture.
+/// Largest number of scans in a progressive JPEG; encoders write about ten. Decoding each one takes as much time as the
+/// whole image.
 constexpr int kMaxScans = 100;
 
 /// Keeps libjpeg's errors: its own handlers would print them and end the program.
@@ -47,7 +48,7 @@ bool guarded(ErrorManager& errors, Step&& step) {
   return true;
 }
 
-/// Input from memory. Where it ends too early libjpeg's own would make up an end marker, and with it grey pixels.
+/// Input from memory. If it ends too early, libjpeg's own source would make up an end marker, and grey pixels with it.
 jpeg_source_mgr memory_source(std::span<const std::uint8_t> bytes) {
   jpeg_source_mgr source{};
   source.next_input_byte = bytes.data();
@@ -113,12 +114,12 @@ class Reader {
         if (cmyk) to_rgb(inks[0], image.width(), image.row(v));
       }
     };
-    // What stands behind the last row does not matter.
+    // Data after the last row does not matter.
     return guarded(errors_, read_rows) ? Result<void>() : damaged();
   }
 
  private:
-  /// Adobe stores inks inverted: 255 is no ink, so a colour is the ink's share of what black leaves.
+  /// Adobe stores inks inverted (255 is no ink), so a colour is the product of its stored ink and the stored black.
   static void to_rgb(const JSAMPLE* inks, int width, Rgb* row) {
     for (int u = 0; u < width; ++u, inks += kCmykChannels) {
       const int black = inks[3];
@@ -172,7 +173,7 @@ class Writer {
   }
 
  private:
-  /// Called where every byte of the output is used, also at the start.
+  /// Called when the output buffer is full, and at the start.
   static void grow(j_compress_ptr codec) {
     auto& bytes = static_cast<Writer*>(codec->client_data)->bytes_;
     const std::size_t used = bytes.size();

@@ -11,8 +11,8 @@
 namespace barehand {
 
 /// Decodes a JPEG in memory: grey, colour, or CMYK as Adobe writes it (inverted). Errors: damage that leaves rows
-/// without pixels, an early end, a size other than `width` by `height`, for which memory is spent. Damage within the
-/// compressed data costs pixels, not the picture: libjpeg goes on behind it.
+/// without pixels, an early end, a size other than `width` by `height`, for which memory is allocated. Damage within
+/// the compressed data spoils pixels, not the whole image: libjpeg continues after it.
 Result<Image<Rgb>> decode_jpeg(std::span<const std::uint8_t> bytes, int width, int height);
 
 /// `quality` 1..100; baseline, chroma at half the resolution. Lossy: pure black ("no colour here") may turn dark grey.

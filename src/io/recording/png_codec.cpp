@@ -24,7 +24,7 @@ using Message = std::array<char, 128>;
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}  // of what does not change the pixels, such as a damaged text
+void on_warning(png_structp, png_const_charp) {}  // ignored: warnings concern nothing that changes the pixels
 
 /// Runs `step`; false where libpng reported an error meanwhile. The error leaves `step` by longjmp, which runs no
 /// destructors, so `step` and the callbacks below hold no objects that have one when they call libpng.

@@ -11,7 +11,7 @@
 namespace barehand {
 
 /// Decodes a PNG in memory to 8 bits a channel: palettes, grey and 1, 2, 4 or 16 bits are converted, transparency is
-/// dropped. Errors: damage, an early end, a size other than `width` by `height`, for which memory is spent.
+/// dropped. Errors: damage, an early end, a size other than `width` by `height`, for which memory is allocated.
 Result<Image<Rgb>> decode_png_colour(std::span<const std::uint8_t> bytes, int width, int height);
 /// Decodes a PNG of one channel of 16 bits, to counts as stored. Errors: as above, and any other kind of PNG.
 Result<Image<std::uint16_t>> decode_png_depth(std::span<const std::uint8_t> bytes, int width, int height);

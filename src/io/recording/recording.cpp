@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty where there is no list, or none that makes sense, which is then said.
+/// Reads rgb.txt; empty if there is no such list. A list that is invalid or empty becomes a warning.
 std::vector<StampedFile> read_colour_list(Recording& recording) {
   const std::string path = recording.directory + "/rgb.txt";
   if (is_missing(path)) return {};
@@ -47,10 +47,10 @@ void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
     recording.doubts.push_back(recording.directory + "/depth.txt: " + doubt);
 }
 
-/// Takes over what the file says of the camera; a lens' images are made a pinhole's where that is known how.
+/// Sets the camera by its file. If its coefficients of distortion are plausible, the images will be undistorted.
 void use_camera(CameraFile file, const std::string& path, Recording& recording) {
-  constexpr double kNoticed = 0.5;  // px
-  constexpr double kLeast = 0.5;    // of the image
+  constexpr double kNoticed = 0.5;  // smallest shift that is corrected [px]
+  constexpr double kLeast = 0.5;    // smallest fraction of the image that must stay visible
   recording.camera = file.camera;
   recording.depth_unit = file.depth_unit;
   recording.fps = file.fps;
@@ -70,7 +70,7 @@ void use_camera(CameraFile file, const std::string& path, Recording& recording) 
   }
 }
 
-/// One look at the start, so that a wrong camera.json stops the run instead of having every frame skipped.
+/// Checks the first image, so that a wrong camera.json stops the run instead of having every frame skipped.
 Result<void> check_first_image(const Recording& recording) {
   const auto image = read_depth_png(recording.entries.front().depth_file);
   if (!image) return {};  // one bad file is a skipped frame, not a bad recording
@@ -124,7 +124,7 @@ Result<FramePtr> read_frame(const Recording& recording, std::int64_t number) {
   const Undistortion* lens = recording.undistortion.get();
   frame->depth = lens ? lens->apply(*depth) : std::move(*depth);
 
-  // Depth is what is tracked: it goes on without colour.
+  // Tracking needs depth only, so a frame without colour is used.
   frame->colour_fault = entry.colour_fault;
   if (entry.colour_file.empty()) return frame;
   auto colour = read_frame_colour(recording, entry.colour_file);

@@ -17,7 +17,7 @@ struct RecordingEntry {
   std::string depth_file;    ///< path to open
   std::string colour_file;   ///< "": this frame has no colour
   std::string colour_fault;  ///< why it has none although others do
-  std::string fault;         ///< why the frame is not used (FrameOrder); "": it is
+  std::string fault;         ///< why the frame is not used (FrameOrder); "": it is used
 };
 
 /// A recording folder (docs/formats.md) as its index files describe it; images are read on demand.
@@ -27,17 +27,17 @@ struct Recording {
   double depth_unit = 0.001;                         ///< metres per count
   double fps = 0;                                    ///< nominal frames per second; 0 = not stated
   std::vector<RecordingEntry> entries;               ///< in the order of depth.txt; the position is the frame number
-  std::shared_ptr<const Undistortion> undistortion;  ///< of all images; null: they are a pinhole's
-  std::vector<std::string> doubts;                   ///< what is to be said of it, in sentences
+  std::shared_ptr<const Undistortion> undistortion;  ///< to be applied to all images; null: none is needed
+  std::vector<std::string> doubts;                   ///< warnings to the user, in sentences
 };
 
 /// Reads camera.json, depth.txt and, where there is one, rgb.txt, and looks at the first image. An error says which
-/// file and line or key is wrong: missing intrinsics, no frames, stamps that are no times, depth of another size. What
-/// is wrong with colour is a doubt.
+/// file and line or key is wrong: missing intrinsics, no frames, invalid time stamps, depth of another size. Problems
+/// with colour are only added to `doubts`.
 Result<Recording> open_recording(const std::string& directory);
 
-/// Decodes one frame; `number` is its position in `entries`. Unreadable or misshapen depth is an error naming the
-/// image; such colour is left out, and the frame says why.
+/// Decodes one frame; `number` is its position in `entries`. Depth that is unreadable or of another size is an error
+/// that names the image; such colour is left out, and the frame's `colour_fault` says why.
 Result<FramePtr> read_frame(const Recording& recording, std::int64_t number);
 
 }  // namespace barehand

@@ -30,7 +30,7 @@ std::string stamp_text(std::int64_t utime) {
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Options options) {
   std::error_code error;
-  // What is there must be no part of another recording.
+  // The folder must not contain parts of another recording.
   const std::string unfinished = directory + "/depth.txt" + std::string(kUnfinished);
   if (fs::exists(unfinished, error))
     return fail("holds a recording that was not finished", directory,
@@ -74,7 +74,7 @@ Result<void> RecordingWriter::start(const RgbdFrame& first) {
 }
 
 Result<void> RecordingWriter::append(std::optional<WholeFile>& list, const char* name, const std::string& line) const {
-  // Its draft is made for the first line.
+  // The draft is created with the first line.
   const bool first = !list;
   if (first) {
     auto made = WholeFile::create(directory_ + "/" + name, false);
@@ -103,13 +103,13 @@ Result<void> RecordingWriter::finish() {
     depth_list_.reset();
     rgb_list_.reset();
     fs::remove(directory_ + "/camera.json", ignored);
-    fs::remove(directory_ + "/depth", ignored);  // only where they are empty
+    fs::remove(directory_ + "/depth", ignored);  // only if they are empty
     fs::remove(directory_ + "/rgb", ignored);
     if (made_) fs::remove(directory_, ignored);
     return {};
   }
 
-  // The images first, all at once.
+  // Write the images to the disk first, all at once.
   if (const int folder = open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
     (void)syncfs(folder);
     close(folder);
@@ -131,7 +131,7 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
     return tl::unexpected(written.error());
   if (!frame.colour.empty()) {
     const std::string colour_file = image_name("rgb", count_, options_.colour_ending);
-    std::error_code ignored;  // a folder that cannot be made shows when the image is written
+    std::error_code ignored;  // a folder that cannot be created is reported when the image is written
     fs::create_directories(directory_ + "/rgb", ignored);
     const auto written = write_colour(directory_ + "/" + colour_file, frame.colour).and_then([&] {
       return append(rgb_list_, "rgb.txt", stamp_text(frame.utime) + " " + colour_file + "\n");

@@ -10,16 +10,17 @@
 
 namespace barehand {
 
-/// Writes a recording folder (docs/formats.md) that open_recording reads. It is a recording when it is finished: until
-/// then its lists are drafts (WholeFile). They stay complete at every moment: images first, then the line that names
-/// them. After a full disk it goes on with the next frame that fits. The destructor finishes what has frames.
+/// Writes a recording folder (docs/formats.md) that open_recording reads. It becomes a recording when it is finished;
+/// until then its lists are drafts (WholeFile). The lists are valid at every moment, since an image is written before
+/// the line that names it. After a full disk, writing continues with the next frame that fits. The destructor finishes
+/// a recording that has frames.
 class RecordingWriter {
  public:
   struct Options {
-    double fps = 0;                     ///< nominal rate noted in camera.json; 0 = not noted
+    double fps = 0;                     ///< nominal rate stored in camera.json; 0 = not stored
     std::string colour_ending = "png";  ///< or "jpg": smaller, but lossy: black ("no colour here") may turn grey
   };
-  /// Makes the folder. A folder that already holds a recording, or some of its files, is an error: nothing is
+  /// Creates the folder. A folder that already holds a recording, or some of its files, is an error: nothing is
   /// overwritten.
   static Result<RecordingWriter> create(const std::string& directory, Options options);
   static Result<RecordingWriter> create(const std::string& directory) { return create(directory, Options{}); }
@@ -27,12 +28,12 @@ class RecordingWriter {
   RecordingWriter& operator=(RecordingWriter&&) = delete;
   ~RecordingWriter();
 
-  /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame
-  /// fixes the intrinsics and the depth unit; later ones must agree. A full disk is an error. Times are written as they
-  /// come; a source's frames are in order (FrameOrder).
+  /// Appends a frame and returns its number in this recording (its line in depth.txt, from 0). The first frame fixes
+  /// the intrinsics and the depth unit; later ones must agree. A full disk is an error. Time stamps are written
+  /// unchanged; sources deliver frames in order (FrameOrder).
   Result<std::int64_t> write(const RgbdFrame& frame);
-  /// Makes a recording of what was written: all of it is on the disk when this returns. Without a frame, what was made
-  /// is removed. Nothing is written afterwards.
+  /// Finishes the recording: on return, all of it is on the disk. Without a frame, everything that was created is
+  /// removed. Nothing can be written afterwards.
   Result<void> finish();
 
  private:
@@ -44,8 +45,8 @@ class RecordingWriter {
   Options options_;
   Intrinsics camera_;
   double depth_unit_ = 0;
-  bool made_ = false, finished_ = false;            ///< the folder, which was not there; all of it
-  std::optional<WholeFile> depth_list_, rgb_list_;  ///< from the first line on
+  bool made_ = false, finished_ = false;            ///< the folder was created here; finish() was called
+  std::optional<WholeFile> depth_list_, rgb_list_;  ///< created with their first line
   std::int64_t count_ = 0;
 };
 

@@ -42,7 +42,7 @@ bool has_digit(std::string_view word) {
   return std::any_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The path of the file that is meant by what follows the stamp in a line; none: nothing is.
+/// The path of the file that the text after a time stamp names; none if it names none.
 std::optional<std::string> file_in(std::string_view rest, const fs::path& folder) {
   const auto path_of = [&](std::string_view name) { return (folder / name).string(); };
   if (rest.starts_with('"')) {
@@ -52,7 +52,7 @@ std::optional<std::string> file_in(std::string_view rest, const fs::path& folder
     return path_of(rest.substr(1, quote - 1));
   }
 
-  // What may be meant, the most literal first. A file is only looked for where there is a choice.
+  // List the possible names, the most literal first, and take the first one that exists. A single name need not exist.
   std::vector<std::string> names{std::string(trimmed(without_comment(rest)))};
   if (names[0].empty()) return std::nullopt;
   if (names[0].find('\\') != std::string::npos) {

@@ -15,13 +15,13 @@ struct StampedFile {
   int line = 0;            ///< counted from 1
 };
 
-/// Reads such a list in its own order. The name is the rest of the line, or stands in double quotes; '#' at the start
-/// of a line or after a space begins a comment. Where no such file is there, "\" in a name is "/", and then a name ends
-/// at its first space. A first line without any digit in its first word is a header. An error names the line that makes
-/// no sense.
+/// Reads such a list, in the order of its lines. The name is the rest of the line, or stands in double quotes; '#' at
+/// the start of a line or after a space begins a comment. If there is no file of that name, "\" in it is read as "/",
+/// and if there is still none, the name is taken to end at its first space. A first line without any digit in its first
+/// word is a header. An error names the invalid line.
 Result<std::vector<StampedFile>> read_stamped_list(const std::string& path);
 
-/// Whether `file` is named so that it lies elsewhere than in `folder` or below. Links are not followed.
+/// Whether `file`, by its name, is neither in `folder` nor below it. Links are not followed.
 bool is_outside(const std::string& folder, const std::string& file);
 
 }  // namespace barehand

@@ -14,7 +14,9 @@ extern "C" {
 
 namespace barehand {
 
-/// libav's functions of this kind take the address of the pointer.
+// RAII wrappers of libav for the video module: frames, packets, and OutputFile, a muxer with its file.
+
+/// Deleter that calls a function of libav which takes the address of the pointer.
 template <auto function>
 struct FreeByAddress {
   template <typename T>
@@ -25,7 +27,7 @@ struct FreeByAddress {
 using AvFramePtr = std::unique_ptr<AVFrame, FreeByAddress<av_frame_free>>;
 using AvPacketPtr = std::unique_ptr<AVPacket, FreeByAddress<av_packet_free>>;
 
-/// libav takes names for URLs otherwise, and what stands before a colon for a protocol.
+/// The URL of a file. libav would take a plain name for a URL, and text before a colon for its protocol.
 inline std::string file_url(const char* path) { return std::string("file:") + path; }
 
 /// A muxer and its file.
@@ -36,10 +38,10 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Errors below 0, as libav's.
+  /// These functions return an error below 0, as libav does.
   int open(const char* path, const char* format);
   int write_header(AVDictionary** options);
-  /// Takes the packet; it is in the file when this returns.
+  /// Takes the packet over; its data are in the file on return.
   int write(AVPacket* packet);
   /// Ends the file.
   int finish();
@@ -47,14 +49,15 @@ class OutputFile {
   AVFormatContext* get() const { return context_; }
 
  private:
-  /// The muxers do not look at what became of their bytes.
+  /// Writes buffered bytes to the file and returns the error, which muxers do not check.
   int flush();
   AVFormatContext* context_ = nullptr;
 };
 
-/// Puts libav's error into words.
+/// Writes libav's text for an error into `message`.
 inline void say(VideoModule::Message& message, int error) { av_strerror(error, message.data(), message.size()); }
 
+/// See VideoModule::defragment.
 bool defragment(const char* from, const char* to, VideoModule::Message& message);
 
 }  // namespace barehand

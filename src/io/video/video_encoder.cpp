@@ -14,8 +14,8 @@ struct Codec {
   const char* options;
 };
 
-/// The first encoder of a format that is installed is taken. None holds pictures back, so that a program that is killed
-/// loses no more than the container's last fragment.
+/// The encoders of each format; the first one that is installed is used. None of them delays images, so a program that
+/// is killed loses no more than the container's last fragment.
 constexpr Codec kCodecs[] = {
     {"mp4", "libx264", AV_PIX_FMT_YUV420P, "preset=veryfast:tune=zerolatency:crf=20"},
     {"mp4", "mpeg4", AV_PIX_FMT_YUV420P, "flags=+qscale:global_quality=354"},
@@ -26,7 +26,8 @@ constexpr Codec kCodecs[] = {
     {"avi", "mjpeg", AV_PIX_FMT_YUVJ420P, "flags=+qscale:global_quality=354"},
 };
 
-/// A file that has no end yet plays up to its last fragment or cluster, about a second before the newest picture.
+/// With these options, an unfinished file can be played up to its last fragment or cluster, about a second before the
+/// newest image.
 const char* muxer_options(const char* format) {
   if (std::strcmp(format, "mp4") == 0) return "movflags=frag_keyframe+empty_moov+default_base_moof";
   if (std::strcmp(format, "avi") == 0) return "";
@@ -51,7 +52,7 @@ struct FreeScaler {
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 };
 
-/// One video that is being written. Errors below 0, as libav's.
+/// One video that is being written. Its functions return an error below 0, as libav does.
 class Video {
  public:
   int open(const char* path, const char* format, int width, int height, double fps) {
@@ -60,8 +61,8 @@ class Video {
     if (const int error = file_.open(path, format); error < 0) return error;
     if (const int error = open_encoder(format, fps); error < 0) return error;
 
-    // Where pictures are converted. libswscale works in blocks and may touch what lies behind a row, so the picture is
-    // copied to rows of libav's own.
+    // Allocate the images for the conversion of colours. libswscale works in blocks and may access memory beyond the
+    // end of a row, so an image is first copied to rows that libav has allocated.
     packet_.reset(av_packet_alloc());
     if (!packet_) return AVERROR(ENOMEM);
     if (const int error = allocate(picture_, AV_PIX_FMT_RGB24); error < 0) return error;
@@ -70,7 +71,7 @@ class Video {
                                  encoder_->pix_fmt, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
     if (!scaler_) return AVERROR(ENOMEM);
 
-    // The file's one stream.
+    // Create the file's only stream.
     AVStream* stream = avformat_new_stream(file_.get(), nullptr);
     if (!stream) return AVERROR(ENOMEM);
     stream->time_base = encoder_->time_base;
@@ -108,12 +109,12 @@ class Video {
     encoder_->width = even(width_);
     encoder_->height = even(height_);
     encoder_->pix_fmt = codec->pixels;
-    encoder_->framerate = av_d2q(fps, 60'000);  // MPEG-4 has 16 bits for it
+    encoder_->framerate = av_d2q(fps, 60'000);  // MPEG-4 stores it in 16 bits
     encoder_->time_base = av_inv_q(encoder_->framerate);
-    encoder_->gop_size = std::clamp(static_cast<int>(std::lround(fps)), 1, 120);  // a second
+    encoder_->gop_size = std::clamp(static_cast<int>(std::lround(fps)), 1, 120);  // one key frame per second
     encoder_->colorspace = AVCOL_SPC_SMPTE170M;                                   // the scaler's default
     encoder_->color_range = codec->pixels == AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-    encoder_->thread_count = 1;  // the cores are the tracker's
+    encoder_->thread_count = 1;  // the tracker needs the cores
     if (file_->oformat->flags & AVFMT_GLOBALHEADER) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     return avcodec_open2(encoder_.get(), found, Options(codec->options).get());
   }
@@ -127,7 +128,7 @@ class Video {
     return av_frame_get_buffer(frame.get(), 0);
   }
 
-  /// Repeats the last column and row where their number is odd.
+  /// Copies an image; repeats the last column and row if their number is odd.
   void copy(const std::uint8_t* pixels) {
     const std::size_t length = kChannels * static_cast<std::size_t>(width_);
     for (int v = 0; v < picture_->height; ++v) {
@@ -138,7 +139,7 @@ class Video {
     }
   }
 
-  /// nullptr: what the encoder still holds.
+  /// Encodes a frame and writes the packets; with nullptr, those that the encoder still holds.
   int encode(const AVFrame* frame) {
     int error = avcodec_send_frame(encoder_.get(), frame);
     while (error >= 0) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::pair<const char*, const char*>, 4> kFormats = {
     {{".mp4", "mp4"}, {".mkv", "matroska"}, {".webm", "webm"}, {".avi", "avi"}}};
 
-/// The folder of the program's own libraries, or where the build put the module.
+/// The path of the module: in the folder of the installed program's libraries, or where the build put it.
 std::string module_file() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -44,7 +44,7 @@ Result<const VideoModule*> load_video_module(const std::string& library) {
     return fail(std::string("videos cannot be written: ") + dlerror(), file,
                 "install the package barehand-video, or give a folder for single images");
   };
-  void* loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // for good: libav is not made for being unloaded
+  void* loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: libav cannot be unloaded
   if (!loaded) return failure();
   void* symbol = dlsym(loaded, kVideoModuleSymbol);
   if (!symbol) return failure();
@@ -58,8 +58,8 @@ Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
   if (!file) return tl::unexpected(file.error());
   VideoFile video(*module, path, fps, std::move(*file));
 
-  // The size is known with the first picture only; a small video tells now whether there is an encoder. Whoever reads a
-  // pipe must not see it.
+  // The size of the images is not known yet, so a small video is written to find out whether there is an encoder; not
+  // into a pipe, whose reader must not see it.
   const std::string trial_path = video.file_.direct() ? "/dev/null" : video.file_.draft();
   VideoModule::Message message{};
   void* trial = (*module)->open(trial_path.c_str(), video_format(path), 64, 64, fps, message);

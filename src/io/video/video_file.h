@@ -13,16 +13,16 @@ namespace barehand {
 /// The extension of a name, with its dot, in lower case.
 std::string lower_case_ending(const std::string& path);
 
-/// libavformat's name for the video that the ending of `path` asks for, in upper or lower case: .mp4, .mkv, .webm or
-/// .avi. nullptr: another ending.
+/// libavformat's name for the format of a video with the ending of `path`, in upper or lower case: .mp4, .mkv, .webm or
+/// .avi. nullptr for another ending.
 const char* video_format(const std::string& path);
 
 /// Loads `library`, by default libbarehand_video.so of this installation or build. Error: it, or a library that it
 /// needs, is missing.
 Result<const VideoModule*> load_video_module(const std::string& library = "");
 
-/// A video that appears under its name when it is whole. Until then it is a draft (WholeFile), which plays up to about
-/// a second before its end, also where the program was killed.
+/// A video that gets its name when it is complete. Until then, and if the program is killed, it is a draft (WholeFile),
+/// which can be played up to about a second before its end.
 class VideoFile {
  public:
   /// Errors: no video module, no encoder for the format, and those of WholeFile.
@@ -31,26 +31,27 @@ class VideoFile {
   VideoFile& operator=(VideoFile&&) = delete;
   ~VideoFile();
 
-  /// Errors: a full disk, after which the video takes nothing more; a picture of another size than the first.
+  /// Writes an image. Errors: a full disk, after which nothing more can be written; an image that differs in size from
+  /// the first.
   Result<void> write(const Image<Rgb>& picture);
-  /// Ends the video and gives it its name; the destructor does so too, but cannot report errors. Without a picture
-  /// there is no file. After a full disk it stays a draft, which the error names.
+  /// Ends the video and gives it its name; the destructor does so too, but cannot report errors. Without an image there
+  /// is no file. After a full disk it stays a draft, which the error names.
   Result<void> finish();
 
  private:
   VideoFile(const VideoModule* module, std::string path, double fps, WholeFile file);
-  /// Gives the video up, for good.
+  /// Gives the video up; every later call returns this error.
   tl::unexpected<Error> broken(const VideoModule::Message& message);
-  /// An mp4 in fragments becomes an ordinary one, which more players show. Where that fails it stays what it is.
+  /// Turns a fragmented mp4 into an ordinary one, which more players show. If that fails, it stays fragmented.
   void defragment();
 
   const VideoModule* module_;
   std::string path_;
   double fps_;
   WholeFile file_;
-  void* video_ = nullptr;  ///< the module's; nullptr before the first picture and after the end
+  void* video_ = nullptr;  ///< the module's handle; nullptr before the first image and after the end
   int width_ = 0, height_ = 0;
-  std::optional<Error> broken_;  ///< why the file takes nothing more
+  std::optional<Error> broken_;  ///< why nothing more can be written
 };
 
 }  // namespace barehand
