@@ -6,7 +6,7 @@ const kRetryMs = 1000;
 const kWindow = 2;  // frames under way
 
 export class Connection {
-  // onFrame(frame), onStatus(status), onOpen(), onClose()
+  // onFrame(frame), onStatus(status), onError(text), onOpen(), onClose()
   constructor(handlers) {
     this.handlers = handlers;
     this.wish = {};
@@ -25,7 +25,7 @@ export class Connection {
     if (typeof data !== "string") return this.handlers.onFrame(decodeFrame(data));
     const message = JSON.parse(data);
     if (message.type === "status") this.handlers.onStatus(message);
-    if (message.type === "error") console.warn(message.text);
+    if (message.type === "error") this.handlers.onError(message.text);
   }
 
   send(message) {

@@ -4,13 +4,14 @@ import {Connection} from "./connection.js";
 import {Meter, notice, showConnection, showHands, showHealth} from "./panels.js";
 import {Picture} from "./picture.js";
 import {Plots} from "./plots.js";
+import {Recorder} from "./recorder.js";
 import {Timeline} from "./timeline.js";
 
 const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
 const kSlowFrameMs = 3000;  // after so long without a frame the page says so
 
-const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, freeze: false, picture: "colour", plot: "joints"};
+const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // that came before the view was there
 let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
@@ -23,6 +24,7 @@ async function startScene() {
     scene = new Scene(byId("scene"));
     skins.forEach((skin) => scene.setSkin(skin));
     applyTheme();
+    applyRoom();
     applyState();
   } catch (error) {
     console.warn(error);
@@ -39,12 +41,16 @@ const connection = new Connection({
     unacknowledged = 0;
     showConnection("lost", "no connection");
     showHands([]);
+    recorder.show(null);
   },
+  onError(text) { recorder.say(text, "lost"); },
   onStatus(message) {
     status = message;
     byId("source").textContent = message.source;
     showHealth(message);
     timeline.show(message.log);
+    applyRoom();
+    recorder.show(message.record);
   },
   async onFrame(frame) {
     for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins.push(skin);
@@ -60,6 +66,7 @@ const connection = new Connection({
   },
 });
 const timeline = new Timeline((message) => connection.send(message));
+const recorder = new Recorder((message) => connection.send(message));
 
 // Once for every picture of the display.
 function loop(now) {
@@ -102,9 +109,16 @@ function problem() {
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
 }
 
+// The room, where the program knows it.
+function applyRoom() {
+  const room = status && status.T_world_camera || null;
+  byId("floor").hidden = room === null;
+  if (scene) scene.setRoom(room);
+}
+
 function theme() { return document.documentElement.dataset.theme; }
 function applyTheme() {
-  if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim());
+  if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim(), theme());
   if (timeline.active) timeline.show(timeline.log);
 }
 function setTheme(name) {
@@ -125,7 +139,7 @@ function applyState() {
   connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
   if (!scene) return;
   if (scene.view !== state.view) scene.setView(state.view);
-  scene.options = {smoothed: !state.raw, ellipsoids: state.ellipsoids};
+  scene.options = {smoothed: !state.raw, ellipsoids: state.ellipsoids, floor: state.floor};
   if (!shown) return;
   showPicture(shown);
   scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
@@ -148,10 +162,10 @@ function onKey(event) {
   if (event.key === " " && event.target.tagName === "BUTTON") return;  // presses it
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
-    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), f: () => toggle("freeze"),
+    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
     p: () => set({picture: next(kPictures, state.picture)}),
     h: () => { plots.side = 1 - plots.side; },
-    s: saveScreenshot, t: () => setTheme(theme() === "dark" ? "light" : "dark"),
+    s: saveScreenshot, v: () => recorder.press(), t: () => setTheme(theme() === "dark" ? "light" : "dark"),
     "?": () => byId("shortcuts").showModal(),
     " ": () => timeline.active ? timeline.toggle() : toggle("freeze"),
     ArrowLeft: () => timeline.active && (event.shiftKey ? timeline.lost(-1) : timeline.step(-1)),

@@ -1,4 +1,4 @@
-// Takes a binary message of the WebSocket apart (docs/view.md lists the chunks).
+// Takes a binary message of the WebSocket apart (docs/view_protocol.md lists the chunks).
 import {decodeGloveState, decodeHandState} from "./lcm.js";
 
 function lcmMessage(view, frame) {

@@ -1,13 +1,15 @@
 // The three-dimensional view. Everything is drawn in the sensor's frame (x right, y down, z forward); `root` turns it
-// into that of three.js (y up, z backward). It draws when something has changed, not all the time.
+// into that of three.js (y up): where the room is known, up is against gravity, else it is the top of the sensor's
+// picture. It draws when something has changed, not all the time.
 import * as THREE from "/three/build/three.module.js";
 import {OrbitControls} from "/three/examples/jsm/controls/OrbitControls.js";
 import {Cloud} from "./cloud.js";
 import {Ellipsoids} from "./ellipsoids.js";
 import {HandMesh} from "./hand_mesh.js";
+import {Room, placeOf} from "./room.js";
 
 const kFieldOfView = 45;  // degrees, of the free views
-const kFirstOffset = new THREE.Vector3(0.1, 0.12, 0.38);  // m, from the hand to the eye
+const kBeside = 0.1, kAbove = 0.12, kBack = 0.38;  // m, from the hand to the eye at first
 const kSlowMs = 40;  // where a picture takes longer than this, fewer pixels are drawn
 const kFewestPixels = 0.5;
 
@@ -31,22 +33,21 @@ export class Scene {
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: !slow});
     this.scene = new THREE.Scene();
     this.root = new THREE.Group();
-    this.root.rotation.x = Math.PI;
+    this.root.matrixAutoUpdate = false;
     this.scene.add(this.root);
+    this.room = new Room(this.scene);
     this.hands = [new HandMesh(this.root), new HandMesh(this.root)];
     this.ellipsoids = [new Ellipsoids(this.root), new Ellipsoids(this.root)];
     this.cloud = new Cloud(this.root);
 
     this.free = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.02, 20);
-    this.free.position.set(0, 0, -0.6).add(kFirstOffset);
     this.sensor = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.02, 20);
     this.controls = new OrbitControls(this.free, canvas);
-    this.controls.target.set(0, 0, -0.6);
     this.controls.addEventListener("change", () => this.change());
-    this.controls.update();
+    this.setRoom(null);
 
     this.view = "follow";
-    this.options = {smoothed: true, ellipsoids: false};
+    this.options = {smoothed: true, ellipsoids: false, floor: true};
     this.ground = new THREE.Color();
     this.picture = null;  // texture behind the sensor's view
     this.header = null;
@@ -59,9 +60,39 @@ export class Scene {
 
   change() { this.changed = true; }
 
-  setTheme(ground) {
+  setTheme(ground, theme) {
     this.ground.set(ground);
+    this.room.setTheme(theme);
     this.change();
+  }
+
+  // `numbers`: T_world_camera, row by row; null: the room is not known.
+  setRoom(numbers) {
+    const text = JSON.stringify(numbers);
+    if (text === this.roomText) return;
+    this.roomText = text;
+    this.place = placeOf(numbers);
+    this.root.matrix.copy(this.place);
+    this.root.updateMatrixWorld(true);
+    this.place.clone().multiply(new THREE.Matrix4().makeScale(1, -1, -1))
+      .decompose(this.sensor.position, this.sensor.quaternion, this.sensor.scale);
+    this.room.set(this.place, numbers !== null, this.header);
+    this.moveEye();
+    this.anchored = false;
+    this.change();
+  }
+
+  // Behind the sensor and above, so that the hand is seen as its owner sees it.
+  moveEye() {
+    const up = new THREE.Vector3(0, 1, 0);
+    const level = (v) => v.applyQuaternion(this.sensor.quaternion).setY(0);
+    let back = level(new THREE.Vector3(0, 0, 1));
+    if (back.length() < 0.2) back = level(new THREE.Vector3(0, -1, 0));  // a sensor that looks down: its picture's lower edge
+    back.normalize();
+    this.controls.target.set(0, 0, 0.6).applyMatrix4(this.place);
+    this.free.position.copy(this.controls.target).addScaledVector(back, kBack).addScaledVector(up, kAbove)
+      .addScaledVector(up.clone().cross(back), kBeside);
+    this.controls.update();
   }
 
   setView(view) {
@@ -108,7 +139,10 @@ export class Scene {
   show(frame) {
     const before = this.header;
     this.header = frame.header;
-    if (!before || before.fx !== this.header.fx || before.width !== this.header.width) this.fitSensor();
+    if (!before || before.fx !== this.header.fx || before.width !== this.header.width) {
+      this.fitSensor();
+      this.room.set(this.place, this.room.known, this.header);
+    }
     this.cloud.set(frame.cloud, frame.header);
     const centres = [];
     for (const side of [0, 1]) {
@@ -125,7 +159,7 @@ export class Scene {
   // Moves the eye along with the middle of the hands, calmly; in the view that stays in place only once.
   follow(centres) {
     const middle = centres.reduce((sum, c) => sum.add(c), new THREE.Vector3()).multiplyScalar(1 / centres.length);
-    middle.set(middle.x, -middle.y, -middle.z);
+    middle.applyMatrix4(this.place);
     if (this.anchored && this.view === "orbit") return;
     const move = middle.sub(this.controls.target).multiplyScalar(this.anchored ? 0.15 : 1);
     this.anchored = true;
@@ -158,6 +192,7 @@ export class Scene {
     if (withPicture) this.renderPicture();
     const cloudShown = this.cloud.points.visible;
     if (withPicture) this.cloud.points.visible = false;
+    this.room.show(this.options.floor && !fromSensor);
     this.renderer.render(this.scene, fromSensor ? this.sensor : this.free);
     this.cloud.points.visible = cloudShown;
   }

@@ -4,6 +4,7 @@
 #include "io/config/config_file.h"
 #include "io/config/config_writer.h"
 #include "pipeline/run_params.h"
+#include "sensor/camera_placement.h"
 #include "sensor/given_intrinsics.h"
 #include "stages/detection/params.h"
 #include "stages/preprocess/params.h"
@@ -19,6 +20,7 @@ struct Config {
   PreprocessParams preprocess;
   TrackerParams tracker;
   PublishParams publish;
+  CameraPlacement world;
   GivenIntrinsics foreign_camera;
   OpenNiParams openni2;
 };
@@ -29,6 +31,7 @@ void visit(V& v, Config& c) {
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("publish", c.publish, "from estimates to LCM messages");
+  v("world", c.world, "the room in which the camera stands, for the live page");
   v("foreign_camera", c.foreign_camera, "intrinsics for kinect.frame_msg_t and bot_core.images_t, which carry none");
   v("openni2", c.openni2,
     "wanted mode of an OpenNI2 sensor, and when it is reopened; fx, fy, cx and cy replace the sensor's own");

@@ -10,7 +10,8 @@ namespace {
 
 /// Sources, channels and the counting of failures are set up once; the fit to the person is not begun anew.
 bool fixed(const std::string& key) {
-  constexpr const char* kFixed[] = {"run.", "detection.", "foreign_camera.", "openni2.", "tracker.shape_fit."};
+  constexpr const char* kFixed[] = {"run.",     "detection.",        "world.", "foreign_camera.",
+                                    "openni2.", "tracker.shape_fit."};
   return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
 }
 

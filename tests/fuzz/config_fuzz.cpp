@@ -4,15 +4,17 @@
 #include "io/config/config_file.h"
 #include "io/config/config_writer.h"
 #include "pipeline/run_params.h"
+#include "sensor/camera_placement.h"
 #include "stages/publish/publish_params.h"
 
 namespace {
 
-/// Four groups of the configuration, which hold every kind of value: all of them would be read alike, but ten times as
+/// Five groups of the configuration, which hold every kind of value: all of them would be read alike, but ten times as
 /// slowly.
 struct Groups {
   barehand::RunParams run;
   barehand::PublishParams publish;
+  barehand::CameraPlacement world;
   barehand::GivenIntrinsics foreign_camera;
   barehand::OpenNiParams openni2;
 };
@@ -20,13 +22,14 @@ template <class V>
 void visit(V& v, Groups& p) {
   v("run", p.run, "");
   v("publish", p.publish, "");
+  v("world", p.world, "");
   v("foreign_camera", p.foreign_camera, "");
   v("openni2", p.openni2, "");
 }
 
 }  // namespace
 
-/// A configuration: what is accepted prints as a file that says the same.
+/// A configuration: what is accepted prints as a file that says the same, and a room is a rigid motion.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);
@@ -36,5 +39,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile printed(text.data(), text.size());
   const auto again = load_config<Groups>(printed.path());
   CHECK(again && print_config(*again) == print_config(*config));
+  if (const auto world = world_from(config->world); world && *world) CHECK((*world)->all_finite());
   return 0;
 }

@@ -137,6 +137,22 @@ TEST(Track, StopsAtAChannelPrefixThatLcmDoesNotTake) {
   EXPECT_THAT(outcome.output, HasSubstr("the channel prefix is too long"));
 }
 
+TEST(Track, StopsAtARoomThatIsNone) {
+  const test::TempFolder folder;
+  const std::string path = folder / "room.yaml";
+  test::write_text(path, "world: {T_world_camera: [0, 0, 1, 0, 0, 0, 0.9]}\n");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"track", "--source", "sim:fist"},
+        {"view", "--lcm"},
+        {"calibrate", "--source", "sim:scan", "--out", folder / "mine.json"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--config", path});
+    const Outcome outcome = barehand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(path + ": world.T_world_camera: the quaternion has the norm 0.9"));
+  }
+}
+
 TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);

@@ -4,9 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/log.h"
 #include "drivers/lcm/wire.h"
+#include "io/lcm/lcm_log_reader.h"
 #include "publish/published_hand.h"
 #include "stages/publish/hand_messages.h"
+#include "support/temp_folder.h"
 #include "web/web_client.h"
 
 namespace barehand {
@@ -14,7 +17,7 @@ namespace {
 
 TEST(LiveView, ShowsWhatATrackerSends) {
   const SystemClock clock;
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server) << server.error().message();
   const std::string url = (*server)->url();
   test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
@@ -26,7 +29,7 @@ TEST(LiveView, ShowsWhatATrackerSends) {
   ASSERT_TRUE(opened) << opened.error().message();
   const std::shared_ptr<LcmBus> bus = std::move(*opened);
   ShownHands hands({test::adult_hand(Handedness::left), test::adult_hand(Handedness::right)});
-  LiveView live(bus, "DESK_", std::move(hands), **server, clock);
+  LiveView live(bus, {"DESK_", {}, nullptr}, std::move(hands), **server, clock);
   HandMessages made = HandMessageMaker({}).process(estimate_of(*test::adult_hand(), {}, 7'000'000));
   ASSERT_TRUE(bus->send("OTHER_HAND_STATE", encode_message(made.state), 1));
   made.state.frame_number = 42;
@@ -40,16 +43,46 @@ TEST(LiveView, ShowsWhatATrackerSends) {
   EXPECT_EQ(chunks[1].at<std::int64_t>(8), 42);
 }
 
+TEST(LiveView, RecordsWhatComesAsItComes) {
+  // A tracker sends the states of one frame, and something that is no tracker's.
+  const test::TempFolder folder;
+  const SystemClock clock;
+  LogRecorder recorder({folder.path()}, make_silent_logger(), clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  auto opened = LcmBus::open("memq://");
+  ASSERT_TRUE(opened) << opened.error().message();
+  const std::shared_ptr<LcmBus> bus = std::move(*opened);
+  ShownHands hands({test::adult_hand(Handedness::left), test::adult_hand(Handedness::right)});
+  LiveView live(bus, {"DESK_", {}, &recorder}, std::move(hands), **server, clock);
+  const HandMessages made = HandMessageMaker({}).process(estimate_of(*test::adult_hand(), {}, 7'000'000));
+  ASSERT_TRUE(recorder.start(1));
+  ASSERT_TRUE(bus->send("DESK_NOTE", std::vector<std::uint8_t>(40), 1));
+  ASSERT_TRUE(bus->send("DESK_HAND_STATE", encode_message(made.state), 1));
+  ASSERT_TRUE(bus->send("DESK_GLOVE_STATE", encode_message(made.glove), 1));
+  while (recorder.state().frames == 0) live.step(std::chrono::milliseconds(20));
+  live.step(std::chrono::milliseconds(20));
+  recorder.finish();
+
+  auto log = LcmLogReader::open(folder / recorder.state().file);
+  ASSERT_TRUE(log) << log.error().message();
+  ASSERT_EQ(log->entries().size(), 2u);
+  EXPECT_EQ(log->entries()[0].channel, "DESK_HAND_STATE");
+  EXPECT_EQ(log->entries()[0].timestamp, 7'000'000);
+  EXPECT_EQ(log->read(log->entries()[0]).value(), encode_message(made.state));
+  EXPECT_EQ(log->entries()[1].channel, "DESK_GLOVE_STATE");
+}
+
 TEST(LiveView, SaysThatNobodySends) {
   const SystemClock clock;
   ManualClock time(1'000'000);
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server);
   const std::string url = (*server)->url();
   test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
   auto bus = LcmBus::open("memq://");
   ASSERT_TRUE(bus);
-  LiveView live(std::move(*bus), "DESK_", ShownHands({}), **server, time);
+  LiveView live(std::move(*bus), {"DESK_", {}, nullptr}, ShownHands({}), **server, time);
   time.advance(9'000'000);
   live.step(std::chrono::milliseconds(0));
   const auto status = nlohmann::json::parse(client.text().value());

@@ -35,6 +35,22 @@ TEST(ViewRequest, CommandsThePlayer) {
   EXPECT_TRUE(std::holds_alternative<ViewAcknowledge>(parse_view_demand(R"({"type": "ack"})").value()));
 }
 
+TEST(ViewRequest, StartsAndStopsARecording) {
+  for (const bool on : {true, false}) {
+    const auto demand = parse_view_demand(std::string(R"({"type": "record", "on": )") + (on ? "true}" : "false}"));
+    ASSERT_TRUE(demand) << demand.error().message();
+    EXPECT_EQ(std::get<RecordCommand>(*demand).on, on);
+  }
+}
+
+TEST(ViewRequest, ARecordingGoesWhereTheProgramSays) {
+  for (const char* text :
+       {R"({"type": "record"})", R"({"type": "record", "on": 1})", R"({"type": "record", "on": null})",
+        R"({"type": "record", "value": true})", R"({"type": "record", "on": "true"})",
+        R"({"type": "record", "on": true, "folder": "/etc"})", R"({"type": "record", "on": true, "name": "../../a"})"})
+    EXPECT_FALSE(parse_view_demand(text)) << text;
+}
+
 TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
   for (const char* text :
        {"", "{", "[]", "7", "null", "\"want\"", "{}", R"({"type": 7})", R"({"type": "fly"})", "\xff\xfe",

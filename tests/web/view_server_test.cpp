@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/log.h"
+#include "support/temp_folder.h"
 #include "web/web_client.h"
 
 namespace barehand {
@@ -15,9 +17,9 @@ using test::SocketClient;
 class ViewServerTest : public testing::Test {
  protected:
   void SetUp() override {
-    ViewServer::Options options;
-    options.address.port = 0;
-    options.on_command = [this](const PlayerCommand& command) { commands_.push_back(command); };
+    serve({{"127.0.0.1", 0}, {}, [this](const PlayerCommand& command) { commands_.push_back(command); }, nullptr});
+  }
+  void serve(ViewServer::Options options) {
     auto server = ViewServer::start(std::move(options), clock_);
     ASSERT_TRUE(server) << server.error().message();
     server_ = std::move(*server);
@@ -138,6 +140,62 @@ TEST_F(ViewServerTest, HandsCommandsOn) {
   ASSERT_EQ(commands_.size(), 1u);
   EXPECT_EQ(commands_[0].kind, PlayerCommand::Kind::seek);
   EXPECT_EQ(commands_[0].value, 12);
+}
+
+TEST_F(ViewServerTest, SaysWhereNothingCanBeRecorded) {
+  SocketClient client(port());
+  client.send(R"({"type": "record", "on": true})");
+  const auto answer = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(answer["type"], "error");
+  EXPECT_NE(answer["text"].get<std::string>().find("nothing can be recorded"), std::string::npos);
+}
+
+class RecordingServerTest : public ViewServerTest {
+ protected:
+  void SetUp() override {
+    recorder_ = std::make_unique<LogRecorder>(LogRecorder::Options{folder_.path()}, make_silent_logger(), clock_);
+    serve({{"127.0.0.1", 0}, {}, {}, recorder_.get()});
+  }
+
+  const test::TempFolder folder_;
+  std::unique_ptr<LogRecorder> recorder_;
+};
+
+TEST_F(RecordingServerTest, EveryClientStartsAndStops) {
+  SocketClient first(port()), second(port());
+  first.send(R"({"type": "record", "on": true})");
+  wait_until_heard(first);
+  EXPECT_TRUE(recorder_->recording());
+  second.send(R"({"type": "record", "on": true})");
+  wait_until_heard(second);
+  EXPECT_TRUE(recorder_->recording()) << "it goes on";
+  recorder_->post(1, [](MessageSink& log) { return log.send("A", {}, 1); });
+  second.send(R"({"type": "record", "on": false})");
+  wait_until_heard(second);
+  EXPECT_FALSE(recorder_->recording());
+  EXPECT_EQ(recorder_->state().note, "Stopped from another page.");
+}
+
+TEST_F(RecordingServerTest, TellsTheClientWhyNothingIsRecorded) {
+  std::filesystem::remove_all(folder_.path());
+  SocketClient client(port());
+  client.send(R"({"type": "record", "on": true})");
+  const auto answer = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(answer["type"], "error");
+  EXPECT_NE(answer["text"].get<std::string>().find(folder_.path()), std::string::npos) << answer;
+}
+
+TEST_F(RecordingServerTest, ObeysNoCommandThatSaysMoreAndNoPageOfAnotherOrigin) {
+  SocketClient client(port());
+  client.send(R"({"type": "record", "on": true, "folder": "/tmp"})");
+  EXPECT_EQ(nlohmann::json::parse(client.text().value())["type"], "error");
+
+  // The server refuses the handshake, and nothing that follows it is heard.
+  test::RawClient foreign(port());
+  foreign.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\nOrigin: https://evil.example\r\n") +
+               "\r\n" + std::string("\x81\x9e\0\0\0\0", 6) + R"({"type": "record", "on": true})");
+  EXPECT_NE(test::status_of(foreign.read()), 101);
+  EXPECT_FALSE(recorder_->recording());
 }
 
 TEST_F(ViewServerTest, AnswersWhatItDoesNotUnderstand) {

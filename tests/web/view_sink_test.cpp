@@ -4,8 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/log.h"
+#include "drivers/lcm/frame_message.h"
 #include "drivers/lcm/wire.h"
+#include "io/lcm/lcm_log_reader.h"
 #include "publish/published_hand.h"
+#include "support/temp_folder.h"
 #include "web/web_client.h"
 
 namespace barehand {
@@ -27,7 +31,7 @@ TrackedFrame tracked(std::int64_t utime) {
 
 TEST(ViewSink, SendsWhatTheBusGets) {
   SystemClock clock;
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server) << server.error().message();
   const PublishParams params;
   ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }}, clock);
@@ -50,10 +54,65 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   EXPECT_EQ(test::kinds_of(chunks_of(client.binary().value())).find('S'), std::string::npos) << "the skin comes once";
 }
 
+TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
+  // Record two frames.
+  const test::TempFolder folder;
+  SystemClock clock;
+  LogRecorder recorder({folder.path()}, make_silent_logger(), clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const PublishParams params;
+  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }, {}, "DESK_", &recorder}, clock);
+  const TrackedFrame frame = tracked(3'000'000);
+  ASSERT_TRUE(sink.consume(tracked(2'900'000))) << "before";
+  ASSERT_TRUE(recorder.start(1));
+  ASSERT_TRUE(sink.consume(frame) && sink.consume(tracked(3'033'000)));
+  ASSERT_TRUE(sink.finish());
+
+  // The log holds what the bus gets, and the frames.
+  auto log = LcmLogReader::open(folder / recorder.state().file);
+  ASSERT_TRUE(log) << log.error().message();
+  std::vector<std::string> channels;
+  for (const LogEntry& entry : log->entries()) channels.push_back(entry.channel);
+  const std::vector<std::string> once = {"DESK_RGBD_FRAME", "DESK_HAND_STATE", "DESK_GLOVE_STATE", "DESK_HAND_JOINTS"};
+  std::vector<std::string> twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  EXPECT_EQ(channels, twice);
+  const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
+  EXPECT_EQ(log->read(log->entries()[1]).value(), encode_message(messages.state));
+  const auto image = decode_frame_message(log->read(log->entries()[0]).value(), {}, 0);
+  ASSERT_TRUE(image) << image.error().message();
+  EXPECT_EQ((*image)->utime, 3'000'000);
+  EXPECT_EQ((*image)->number, 3000);
+  EXPECT_EQ((*image)->depth.at(5, 5), 500);
+}
+
+TEST(ViewSink, TellsTheStateOfTheRecorderAtOnce) {
+  const test::TempFolder folder;
+  SystemClock clock;
+  ManualClock time(1'000'000);
+  LogRecorder recorder({folder.path()}, make_silent_logger(), clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
+  ASSERT_TRUE(server);
+  ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }, {}, "", &recorder}, time);
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  ASSERT_TRUE(sink.idle());
+  auto status = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(status["record"]["folder"], folder.path());
+  EXPECT_EQ(status["record"]["recording"], false);
+  client.send(R"({"type": "record", "on": true})");
+  while (!recorder.recording()) std::this_thread::yield();
+  ASSERT_TRUE(sink.idle()) << "long before the next status is due";
+  status = nlohmann::json::parse(client.text().value());
+  EXPECT_EQ(status["record"]["recording"], true);
+  EXPECT_EQ(status["record"]["file"], recorder.state().file);
+}
+
 TEST(ViewSink, SaysThatNoFramesCome) {
   SystemClock clock;
   ManualClock time(1'000'000);
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server);
   ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }}, time);
   const std::string& url = (*server)->url();
@@ -65,6 +124,7 @@ TEST(ViewSink, SaysThatNoFramesCome) {
   const auto status = nlohmann::json::parse(client.text().value());
   EXPECT_EQ(status["type"], "status");
   EXPECT_NE(status["trouble"].get<std::string>().find("5 s"), std::string::npos);
+  EXPECT_EQ(status["record"]["folder"], "") << "nothing can be recorded";
   EXPECT_EQ(status["health"]["queues"].back()["name"], "view");
   EXPECT_TRUE(status["health"]["latency"]["mean"].is_number());
 }

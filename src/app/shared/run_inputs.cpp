@@ -22,7 +22,12 @@ Result<NamedHand> shipped(const std::string& side) {
 
 Result<Config> read_configuration(const std::string& name) {
   if (name == "builtin") return Config{};
-  return find_config(name).and_then([](const std::string& path) { return load_config<Config>(path); });
+  return find_config(name).and_then([](const std::string& path) {
+    auto config = load_config<Config>(path);
+    if (!config) return config;
+    const auto world = world_from(config->world, path + ": world.T_world_camera");
+    return world ? config : tl::unexpected(world.error());
+  });
 }
 
 Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source) {

@@ -55,6 +55,9 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->type_name("[PORT]");
   track->add_option("--view-origin", o.view_origins,
                     "origin of another web page that may connect, such as https://example.org");
+  track->add_option("--view-record", o.view_record,
+                    "folder into which the page's button records, as LCM logs named by their time; default: it records "
+                    "nothing");
   track
       ->add_flag("--print-config{user}", o.print_config,
                  "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "

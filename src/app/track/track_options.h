@@ -29,6 +29,7 @@ struct TrackOptions {
   bool health = false;
   std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: no page is served
   std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
+  std::string view_record;                ///< folder of what the page's button records; "": it records nothing
 
   /// The outputs that are one file each.
   static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::decisions,

@@ -99,10 +99,12 @@ class TrackRun {
   OpenSource input_;
   TwoHandTracker::Profiles profiles_;
   std::optional<HandPose> initial_;
+  std::optional<SE3> world_;  // T_world_camera; none: the room is not known
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
   PipeReaders readers_;
-  std::unique_ptr<ViewServer> view_;  // null: nobody wants it, or it could not be started
+  std::unique_ptr<LogRecorder> recorder_;  // null: nothing can be recorded from the page
+  std::unique_ptr<ViewServer> view_;       // null: nobody wants it, or it could not be started
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -115,6 +117,13 @@ Step TrackRun::prepare() {
   if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   if (const auto possible = check(config_.foreign_camera); !possible) return usage(possible.error());
+  const auto world = world_from(config_.world);
+  if (!world) return usage(world.error());
+  world_ = *world;
+  if (!options_.view_record.empty()) {
+    if (!options_.view) return usage({"records from the live page", "--view-record", "give --view, too"});
+    if (const auto good = LogRecorder::check_folder(options_.view_record); !good) return usage(good.error());
+  }
   return open_input()
       .and_then([&] { return use_hands(); })
       .and_then([&] { return choose_start(); })
@@ -267,14 +276,18 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
 Step TrackRun::open_view() {
   const auto address = parse_web_address(*options_.view);
   if (!address) return usage(address.error());
-  auto view = ViewServer::start({*address, options_.view_origins, {}}, clock_);
+  if (!options_.view_record.empty())
+    recorder_ = std::make_unique<LogRecorder>(LogRecorder::Options{options_.view_record}, log_.shared_logger(), clock_);
+  auto view = ViewServer::start({*address, options_.view_origins, {}, recorder_.get()}, clock_);
   if (!view) {
     log_.logger().error("{}; tracking goes on without the page", view.error().message());
     return {};
   }
   view_ = std::move(*view);
   log_.logger().info("open {} in a browser to see the hand", view_->url());
-  ViewSink::Input input{input_.source->name(), input_.source->live(), [this] { return pipeline_->health(); }};
+  ViewSink::Input input{
+      input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_,
+      config_.run.channel_prefix, recorder_.get()};
   sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &pending_.view));
   return {};
 }

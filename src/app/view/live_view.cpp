@@ -37,15 +37,15 @@ std::int64_t utime_of(const LcmMessage& message) { return message_word(message.b
 
 }  // namespace
 
-LiveView::LiveView(std::shared_ptr<LcmBus> bus, std::string prefix, ShownHands hands, ViewServer& server,
+LiveView::LiveView(std::shared_ptr<LcmBus> bus, Options options, ShownHands hands, ViewServer& server,
                    const Clock& clock)
-    : prefix_(std::move(prefix)),
+    : options_(std::move(options)),
       name_("lcm, " + bus->url()),
       hands_(std::move(hands)),
       server_(server),
       clock_(clock),
       frame_us_(clock.steady_us()),
-      listener_(std::move(bus), prefix_ + "*", [this](const std::string& channel, WireBytes message) {
+      listener_(std::move(bus), options_.prefix + "*", [this](const std::string& channel, WireBytes message) {
         if (kind_of(message_hash(message)) != MessageKind::other)
           queue_.push({channel, std::vector<std::uint8_t>(message.begin(), message.end())});
       }) {}
@@ -59,6 +59,7 @@ void LiveView::step(std::chrono::milliseconds patience) {
 
 void LiveView::take(LcmMessage message) {
   const MessageKind kind = kind_of(message_hash(message.bytes));
+  record(message, kind);
   if (kind == MessageKind::health) {
     if (const auto health = decode_message<health_t>(message.bytes)) health_ = health_of(*health);
     return;
@@ -67,6 +68,14 @@ void LiveView::take(LcmMessage message) {
   if (!gathered_.empty() && utime_of(gathered_.front()) != utime_of(message)) show_gathered();
   if (gathered_.empty()) gathered_us_ = clock_.steady_us();
   gathered_.push_back(std::move(message));
+}
+
+/// As it came. Health is no frame, and its time is another clock's.
+void LiveView::record(const LcmMessage& message, MessageKind kind) {
+  if (!options_.recorder || !options_.recorder->recording()) return;
+  const std::int64_t utime = utime_of(message);
+  options_.recorder->post(kind == MessageKind::health ? 0 : utime,
+                          [message, utime](auto& log) { return log.send(message.channel, message.bytes, utime); });
 }
 
 void LiveView::keep_image(LcmMessage message) {
@@ -87,12 +96,13 @@ void LiveView::show_gathered() {
 
 void LiveView::show_status() {
   status_us_ = clock_.steady_us();
-  ViewState state{name_, true, "", server_.clients(), health_, {}};
+  ViewState state{name_, true, "", server_.clients(), health_, {}, options_.T_world_camera, {}};
+  state.record = options_.recorder ? options_.recorder->state() : RecorderState{};
   if (status_us_ - frame_us_ >= kNoFramesUs)
     state.trouble = formatted(
         "No tracker has sent states on %s*HAND_STATE for %lld s. Does one run, with this prefix and on this LCM "
         "network?",
-        prefix_.c_str(), static_cast<long long>((status_us_ - frame_us_) / 1'000'000));
+        options_.prefix.c_str(), static_cast<long long>((status_us_ - frame_us_) / 1'000'000));
   server_.show_status(status_json(state));
 }
 

@@ -14,19 +14,26 @@ namespace barehand {
 /// Shows what trackers send on an LCM network. Messages with the same time stamp belong to one frame.
 class LiveView {
  public:
-  /// `prefix`: that of the tracker's channels. `server` and `clock` must outlive the view.
-  LiveView(std::shared_ptr<LcmBus> bus, std::string prefix, ShownHands hands, ViewServer& server, const Clock& clock);
+  struct Options {
+    std::string prefix;                 ///< of the tracker's channels
+    std::optional<SE3> T_world_camera;  ///< none: the room is not known
+    LogRecorder* recorder = nullptr;    ///< null: nothing can be recorded. Must outlive the view
+  };
+  /// `server` and `clock` must outlive the view.
+  LiveView(std::shared_ptr<LcmBus> bus, Options options, ShownHands hands, ViewServer& server, const Clock& clock);
   /// Waits at most `patience` for a message, and shows the current frame if it is complete.
   void step(std::chrono::milliseconds patience);
   bool broken() const { return listener_.broken(); }
 
  private:
   void take(LcmMessage message);
+  void record(const LcmMessage& message, MessageKind kind);
   void keep_image(LcmMessage message);
   void show_gathered();
   void show_status();
 
-  const std::string prefix_, name_;
+  const Options options_;
+  const std::string name_;
   ShownHands hands_;
   ViewServer& server_;
   const Clock& clock_;

@@ -20,6 +20,10 @@ void add_view_command(CLI::App& app, int& exit_code) {
   view->add_option("--origin", o.origins, "origin of another web page that may connect, such as https://example.org");
   view->add_option("--hand", o.hands, "profile whose skin is shown (hand.json); default: the mean adult hand")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  view->add_option("--record", o.record,
+                   "with --lcm: folder into which the page's button records, as LCM logs named by their time; default: "
+                   "it records nothing");
+  view->add_option("--config", o.config, "as for track; only T_world_camera of it matters");
   view->callback([options, &exit_code] { exit_code = run_view(*options); });
 }
 

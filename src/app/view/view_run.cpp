@@ -14,6 +14,7 @@
 #include "app/view/live_view.h"
 #include "app/view/log_index.h"
 #include "app/view/log_player.h"
+#include "core/log.h"
 #include "io/web/view_server.h"
 
 namespace barehand {
@@ -36,13 +37,30 @@ Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   return ShownHands(profiles);
 }
 
+/// What the user gave besides what is to be shown.
+struct Shown {
+  ShownHands hands;
+  std::optional<SE3> T_world_camera;
+};
+
+Result<Shown> shown_of(const ViewOptions& options) {
+  const auto hands = shown_hands(options.hands);
+  if (!hands) return tl::unexpected(hands.error());
+  if (options.config.empty()) return Shown{*hands, {}};
+  return read_configuration(options.config)
+      .and_then([](const Config& config) { return world_from(config.world); })
+      .map([&](const std::optional<SE3>& world) {
+        return Shown{*hands, world};
+      });
+}
+
 /// Plays a log until `stop`; commands of clients come from other threads.
 class LogShow {
  public:
-  LogShow(LogIndex index, std::string name, ShownHands hands, const Clock& clock)
+  LogShow(LogIndex index, std::string name, Shown shown, const Clock& clock)
       : index_(std::move(index)),
         name_(std::move(name)),
-        hands_(std::move(hands)),
+        shown_(std::move(shown)),
         clock_(clock),
         position_(make_position(index_)) {}
 
@@ -63,7 +81,7 @@ class LogShow {
 
   LogIndex index_;
   const std::string name_;
-  ShownHands hands_;
+  Shown shown_;
   const Clock& clock_;
   std::mutex mutex_;  // protects the members below
   std::condition_variable changed_;
@@ -87,8 +105,8 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
     // Reading and showing take a while, during which commands may arrive.
     lock.unlock();
     if (moved)
-      server.show(std::make_shared<const ViewFrame>(frame_content(index_.messages(state.position), hands_, {})));
-    if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state}));
+      server.show(std::make_shared<const ViewFrame>(frame_content(index_.messages(state.position), shown_.hands, {})));
+    if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state, shown_.T_world_camera}));
     lock.lock();
 
     const std::int64_t now_us = clock_.steady_us();
@@ -97,30 +115,34 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
   }
 }
 
-int view_logs(const ViewOptions& options, const WebAddress& address, ShownHands hands, const std::atomic<bool>& stop) {
+int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
   if (!index) return tell(index.error(), kExitUsage);
   std::string name;
   for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
   const SystemClock clock;
-  LogShow show(std::move(*index), name, std::move(hands), clock);
-  auto server = ViewServer::start({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }}, clock);
+  LogShow show(std::move(*index), name, std::move(shown), clock);
+  auto server =
+      ViewServer::start({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
   if (!server) return tell(server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see the log; Ctrl-C ends\n";
   show.run(**server, stop);
   return kExitOk;
 }
 
-int view_network(const ViewOptions& options, const WebAddress& address, ShownHands hands,
-                 const std::atomic<bool>& stop) {
+int view_network(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto bus = LcmBus::open(options.lcm_url);
   if (!bus) return tell(bus.error(), kExitFailure);
   const SystemClock clock;
-  auto server = ViewServer::start({address, options.origins, {}}, clock);
+  std::unique_ptr<LogRecorder> recorder;
+  if (!options.record.empty())
+    recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record}, make_logger(), clock);
+  auto server = ViewServer::start({address, options.origins, {}, recorder.get()}, clock);
   if (!server) return tell(server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()
             << "; Ctrl-C ends\n";
-  LiveView live(std::move(*bus), options.prefix, std::move(hands), **server, clock);
+  LiveView live(std::move(*bus), {options.prefix, shown.T_world_camera, recorder.get()}, std::move(shown.hands),
+                **server, clock);
   while (!stop && !live.broken()) live.step(std::chrono::milliseconds(20));
   return live.broken() ? tell({"the LCM connection broke", options.lcm_url, "start again"}, kExitFailure) : kExitOk;
 }
@@ -132,12 +154,16 @@ int run_view(const ViewOptions& options) {
   const InterruptWatcher interrupt([&stop] { stop = true; });
   if (options.lcm != options.logs.empty())
     return tell({"nothing to show", "", "give logs, or --lcm, but not both"}, kExitUsage);
+  if (!options.record.empty()) {
+    if (!options.lcm) return tell({"records what comes live", "--record", "give --lcm instead of a log"}, kExitUsage);
+    if (const auto good = LogRecorder::check_folder(options.record); !good) return tell(good.error(), kExitUsage);
+  }
   const auto address = parse_web_address(options.port);
   if (!address) return tell(address.error(), kExitUsage);
-  auto hands = shown_hands(options.hands);
-  if (!hands) return tell(hands.error(), kExitUsage);
-  const int code = options.lcm ? view_network(options, *address, std::move(*hands), stop)
-                               : view_logs(options, *address, std::move(*hands), stop);
+  auto shown = shown_of(options);
+  if (!shown) return tell(shown.error(), kExitUsage);
+  const int code = options.lcm ? view_network(options, *address, std::move(*shown), stop)
+                               : view_logs(options, *address, std::move(*shown), stop);
   return code == kExitOk && interrupt.signal() == SIGINT ? kExitInterrupted : code;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -92,6 +93,15 @@ FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
 }
 
 }  // namespace
+
+std::string utc_stamp(std::int64_t utime) {
+  const std::time_t seconds = utime / 1'000'000;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
+  return text;
+}
 
 bool is_log_name(const fs::path& path) {
   static const std::regex kChosen("lcmlog-[0-9]{4}-[0-9]{2}-[0-9]{2}");

@@ -14,6 +14,9 @@ namespace barehand {
 /// as lcmlog-2026-11-26. A number may follow, as for the parts that lcm-logger makes: take.lcmlog.00.
 bool is_log_name(const std::filesystem::path& path);
 
+/// A time [us since the epoch] as it stands in the names of logs: 20261122T090000Z.
+std::string utc_stamp(std::int64_t utime);
+
 /// The number of a log in the set that RotatingLog makes of the name `set`: take-000007-20261122T090000Z.lcmlog is the
 /// 7th of take.lcmlog. None if it does not belong to the set.
 std::optional<std::int64_t> number_in_set(const std::filesystem::path& log, const std::filesystem::path& set);

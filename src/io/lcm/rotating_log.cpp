@@ -1,7 +1,6 @@
 #include "io/lcm/rotating_log.h"
 
 #include <algorithm>
-#include <ctime>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -13,15 +12,6 @@
 namespace barehand {
 namespace fs = std::filesystem;
 namespace {
-
-std::string stamp(std::int64_t utime) {
-  const std::time_t seconds = utime / 1'000'000;
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
-  return text;
-}
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
@@ -122,8 +112,8 @@ bool RotatingLog::is_full(std::int64_t more) const {
 
 Result<void> RotatingLog::open_next() {
   const std::int64_t number = files_.empty() ? 1 : files_.back().number + 1;
-  const std::string name =
-      formatted("%s-%06lld-%s", path_.stem().c_str(), static_cast<long long>(number), stamp(clock_.utime()).c_str());
+  const std::string name = formatted("%s-%06lld-%s", path_.stem().c_str(), static_cast<long long>(number),
+                                     utc_stamp(clock_.utime()).c_str());
   const fs::path path = path_.parent_path() / (name + path_.extension().string());
   auto log = LcmLogWriter::create(path.string(), false);
   while (!log && rotation_.quota > 0 && no_room(folder_of(path_)) && remove_oldest())

@@ -10,7 +10,7 @@ namespace barehand {
 
 /// Writes the parts ("chunks") that a binary message of the page's WebSocket consists of. Numbers are little endian, as
 /// JavaScript's typed arrays read them. A chunk: kind (1 byte, a letter), index (1), zero (2), length of the payload
-/// (4), payload, zeros up to a multiple of 4. docs/view.md lists the kinds.
+/// (4), payload, zeros up to a multiple of 4. docs/view_protocol.md lists the kinds.
 class ChunkWriter {
  public:
   static_assert(std::endian::native == std::endian::little);

@@ -9,8 +9,8 @@ namespace {
 constexpr std::int64_t kSkinPeriodUs = 2'000'000;  // a profile that is being learnt changes often
 }
 
-ViewClient::ViewClient(WebSocket socket, const Clock& clock, OnCommand on_command, OnGone on_gone)
-    : socket_(socket), clock_(clock), on_command_(std::move(on_command)), on_gone_(std::move(on_gone)) {}
+ViewClient::ViewClient(WebSocket socket, const Clock& clock, Handlers handlers)
+    : socket_(socket), clock_(clock), handlers_(std::move(handlers)) {}
 
 ViewClient::~ViewClient() {
   {
@@ -19,7 +19,7 @@ ViewClient::~ViewClient() {
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
-  on_gone_(*this);
+  handlers_.gone(*this);
 }
 
 void ViewClient::start() {
@@ -28,14 +28,11 @@ void ViewClient::start() {
 
 bool ViewClient::hear(std::string_view text) {
   const auto demand = parse_view_demand(text);
-  if (demand)
-    if (const auto* command = std::get_if<PlayerCommand>(&*demand)) on_command_(*command);
+  const Result<void> followed = demand ? follow(*demand) : tl::unexpected(demand.error());
 
   const std::lock_guard lock(mutex_);
-  if (!demand) {
-    const nlohmann::json reply{{"type", "error"}, {"text", demand.error().message()}};
-    constexpr auto replace = nlohmann::json::error_handler_t::replace;  // what came need not be UTF-8
-    next_.reply = std::make_shared<const std::string>(reply.dump(-1, ' ', false, replace));
+  if (!followed) {
+    reply(followed.error());
   } else if (const auto* wish = std::get_if<ViewWish>(&*demand)) {
     next_.wish = *wish;
     asked_ = true;
@@ -52,6 +49,19 @@ bool ViewClient::hear(std::string_view text) {
   }
   changed_.notify_all();
   return !broken_;
+}
+
+/// Hands on what is for the program as a whole.
+Result<void> ViewClient::follow(const ViewDemand& demand) {
+  if (const auto* command = std::get_if<RecordCommand>(&demand)) return handlers_.record(*command);
+  if (const auto* command = std::get_if<PlayerCommand>(&demand)) handlers_.play(*command);
+  return {};
+}
+
+void ViewClient::reply(const Error& error) {
+  const nlohmann::json reply{{"type", "error"}, {"text", error.message()}};
+  constexpr auto replace = nlohmann::json::error_handler_t::replace;  // what came need not be UTF-8
+  next_.reply = std::make_shared<const std::string>(reply.dump(-1, ' ', false, replace));
 }
 
 void ViewClient::post(ViewFramePtr frame) {

@@ -21,10 +21,13 @@ using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 /// slowly, or not at all, gets fewer frames and holds up nobody.
 class ViewClient : public WebPeer {
  public:
-  using OnCommand = std::function<void(const PlayerCommand&)>;
-  using OnGone = std::function<void(const ViewClient&)>;
-  /// `on_command` and `on_gone` are called on threads of the server, `on_gone` while the client is being destroyed.
-  ViewClient(WebSocket socket, const Clock& clock, OnCommand on_command, OnGone on_gone);
+  /// Called on threads of the server, `gone` while the client is being destroyed.
+  struct Handlers {
+    std::function<void(const PlayerCommand&)> play;
+    std::function<Result<void>(const RecordCommand&)> record;
+    std::function<void(const ViewClient&)> gone;
+  };
+  ViewClient(WebSocket socket, const Clock& clock, Handlers handlers);
   ~ViewClient() override;
 
   void start() override;
@@ -42,6 +45,8 @@ class ViewClient : public WebPeer {
     StatusText status, reply;
     ViewWish wish;
   };
+  Result<void> follow(const ViewDemand& demand);
+  void reply(const Error& error);
   void run();
   bool wait(Due& due);
   bool has_due(std::int64_t now_us) const;
@@ -52,8 +57,7 @@ class ViewClient : public WebPeer {
 
   WebSocket socket_;
   const Clock& clock_;
-  const OnCommand on_command_;
-  const OnGone on_gone_;
+  const Handlers handlers_;
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;

@@ -42,6 +42,12 @@ Result<ViewDemand> wish_of(const json& message) {
   return wish;
 }
 
+Result<ViewDemand> record_of(const json& message) {
+  if (!message.contains("on") || message.size() > 2)
+    return fail("a command to record holds nothing but \"on\"", kWhere, "send {\"type\": \"record\", \"on\": true}");
+  return RecordCommand{message.at("on").get<bool>()};
+}
+
 std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
   using Kind = PlayerCommand::Kind;
   constexpr std::array<std::pair<const char*, Kind>, 6> kKinds = {{{"play", Kind::play},
@@ -59,8 +65,9 @@ Result<ViewDemand> demand_of(const json& message) {
   const std::string type = message.at("type");
   if (type == "want") return wish_of(message);
   if (type == "ack") return ViewAcknowledge{};
+  if (type == "record") return record_of(message);
   const auto kind = player_kind(type);
-  if (!kind) return fail("unknown type", kWhere, "give want, ack, play, pause, seek, step, speed or lost");
+  if (!kind) return fail("unknown type", kWhere, "give want, ack, record, play, pause, seek, step, speed or lost");
   const double value = message.value("value", 0.0);
   if (!(std::abs(value) <= 1e9)) return fail("value is out of range", kWhere, "give a number");
   return PlayerCommand{*kind, value};
@@ -73,7 +80,7 @@ Result<ViewDemand> parse_view_demand(std::string_view text) {
   try {
     return demand_of(json::parse(text));
   } catch (const json::exception& error) {
-    return fail(error.what(), kWhere, "send JSON as docs/view.md says");
+    return fail(error.what(), kWhere, "send JSON as docs/view_protocol.md says");
   }
 }
 

@@ -31,10 +31,16 @@ struct PlayerCommand {
   double value = 0;
 };
 
-using ViewDemand = std::variant<ViewWish, ViewAcknowledge, PlayerCommand>;
+/// Start or stop the recording of what comes live. Where it goes is not the client's choice.
+struct RecordCommand {
+  bool on = false;
+};
+
+using ViewDemand = std::variant<ViewWish, ViewAcknowledge, PlayerCommand, RecordCommand>;
 
 /// Parses what a client sends: {"type": "want", "cloud": "hand", "picture": "colour", "rate": 30, "window": 2},
-/// {"type": "ack"}, {"type": "seek", "value": 12} and so on. Errors: no JSON, an unknown type, a value out of range.
+/// {"type": "ack"}, {"type": "seek", "value": 12}, {"type": "record", "on": true} and so on. Errors: no JSON, an
+/// unknown type, a value out of range, a command to record that says more.
 Result<ViewDemand> parse_view_demand(std::string_view text);
 
 }  // namespace barehand

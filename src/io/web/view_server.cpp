@@ -8,7 +8,7 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   auto page = read_web_page();
   if (!page) return tl::unexpected(page.error());
   if (!options.on_command) options.on_command = [](const PlayerCommand&) {};
-  std::unique_ptr<ViewServer> server(new ViewServer(std::move(options.on_command), clock));
+  std::unique_ptr<ViewServer> server(new ViewServer(options, clock));
 
   WebServer::Options web;
   web.address = options.address.address;
@@ -25,14 +25,25 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
 ViewServer::~ViewServer() = default;
 
 std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
-  auto client =
-      std::make_unique<ViewClient>(socket, clock_, on_command_, [this](const ViewClient& gone) { forget(gone); });
   const std::lock_guard lock(mutex_);
+  ViewClient::Handlers handlers;
+  handlers.play = on_command_;
+  handlers.record = [this, number = ++last_client_](const RecordCommand& command) { return record(command, number); };
+  handlers.gone = [this](const ViewClient& gone) { forget(gone); };
+  auto client = std::make_unique<ViewClient>(socket, clock_, std::move(handlers));
   clients_.insert(client.get());
   clients_count_ = static_cast<int>(clients_.size());
   if (status_) client->post_status(status_);
   if (frame_) client->post(frame_);
   return client;
+}
+
+/// An error is told to the client that asked.
+Result<void> ViewServer::record(const RecordCommand& command, int client) {
+  if (!recorder_) return fail("nothing can be recorded here", "view", "start the program with a folder for recordings");
+  if (command.on) return recorder_->start(client);
+  recorder_->stop(client);
+  return {};
 }
 
 void ViewServer::forget(const ViewClient& client) {

@@ -9,6 +9,7 @@
 
 #include "core/clock.h"
 #include "core/statistics.h"
+#include "io/lcm/log_recorder.h"
 #include "io/web/view_client.h"
 
 namespace barehand {
@@ -21,6 +22,8 @@ class ViewServer {
     std::vector<std::string> invited;  ///< foreign origins whose pages may connect
     /// Commands of clients, on threads of the server. Empty: there is nothing to play.
     std::function<void(const PlayerCommand&)> on_command;
+    LogRecorder* recorder =
+        nullptr;  ///< what clients start and stop; null: nothing can be recorded. Outlives the server
   };
   /// `clock` outlives it. Errors: the port is taken, the page's files are missing.
   static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);
@@ -38,18 +41,21 @@ class ViewServer {
   QueueHealth health() const;
 
  private:
-  ViewServer(std::function<void(const PlayerCommand&)> on_command, const Clock& clock)
-      : on_command_(std::move(on_command)), clock_(clock) {}
+  ViewServer(const Options& options, const Clock& clock)
+      : on_command_(options.on_command), recorder_(options.recorder), clock_(clock) {}
   std::unique_ptr<WebPeer> connect(WebSocket socket);
+  Result<void> record(const RecordCommand& command, int client);
   void forget(const ViewClient& client);
 
   const std::function<void(const PlayerCommand&)> on_command_;
+  LogRecorder* const recorder_;
   const Clock& clock_;
   std::atomic<int> clients_count_ = 0;
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::set<ViewClient*> clients_;
-  QueueHealth gone_;  // of the clients that have left
+  int last_client_ = 0;  // its number
+  QueueHealth gone_;     // of the clients that have left
   ViewFramePtr frame_;
   StatusText status_;
 

@@ -41,6 +41,20 @@ json log_json(const PlayedLog& log) {
           {"lost", lost}};
 }
 
+/// The 4x4 matrix, row by row.
+json transform_json(const SE3& T) {
+  json numbers = json::array();
+  for (const double number : T.matrix().reshaped<Eigen::RowMajor>()) numbers.push_back(number);
+  return numbers;
+}
+
+json record_json(const RecorderState& record) {
+  return {{"folder", record.folder},   {"recording", record.recording}, {"writing", record.writing},
+          {"file", record.file},       {"frames", record.frames},       {"bytes", record.bytes},
+          {"seconds", record.seconds}, {"dropped", record.dropped},     {"note", record.note},
+          {"failed", record.failed}};
+}
+
 }  // namespace
 
 std::string status_json(const ViewState& state) {
@@ -50,7 +64,9 @@ std::string status_json(const ViewState& state) {
            {"trouble", state.trouble},
            {"clients", state.clients},
            {"health", state.health ? health_json(*state.health) : json()},
-           {"log", state.log ? log_json(*state.log) : json()}};
+           {"log", state.log ? log_json(*state.log) : json()},
+           {"T_world_camera", state.T_world_camera ? transform_json(*state.T_world_camera) : json()},
+           {"record", state.record ? record_json(*state.record) : json()}};
   return out.dump(-1, ' ', false, json::error_handler_t::replace);  // names of sources need not be UTF-8
 }
 

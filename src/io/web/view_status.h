@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/statistics.h"
+#include "io/lcm/log_recorder.h"
+#include "math/se3.h"
 
 namespace barehand {
 
@@ -35,9 +37,11 @@ struct ViewState {
   int clients = 0;
   std::optional<PipelineHealth> health;  ///< none: not known
   std::optional<PlayedLog> log;          ///< none: nothing to play
+  std::optional<SE3> T_world_camera;     ///< none: the room is not known (sensor/camera_placement.h)
+  std::optional<RecorderState> record;   ///< none: there is nothing to record
 };
 
-/// {"type": "status", ...}, as docs/view.md lists it. What is not known is null.
+/// {"type": "status", ...}, as docs/view_protocol.md lists it. What is not known is null.
 std::string status_json(const ViewState& state);
 
 }  // namespace barehand

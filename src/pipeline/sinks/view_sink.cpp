@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/format.h"
+#include "pipeline/sinks/record_frame.h"
 
 namespace barehand {
 namespace {
@@ -34,17 +35,40 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
     params_ = *params;
     makers_.clear();
   }
-  if (server_.has_clients()) server_.show(make_frame(tracked));
+
+  // Nothing is made for nobody.
+  const bool recording = input_.recorder && input_.recorder->recording();
+  if (!recording && !server_.has_clients()) return idle();
+  const std::vector<HandMessages> hands = make_messages(tracked);
+  if (server_.has_clients()) server_.show(make_frame(tracked, hands));
+  if (recording)
+    input_.recorder->post(tracked.frame->utime, [frame = tracked.frame, hands, prefix = input_.prefix](auto& log) {
+      return record_frame(log, prefix, *frame, hands);
+    });
   return idle();
 }
 
 Result<void> ViewSink::idle() {
-  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs) show_status();
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs || recording_changed()) show_status();
   return {};
 }
 
-ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
+Result<void> ViewSink::finish() {
+  if (input_.recorder) input_.recorder->finish();
+  return {};
+}
+
+/// Whoever pressed the button is not to wait for the next period.
+bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != told_recording_; }
+
+std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
   while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
+  std::vector<HandMessages> hands;
+  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) hands.push_back(makers_[k].process(*tracked.estimates[k]));
+  return hands;
+}
+
+ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector<HandMessages>& hands) {
   ViewFrame::Content content;
   content.utime = tracked.frame->utime;
   content.number = tracked.frame->number;
@@ -54,9 +78,8 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
     const HandEstimate& estimate = *tracked.estimates[k];
     if (estimate.has_pose())
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
-    const HandMessages messages = makers_[k].process(estimate);
-    content.messages.push_back(encoded("HAND_STATE", messages.state));
-    content.messages.push_back(encoded("GLOVE_STATE", messages.glove));
+    content.messages.push_back(encoded("HAND_STATE", hands[k].state));
+    content.messages.push_back(encoded("GLOVE_STATE", hands[k].glove));
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
@@ -72,9 +95,12 @@ ViewSkinPtr ViewSink::skin_of(const HandEstimate& estimate) {
 
 void ViewSink::show_status() {
   status_us_ = clock_.steady_us();
-  if (!server_.has_clients()) return server_.show_status(status_json({input_.source, input_.live, "", 0, {}, {}}));
+  ViewState state{input_.source, input_.live, "", server_.clients(), {}, {}, input_.T_world_camera, {}};
+  state.record = input_.recorder ? input_.recorder->state() : RecorderState{};
+  told_recording_ = state.record->recording;
+  if (!server_.has_clients()) return server_.show_status(status_json(state));
 
-  ViewState state{input_.source, input_.live, "", server_.clients(), input_.health(), {}};
+  state.health = input_.health();
   state.health->queues.push_back(server_.health());
   if (const std::int64_t silent_us = status_us_ - frame_us_; silent_us >= kNoFramesUs)
     state.trouble =

@@ -1,0 +1,147 @@
+#include "io/lcm/log_recorder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/lcm/log_names.h"
+
+namespace barehand {
+namespace fs = std::filesystem;
+
+Result<void> LogRecorder::check_folder(const std::string& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return fail("is no folder", folder, "make the folder first");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    return fail("no file can be made in this folder", folder, "check its permissions");
+  return {};
+}
+
+LogRecorder::LogRecorder(Options options, std::shared_ptr<spdlog::logger> log, const Clock& clock)
+    : options_(std::move(options)), log_(std::move(log)), clock_(clock) {
+  state_.folder = options_.folder;
+}
+
+Result<void> LogRecorder::start(int user) {
+  const std::lock_guard command(command_mutex_);
+  if (recording_) return {};
+  if (thread_.joinable()) thread_.join();  // of the recording before
+
+  auto log = open_new();
+  const std::lock_guard lock(mutex_);
+  if (!log) {
+    state_.note = "Nothing is recorded: " + log.error().message();
+    state_.failed = true;
+    log_->error(state_.note);
+    return tl::unexpected(log.error());
+  }
+  queue_ = std::make_unique<Queue>("record", options_.capacity, Overflow::drop_oldest);
+  started_us_ = clock_.steady_us();
+  user_ = user;
+  recording_ = state_.recording = state_.writing = true;
+  log_->info("recording to {}/{}, started from the live page", state_.folder, state_.file);
+  thread_ = std::thread([this, log = std::move(*log)] { run(*log); });
+  return {};
+}
+
+/// A new name in the folder, which the state then says.
+Result<std::unique_ptr<LcmLogWriter>> LogRecorder::open_new() {
+  const std::string stem = "barehand-" + utc_stamp(clock_.utime());
+  std::string name = stem + ".lcmlog";
+  std::error_code ignored;
+  for (int number = 2; fs::exists(fs::path(options_.folder) / name, ignored); ++number)
+    name = stem + "-" + std::to_string(number) + ".lcmlog";
+  auto log = LcmLogWriter::create((fs::path(options_.folder) / name).string(), false);
+  if (!log) return log;
+
+  const std::lock_guard lock(mutex_);
+  state_ = {};
+  state_.folder = options_.folder;
+  state_.file = name;
+  return log;
+}
+
+void LogRecorder::stop(int user) {
+  const std::lock_guard command(command_mutex_);
+  if (!recording_) return;
+  end(user == user_ ? "" : "Stopped from another page.", false);
+}
+
+void LogRecorder::finish() {
+  const std::lock_guard command(command_mutex_);
+  end("", false);
+  if (thread_.joinable()) thread_.join();
+}
+
+/// Nothing more is taken. What waits is still to be written.
+void LogRecorder::end(const std::string& note, bool failed) {
+  const std::lock_guard lock(mutex_);
+  if (failed || state_.recording) {
+    state_.note = note;
+    state_.failed = failed;
+  }
+  if (!state_.recording) return;
+  recording_ = state_.recording = false;
+  state_.seconds = 1e-6 * static_cast<double>(clock_.steady_us() - started_us_);
+  queue_->close();
+}
+
+void LogRecorder::post(std::int64_t utime, Write write) {
+  const std::lock_guard lock(mutex_);
+  if (state_.recording) queue_->push({utime, std::move(write)});
+}
+
+RecorderState LogRecorder::state() const {
+  const std::lock_guard lock(mutex_);
+  RecorderState state = state_;
+  if (queue_) state.dropped = queue_->health().dropped;
+  if (state.recording) state.seconds = 1e-6 * static_cast<double>(clock_.steady_us() - started_us_);
+  return state;
+}
+
+void LogRecorder::run(LcmLogWriter& log) {
+  Result<void> written = write_entries(log);
+  if (!written) end("The recording ended: " + written.error().message(), true);
+
+  // The log gets its name, unless nothing was written: then nothing remains of it.
+  if (const auto finished = log.events() > 0 ? log.finish() : Result<void>(); !finished && written) {
+    written = finished;
+    end("The recording could not be finished: " + finished.error().message(), true);
+  }
+
+  const RecorderState done = close(written && log.events() == 0);
+  log_->info("recorded {} frames to {}/{}, {:.1f} s, {} dropped. {}", done.frames, done.folder, done.file, done.seconds,
+             done.dropped, done.failed ? "" : done.note);
+  if (done.failed) log_->error("{}; tracking goes on", done.note);
+}
+
+/// The file is whole, or as whole as it becomes.
+RecorderState LogRecorder::close(bool empty) {
+  const std::lock_guard lock(mutex_);
+  if (empty) {
+    state_.file.clear();
+    state_.note = "No frame came, so nothing is written.";
+  }
+  state_.writing = false;
+  state_.dropped = queue_->health().dropped;
+  return state_;
+}
+
+Result<void> LogRecorder::write_entries(LcmLogWriter& log) {
+  std::int64_t newest = 0;
+  while (auto entry = queue_->pop()) {
+    std::error_code ignored;
+    if (!fs::is_directory(options_.folder, ignored))
+      return fail("the folder is gone", options_.folder, "make it again, then start a new recording");
+    if (auto written = entry->write(log); !written) return written;
+
+    const std::lock_guard lock(mutex_);
+    if (entry->utime > newest) ++state_.frames;
+    newest = std::max(newest, entry->utime);
+    state_.bytes = log.bytes();
+  }
+  return {};
+}
+
+}  // namespace barehand
