@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 constexpr std::int64_t kStatusPeriodUs = 1'000'000;
-constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this long without a frame the status says so
+constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this time without a frame, the status line reports it
 }  // namespace
 
 ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()> pulse,

@@ -14,7 +14,8 @@
 
 namespace barehand {
 
-/// --view: hands every frame, with the messages that the bus gets, to the live page, while somebody looks.
+/// --view: passes every frame, with the messages that go to the bus, to the server of the live page while the page is
+/// open in a browser.
 class ViewSink : public Sink {
  public:
   struct Input {
@@ -22,13 +23,13 @@ class ViewSink : public Sink {
     bool live = false;   ///< FrameSource::live()
     std::function<PipelineHealth()> health;
   };
-  /// `server`, `clock` and `pending` (may be null; looked at before every frame) outlive the sink.
+  /// `server`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
            Slot<PublishParams>* pending = nullptr);
 
   std::string name() const override { return "view"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// The status goes on without frames.
+  /// Sends the status without frames, too.
   Result<void> idle() override;
 
  private:
@@ -41,9 +42,9 @@ class ViewSink : public Sink {
   const Input input_;
   const Clock& clock_;
   Slot<PublishParams>* pending_;
-  std::vector<HandMessageMaker> makers_;       // one a hand
-  std::array<ViewSkinPtr, 2> skins_;           // by Handedness, of the last profiles
-  std::int64_t frame_us_ = 0, status_us_ = 0;  // of the last frame, of the last status; steady clock
+  std::vector<HandMessageMaker> makers_;       // one per hand
+  std::array<ViewSkinPtr, 2> skins_;           // skins of the last profiles, indexed by Handedness
+  std::int64_t frame_us_ = 0, status_us_ = 0;  // times of the last frame and of the last status; steady clock
   bool any_frame_ = false;
 };
 
