@@ -10,9 +10,10 @@
 namespace barehand {
 namespace {
 
-// Those of other people, then those of a depth unit that is wrong.
+// Sizes of the copies relative to the profile: four of other people's hands, then two that a wrong depth unit explains.
 constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
-constexpr double kNobody = 1.4;  // and its inverse: sizes that two grown-ups do not differ by
+// The hands of two adults never differ by this ratio.
+constexpr double kNobody = 1.4;
 
 /// Scales a pose about the middle of the palm, whose position the data determines best.
 HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
@@ -49,10 +50,11 @@ std::optional<double> HandSizeVerifier::look(const HandObservation& observation,
   if (candidates_.empty()) make_candidates();
   const std::size_t turn = frames_++ % kEvery;
   if (turn >= candidates_.size()) return std::nullopt;
-  Candidate& candidate = candidates_[turn];  // one a frame, or this frame would come late
+  Candidate& candidate = candidates_[turn];
   const HandPose start = scaled(*profile_, pose, candidate.size);
   const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
 
+  // Count the copy's advantages; after the last copy of a turn, decide.
   candidate.better += clearly_better(other, score);
   candidate.much_better += clearly_better(other, score, kFarBetter);
   candidate.sum += other;

@@ -7,11 +7,11 @@
 namespace barehand {
 namespace {
 
-// A search takes longer than tracking. Beside a tracked hand, the other one is therefore searched only in every n-th
-// frame.
+// A search takes longer than tracking. While one hand is tracked, the other one is therefore searched only in every
+// n-th frame, unless it was detected.
 constexpr int kSearchEvery = 3;
 
-/// Distance of the palm from the middle of the observed hand [m].
+/// Distance of the palm from the centroid of the observed points [m]; kNowhere if no hand was observed.
 double distance(const HandPose& pose, const HandObservation& observation) {
   constexpr double kNowhere = 10;
   if (!observation.hand_present || observation.cloud.empty()) return kNowhere;
@@ -45,7 +45,7 @@ void TwoHandTracker::change(const TrackerParams& params) {
 
 void TwoHandTracker::check_anew() {
   verifiers_.clear();
-  for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
+  for (const auto& hand : hands_)  // two hands: both sides are tracked, so a wrong side or size is not reported
     if (hand)
       verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, seed_, workers_,
                                                              count() == 1 ? log_ : make_silent_logger()));
@@ -68,7 +68,7 @@ HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
         verifiers_[k]->verifying() ? track_with_mirrored(k, *observations[k]) : hands_[k]->process(*observations[k]);
   });
 
-  // Search the others.
+  // End tracks that turn out to be of the other side or size, and search the other hands.
   for (const int k : tracked) {
     judge_verification(k, *out[k]);
     judge_size(k, *observations[k], *out[k]);
@@ -90,8 +90,8 @@ HandEstimatePtr TwoHandTracker::track_with_mirrored(int k, const HandObservation
   return estimate;
 }
 
-/// A hand that was tracked alone may turn out to be of the other side. If the other side is tracked, too, it takes
-/// over from there.
+/// A hand that was tracked alone may turn out to be of the other side. If there is a tracker for the other side, it
+/// continues from the mirrored pose.
 void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileVerifier& check = *verifiers_[k];
@@ -121,7 +121,7 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   HandTracker& hand = *hands_[0];
   ProfileVerifier& check = *verifiers_[0];
 
-  // A track goes on; its verification may end it.
+  // Continue a track; its verification may end it.
   const TrackView before = hand.view();
   if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = check.verifying() ? track_with_mirrored(0, observation) : hand.process(observation);
@@ -134,8 +134,8 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
-  // Report a wrong size, or refuse a hand of the other side. A side that the detection sees needs no comparison with a
-  // mirrored hand, which has the wrong size, too.
+  // Report a wrong size, and reject a hand of the other side. If the size is wrong but the detection shows the
+  // profile's own side, the mirrored profile is not tried, since it has the wrong size, too.
   const double score = found ? found->score() : INFINITY;
   const bool other_size = judge_size(0, observation, found);
   if (score > params_.loss.lost_score) {
@@ -159,7 +159,7 @@ HandObservations TwoHandTracker::by_hand(const HandObservations& observations) c
   return observations;
 }
 
-/// Whether the observation may belong to any hand, so that the k-th one is searched in it.
+/// A hand is searched if it has neither a track nor a given start, and the observation belongs to no tracked hand.
 bool TwoHandTracker::searched(int k, const HandObservation& observation) const {
   const TrackView track = hands_[k]->view();
   return !observation.followed && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
@@ -177,11 +177,11 @@ void TwoHandTracker::search_one(int k, const HandObservations& observations, Han
 void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
-  // If one side finds no hand at all, that must not count more than a bad explanation.
+  // A side that finds no hand counts like one with a bad explanation, not worse.
   const double none = params_.loss.lost_score;
   const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->score(), none) : none; };
 
-  // Whether some side already explains the observation well enough.
+  // Whether one of the sides explains the observation well enough already.
   const auto confident = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.search_convincing;
   };
@@ -192,7 +192,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
-  // One attempt each, and more of them only where neither side is confident.
+  // Each side makes one attempt, and more only where neither side is confident.
   const auto look = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
@@ -201,7 +201,8 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     if (most > 1 && !confident(j)) look(j, most);
   }
 
-  // Each side owns the observation that it explains clearly better. Two observations are assigned together.
+  // Each side owns the observation that it explains clearly better than the other side does. Two observations are
+  // assigned together.
   std::array<int, 2> owned = {-1, -1};  // observation of each hand; -1: none
   if (observations[0]->hand_present && observations[1]->hand_present) {
     const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);
@@ -216,7 +217,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     }
   }
 
-  // Start the tracks. A single start is verified against the other side.
+  // Start the tracks. If only one hand starts, it is verified against the other side in the next frames.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
     if (j >= 0) judge_size(k, *observations[j], found[k][j]);
