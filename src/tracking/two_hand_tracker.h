@@ -12,9 +12,9 @@ namespace barehand {
 /// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no
 /// feedback yet, because the hands were found only a moment ago, each region is assigned to the nearer hand. (2) If
 /// both hands are searched, both sides search every region, and the side that explains it clearly better owns it;
-/// otherwise it stays unassigned. (3) If there is only one profile, no track is started on a hand of the other side,
-/// and a track whose first frames show the other side is given up; both are logged. The results are as deterministic as
-/// those of HandTracker.
+/// otherwise it stays unassigned. (3) A track whose first frames show a hand of the other side is given up. If there is
+/// only one profile, no track is started on such a hand in the first place, and both cases are logged. The results are
+/// as deterministic as those of HandTracker.
 class TwoHandTracker {
  public:
   using Profiles = std::vector<std::shared_ptr<const HandProfile>>;
