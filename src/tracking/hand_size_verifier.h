@@ -26,7 +26,11 @@ class HandSizeVerifier {
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
-  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kFew = 3, kIterations = 10;
+  static constexpr int kLookEvery = 7;        // each copy is compared in every n-th tracked frame
+  static constexpr int kFramesCompared = 10;  // frames in which each copy is compared before the check concludes
+  static constexpr int kVotesNeeded = 7;      // of these frames, a copy must explain at least this many clearly better
+  static constexpr int kFramesIfObvious = 3;  // frames that suffice if a copy explains all of them far better
+  static constexpr int kIterations = 10;      // Gauss-Newton steps of one comparison
 
   struct Candidate {
     double size;  // relative to the profile
@@ -41,7 +45,8 @@ class HandSizeVerifier {
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
   std::vector<Candidate> candidates_;
-  int frames_ = 0, looks_ = 0;
+  int frames_ = 0;    // calls of look()
+  int compared_ = 0;  // frames in which each copy was compared
 };
 
 /// A message for the user: the hand in view has `size` times the profile's size, and what can be done about it.

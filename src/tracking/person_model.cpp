@@ -17,7 +17,7 @@ void PersonModel::start_learning() {
   fit_.reset();
   size_verifier_.reset();
   size_in_view_ = 1;
-  said_size_ = false;
+  size_reported_ = false;
   const TrackerParams& params = context_.params;
   if (!given_->scanned_skin)
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
@@ -76,7 +76,7 @@ void PersonModel::check_size(const HandObservation& observation, const RefinedPo
 
 void PersonModel::doubt_size(double size) {
   size_in_view_ = size;
-  if (!std::exchange(said_size_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
+  if (!std::exchange(size_reported_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
 }
 
 void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {

@@ -57,7 +57,7 @@ class PersonModel {
   std::unique_ptr<PersonScan> scan_;               // only if the skin of the given profile was not scanned
   std::optional<HandSizeVerifier> size_verifier_;  // only while the profile is not being fitted
   double size_in_view_ = 1;
-  bool said_size_ = false;
+  bool size_reported_ = false;
 };
 
 }  // namespace barehand

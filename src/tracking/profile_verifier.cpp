@@ -54,9 +54,9 @@ std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(const HandProfile& prof
   return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
-void ProfileVerifier::say_side() {
-  if (said_side_) return;
-  said_side_ = true;
+void ProfileVerifier::report_other_side() {
+  if (side_reported_) return;
+  side_reported_ = true;
   const auto seen = to_string(mirrored_->view().profile->handedness);
   log_->warn("the data looks like a {} hand, but the profile is of a {} one: give --hand {}, or --hand both", seen,
              to_string(profile_.handedness), seen);
@@ -82,7 +82,7 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
 
   // After a verification found the other side, the own side must win several searches in a row.
   const bool worse = clearly_better(other_score, score);
-  if (worse) say_side();
+  if (worse) report_other_side();
   if (to_confirm_ > 0) to_confirm_ = clearly_better(score, other_score) ? to_confirm_ - 1 : kToConfirm;
   if (worse || to_confirm_ > 0) return true;
 
@@ -117,7 +117,7 @@ bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
   if (++verification.frames == kMostFrames || lost || other || same) verification_.reset();
   if (!other) return false;
   to_confirm_ = kToConfirm;
-  say_side();
+  report_other_side();
   return true;
 }
 
@@ -156,7 +156,7 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
 
 void ProfileVerifier::nothing_found(const HandObservation& observation, double score) {
   // A try costs a search, so only some failures lead to one.
-  if (said_size_ || !observation.hand_present) return;
+  if (size_reported_ || !observation.hand_present) return;
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
 
@@ -166,7 +166,7 @@ void ProfileVerifier::nothing_found(const HandObservation& observation, double s
   const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // scores grow with the size of the hand
   if (!other || other->score() > lost_score || !clearly_better(other->score(), score)) return;
   log_->warn("{}", other_size(size, profile_));
-  said_size_ = true;
+  size_reported_ = true;
 }
 
 }  // namespace barehand

@@ -55,7 +55,7 @@ class ProfileVerifier {
   // observation clearly better than `score` [m].
   std::optional<double> verified_size(const HandObservation& observation, double score, double log_size);
   // Reports a hand of the other side, once.
-  void say_side();
+  void report_other_side();
 
   TrackerParams params_;
   HandProfile profile_;
@@ -63,7 +63,7 @@ class ProfileVerifier {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<HandTracker> mirrored_;
-  bool said_side_ = false, said_size_ = false;
+  bool side_reported_ = false, size_reported_ = false;
   int failures_ = 0, tries_ = 0;  // calls of nothing_found() with a hand-like region, and tries of another size
   int size_looks_ = 0;            // frames of this track whose detected joints were used
   int size_refuted_ = 0;          // other sizes that detected joints showed since the last confirmed one

@@ -34,16 +34,16 @@ void TwoHandTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
   else
     hands_[k] =
         std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
-  check_anew();
+  renew_verifiers();
 }
 
 void TwoHandTracker::change(const TrackerParams& params) {
   for (const auto& hand : hands_) hand->apply(UseParams{params});
   params_ = params;
-  check_anew();
+  renew_verifiers();
 }
 
-void TwoHandTracker::check_anew() {
+void TwoHandTracker::renew_verifiers() {
   verifiers_.clear();
   for (const auto& hand : hands_)  // two hands: both sides are tracked, so a wrong side or size is not reported
     if (hand)
@@ -51,33 +51,32 @@ void TwoHandTracker::check_anew() {
                                                              count() == 1 ? log_ : make_silent_logger()));
 }
 
-HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
+HandEstimates TwoHandTracker::process(const HandObservations& observations) {
   // With one hand there is nothing to distribute.
-  if (count() == 1) return {process_only(*in_order[0])};
+  if (count() == 1) return {process_single_hand(*observations[0])};
   ++frame_;
-  const HandObservations observations = by_hand(in_order);
+  const HandObservations ordered = by_hand(observations);
   HandEstimates out(hands_.size());
 
   // Track the hands that are being tracked, in parallel.
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
-    if (!searched(k, *observations[k])) tracked.push_back(k);
+    if (!searched(k, *ordered[k])) tracked.push_back(k);
   workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
     const int k = tracked[i];
-    out[k] =
-        verifiers_[k]->verifying() ? track_with_mirrored(k, *observations[k]) : hands_[k]->process(*observations[k]);
+    out[k] = verifiers_[k]->verifying() ? track_with_mirrored(k, *ordered[k]) : hands_[k]->process(*ordered[k]);
   });
 
-  // End tracks that turn out to be of the other side or size, and search the other hands.
+  // End tracks that turn out to be of the other side, check the sizes, and search the other hands.
   for (const int k : tracked) {
-    judge_verification(k, *out[k]);
-    judge_size(k, *observations[k], *out[k]);
+    apply_verification(k, *out[k]);
+    check_tracked_size(k, *ordered[k], *out[k]);
   }
   if (tracked.empty())
-    search_both(observations, out);
+    search_both(ordered, out);
   else
     for (int k = 0; k < count(); ++k)
-      if (!out[k]) search_one(k, observations, out);
+      if (!out[k]) search_one(k, ordered, out);
   return out;
 }
 
@@ -92,7 +91,7 @@ HandEstimatePtr TwoHandTracker::track_with_mirrored(int k, const HandObservation
 
 /// A hand that was tracked alone may turn out to be of the other side. If there is a tracker for the other side, it
 /// continues from the mirrored pose.
-void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
+void TwoHandTracker::apply_verification(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileVerifier& check = *verifiers_[k];
   if (other && other->view().status == TrackStatus::tracking) check.end_verification();
@@ -101,13 +100,13 @@ void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
   if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
-void TwoHandTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
+void TwoHandTracker::check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
   if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().doubts_size) return;
   const auto size = verifiers_[k]->other_size_in_view(observation, estimate.score);
   if (size) hands_[k]->apply(DoubtSize{*size});
 }
 
-bool TwoHandTracker::judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
+bool TwoHandTracker::check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
   if (!params_.size_check || !found) return false;
   verifiers_[k]->expect_any_size();
   const auto size = verifiers_[k]->other_size_in_view(observation, found->score());
@@ -117,7 +116,7 @@ bool TwoHandTracker::judge_size(int k, const HandObservation& observation, std::
   return true;
 }
 
-HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation) {
+HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileVerifier& check = *verifiers_[0];
 
@@ -125,8 +124,8 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   const TrackView before = hand.view();
   if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = check.verifying() ? track_with_mirrored(0, observation) : hand.process(observation);
-    judge_verification(0, *estimate);
-    judge_size(0, observation, *estimate);
+    apply_verification(0, *estimate);
+    check_tracked_size(0, observation, *estimate);
     return estimate;
   }
 
@@ -137,7 +136,7 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   // Report a wrong size, and reject a hand of the other side. If the size is wrong but the detection shows the
   // profile's own side, the mirrored profile is not tried, since it has the wrong size, too.
   const double score = found ? found->score() : INFINITY;
-  const bool other_size = judge_size(0, observation, found);
+  const bool other_size = check_found_size(0, observation, found);
   if (score > params_.loss.lost_score) {
     if (!other_size && params_.size_check) check.nothing_found(observation, score);
   } else if (params_.side_check) {
@@ -170,7 +169,7 @@ void TwoHandTracker::search_one(int k, const HandObservations& observations, Han
   const TrackView track = hands_[k]->view();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
     found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
-  judge_size(k, *observations[k], found);
+  check_found_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
@@ -220,7 +219,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   // Start the tracks. If only one hand starts, it is verified against the other side in the next frames.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
-    if (j >= 0) judge_size(k, *observations[j], found[k][j]);
+    if (j >= 0) check_found_size(k, *observations[j], found[k][j]);
     if (params_.side_check && j >= 0 && owned[1 - k] < 0)
       verifiers_[k]->begin_verification(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)

@@ -23,8 +23,9 @@ class TwoHandTracker {
   TwoHandTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
                  std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
-  /// Processes one frame: one observation per hand in, one estimate per hand out, in the order of the profiles.
-  HandEstimates process(const HandObservations& in_order);
+  /// Processes one frame. One observation per hand in; they are in the order of the profiles only if they follow
+  /// feedback (see by_hand). Estimates come out in the order of the profiles.
+  HandEstimates process(const HandObservations& observations);
   int count() const { return static_cast<int>(hands_.size()); }
   /// The tracker of the k-th hand.
   HandTracker& hand(int k) { return *hands_[k]; }
@@ -35,17 +36,17 @@ class TwoHandTracker {
 
  private:
   // Replaces the profile verifiers, which belong to the former profiles and parameters.
-  void check_anew();
+  void renew_verifiers();
   // Tracks the k-th hand and, in parallel, the mirrored hand of its verification.
   HandEstimatePtr track_with_mirrored(int k, const HandObservation& observation);
   // Gives up the k-th hand if its verification shows that it is of the other side.
-  void judge_verification(int k, const HandEstimate& estimate);
+  void apply_verification(int k, const HandEstimate& estimate);
   // Marks the size of a tracked hand as wrong if the detected joints indicate another size.
-  void judge_size(int k, const HandObservation& observation, const HandEstimate& estimate);
+  void check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate);
   // The same for the pose that a search found. Returns whether another size was found.
-  bool judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
+  bool check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
   // Processes a whole frame if there is only one hand.
-  HandEstimatePtr process_only(const HandObservation& observation);
+  HandEstimatePtr process_single_hand(const HandObservation& observation);
   // Returns the observations in the order of the hands.
   HandObservations by_hand(const HandObservations& observations) const;
   // Whether the k-th hand is searched in this observation instead of being tracked.

@@ -22,18 +22,18 @@ class ServiceSink : public Sink {
   Result<void> idle() override;
 
  private:
-  void feed();
-  void tell();
+  void feed_watchdog();
+  void update_status();
 
   ServiceManager& manager_;
   const std::function<PipelinePulse()> pulse_;
   const std::function<PipelineHealth()> health_;
   const Clock& clock_;
-  PipelinePulse fed_at_;    // counters when the watchdog was fed last
-  HandEstimates hands_;     // of the last frame
-  std::int64_t frame_us_,   // time of the last frame; steady clock
-      told_us_,             // time of the last status line; steady clock
-      told_published_ = 0;  // frames published by then
+  PipelinePulse fed_at_;      // counters when the watchdog was fed last
+  HandEstimates hands_;       // of the last frame
+  std::int64_t frame_us_,     // time of the last frame; steady clock
+      status_us_,             // time of the last status line; steady clock
+      status_published_ = 0;  // frames published by then
 };
 
 }  // namespace barehand
