@@ -41,7 +41,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
 }
 
 /// Frames where a hand was reported although there was none, and how long a returning hand took to be tracked.
-void print_returns(std::string& out, const Evaluation& e) {
+void print_phantoms_and_returns(std::string& out, const Evaluation& e) {
   if (!e.phantoms.empty()) out += "  frames with a hand although there is none: " + frame_list(e.phantoms) + "\n";
   if (e.returns.empty()) return;
   out += formatted("  %zu returns into view (frame: frames until tracked):", e.returns.size());
@@ -62,7 +62,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
 
   // Frames that were lost.
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
-  print_returns(out, e);
+  print_phantoms_and_returns(out, e);
 
   // Distributions of the errors.
   print_head(out, "error [mm]");
