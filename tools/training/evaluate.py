@@ -52,10 +52,10 @@ def _figure(key: str, values: torch.Tensor) -> float:
 
 def _labels(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
     """Intersection over union of each label, for every scene with at least 20 pixels of it."""
-    said, true = output[1].argmax(1), truth.label[:, ::2, ::2]
+    predicted, true = output[1].argmax(1), truth.label[:, ::2, ::2]
     figures = {}
     for label, meaning in zip(range(1, LABELS), ("hand", "arm", "object")):
-        ours, theirs = (said == label).flatten(1), (true == label).flatten(1)
+        ours, theirs = (predicted == label).flatten(1), (true == label).flatten(1)
         overlap = (ours & theirs).sum(1) / (ours | theirs).sum(1).clamp_min(1)
         figures[f"overlap of {meaning}"] = overlap[theirs.sum(1) >= 20]
     return figures
