@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kSteps = 15;  // frames whose distances tell the unit
 constexpr std::size_t kFewestSteps = 2;
-constexpr std::int64_t kMany = 10;                              // one frame of so many
+constexpr std::int64_t kUnusedRatio = 10;                       // warn if more than one frame in this many was not used
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // of a frame; more is damage
 
 /// A time between two frames of a camera [us]: 0.5 to 2000 frames a second.
@@ -126,7 +126,7 @@ std::vector<std::string> FrameOrder::take_doubts() { return std::exchange(doubts
 
 std::vector<std::string> FrameOrder::take_last_doubts() {
   look_at_steps();
-  if (unused_ * kMany > frames_)
+  if (unused_ * kUnusedRatio > frames_)
     doubts_.push_back(
         formatted("%lld of %lld frames are not later than the frame before them and are not used: are "
                   "they in order of time?",
