@@ -26,8 +26,8 @@ class PersonModel {
   /// Size of the hand in view relative to its profile; 1 unless another size was found.
   double size_in_view() const { return size_in_view_; }
 
-  /// The hand in view seems to have `size` times the profile's size. This is reported once, and from now on estimates
-  /// state the larger uncertainty.
+  /// The hand in view seems to have `size` times the profile's size. This is reported once, and estimates state a
+  /// larger uncertainty until the next track.
   void doubt_size(double size);
   /// A track begins, possibly of another person.
   void start_track();

@@ -53,7 +53,7 @@ class Body {
   /// The parts of the body, each in its own frame.
   std::vector<SceneObject> objects() const;
   /// T_world_object of each of these parts at this time. `right_wrist`: position of a simulated hand's wrist in the
-  /// world frame, towards which the right arm points; none: the keys place it.
+  /// world frame, to which the right arm leads; none: the keyframes give its position.
   std::vector<SE3> poses(double time, const std::optional<Eigen::Vector3d>& right_wrist = {}) const;
   /// Position of the right elbow if the right wrist is at this position. World frame.
   Eigen::Vector3d right_elbow(double time, const Eigen::Vector3d& right_wrist) const;
