@@ -54,7 +54,7 @@ std::optional<double> HandSizeVerifier::look(const HandObservation& observation,
   const HandPose start = scaled(*profile_, pose, candidate.size);
   const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
 
-  // Count the copy's advantages; after the last copy of a turn, decide.
+  // Count the copy's advantages. When every copy has been compared once more, decide.
   candidate.better += clearly_better(other, score);
   candidate.much_better += clearly_better(other, score, kFarBetter);
   candidate.sum += other;

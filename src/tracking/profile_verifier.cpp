@@ -23,8 +23,8 @@ constexpr double kAnySize = 0.4,  // standard deviation expected of the size of 
     kOtherSize = 0.1,             // a size that deviates by more than this is verified, which costs a search
     kSameSize = 0.2;              // a size within this range of the confirmed one counts as the confirmed one
 constexpr int kSizeLooks = 10,    // frames of a track whose detected joints are used
-    kVerified = 3,                // sizes in a row that are verified although the last ones were refuted
-    kVerifiedEvery = 30;          // after that, only every n-th one is
+    kVerified = 3,                // since the last confirmed size, the first few other sizes are all verified
+    kVerifiedEvery = 30;          // after these, only every n-th one is
 // The networks understate sizes far from those of real hands: beyond kFarSize (logarithm), the true deviation may be
 // kUnderstated times the one that the joints show.
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
