@@ -13,9 +13,9 @@ LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& cl
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
   // A recovery always passes the filter; otherwise the last message could be about a problem that is over.
-  const auto kept_back = trouble ? filter_.admit(kind) : 0;
-  if (!kept_back) return;
-  const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";
+  const std::optional<std::int64_t> suppressed = trouble ? filter_.admit(kind) : 0;
+  if (!suppressed.has_value()) return;
+  const std::string more = *suppressed > 0 ? " (and " + std::to_string(*suppressed) + " more like this)" : "";
   box_.tell(SourceNotice{{what + more, source_, remedy}, trouble});
 }
 

@@ -90,10 +90,10 @@ void LiveSession::deliver(const Pairing::Pair& pair) {
   stamp(pair.depth, *frame);
 
   // Check the depth image.
-  if (!complete(depth, sensor_->depth_mode(), 2)) return judge(DepthFault::incomplete);
+  if (!complete(depth, sensor_->depth_mode(), 2)) return report_depth_fault(DepthFault::incomplete);
   copy_depth(depth, sensor_->mirrored(false), frame->depth);
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
-  judge(fault);
+  report_depth_fault(fault);
   if (fault != DepthFault::none && fault != DepthFault::empty) return;
 
   // Add colour, and deliver.
@@ -174,7 +174,7 @@ void LiveSession::give_up_step() {
       "depth and colour are not synchronised although the sensor reports that they are; they are paired by time stamp");
 }
 
-void LiveSession::judge(DepthFault fault) {
+void LiveSession::report_depth_fault(DepthFault fault) {
   if (fault != fault_) fault_since_us_ = now_us_;
   fault_ = fault;
   switch (fault) {

@@ -48,7 +48,7 @@ class LiveSession {
   void resume_step();
   void give_up_step();
   // Counts and reports faults of the depth image.
-  void judge(DepthFault fault);
+  void report_depth_fault(DepthFault fault);
   // Notices when colour stops and when it returns.
   void watch_colour();
   std::optional<Loss> loss();

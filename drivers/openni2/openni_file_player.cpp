@@ -22,7 +22,7 @@ namespace {
 // adds the first frame to play and the step between frames.
 constexpr std::chrono::milliseconds kPatience{10'000};  // longest wait for an image from a slow disk
 constexpr std::string_view kMagic = "NI10";
-constexpr const char* kWhole =
+constexpr const char* kRemedyIncomplete =
     "give a complete .oni recording: if the recorder was killed, the table of frames is missing";
 
 /// A path under which OpenNI2 does not know the file yet: it identifies a file by its name, and a second reader of the
@@ -44,14 +44,16 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   // OpenNI2's player cannot handle files that are not recordings, so they are refused here.
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  if (std::string_view(head.data(), head.size()) != kMagic) return fail("is not an OpenNI recording", path, kWhole);
+  if (std::string_view(head.data(), head.size()) != kMagic)
+    return fail("is not an OpenNI recording", path, kRemedyIncomplete);
 
   // Open it. Unloading OpenNI2 would destroy the player's streams, which may crash: see OpenNiSensor.
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
   static_cast<void>(library->release());
   auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
-  if (!sensor) return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kWhole : sensor.error().remedy);
+  if (!sensor)
+    return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kRemedyIncomplete : sensor.error().remedy);
   std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
   if (player->frames() <= 0) return fail("the recording holds no depth images", path, "record it again");
   return player;

@@ -8,7 +8,7 @@
 namespace barehand::synthetic {
 namespace {
 
-constexpr int kMargin = 200;  // px, a segment that is this close to the image still counts as projected
+constexpr int kMargin = 200;  // parts of a segment up to this far outside the image count as projected, too [px]
 
 Intrinsics camera_of(const SimulatorParams& p) {
   const double focal = p.focal > 0 ? p.focal : 525.0 * p.width / 640;
@@ -29,7 +29,7 @@ Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const Simulat
 /// Index of the first surface of a hand, see AnimatedHand; objects follow after all hands.
 std::uint8_t first_surface(std::size_t hand) { return static_cast<std::uint8_t>(AnimatedHand::kSurfaceCount * hand); }
 
-/// Depth in metres as counts of the sensor.
+/// Converts depth in metres to the sensor's counts of kDepthUnit.
 Image<std::uint16_t> counts(const Image<float>& depth) {
   Image<std::uint16_t> image(depth.width(), depth.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -68,7 +68,7 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
 
-  // Number of frames at this rate and speed.
+  // Compute the number of frames at this rate and speed.
   simulator.fps_ = params.fps > 0 ? params.fps : info->fps;
   simulator.frame_count_ = std::max(1L, std::lround(info->frames / info->fps * simulator.fps_ / params.speed));
   if (params.frames > 0) simulator.frame_count_ = std::min<std::int64_t>(simulator.frame_count_, params.frames);
@@ -105,7 +105,7 @@ Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) con
 
 std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
                                               const HandPose& pose) const {
-  // Pixels in which each segment is front-most.
+  // Count the pixels in which each segment is front-most.
   std::array<int, kSegmentCount> front{};
   for (std::size_t i = 0; i < view.surface.size(); ++i) {
     const int segment = view.surface[i] - first_surface(hand);
@@ -113,12 +113,12 @@ std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedVi
   }
   if (std::all_of(front.begin(), front.end(), [](int n) { return n == 0; })) return std::nullopt;
 
-  // Pixels that it would cover without occlusion.
+  // Count the pixels that each segment would cover without occlusion.
   const auto& segments = hands_[hand].triangle_segments();
   const auto covered = covered_pixels(camera(), kMargin, geometry.vertices,
                                       std::span(geometry.triangles).first(segments.size()), segments);
 
-  // The visible fraction is their ratio.
+  // The visible fraction is the ratio of both counts.
   TableFrame table;
   for (int s = 0; s < kSegmentCount; ++s) {
     table.rows[s] = {proximal_end(pose, s), distal_end(hands_[hand].profile(), pose, s),
@@ -128,7 +128,7 @@ std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedVi
 }
 
 SimulatedFrame Simulator::render(std::int64_t number) {
-  // The scene at this time.
+  // Build the scene at this time.
   const double time = static_cast<double>(number) / fps_ * params_.speed;
   const SceneState state = sequence_->at(std::min(time, sequence_->duration()));
   std::vector<SceneGeometry> hands;
@@ -152,7 +152,7 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   frame->depth_unit = kDepthUnit;
   frame->depth = counts(spoil(view, number));
 
-  // The truth about each hand.
+  // Add the truth about each hand.
   SimulatedFrame result;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}};

@@ -49,7 +49,7 @@ struct HandTruth {
   std::optional<TableFrame> table;  ///< none if no part of this hand is in the image
 };
 
-/// One simulated frame and the truth about it.
+/// One simulated frame and the truth about its hands.
 struct SimulatedFrame {
   FramePtr frame;
   std::vector<HandTruth> hands;  ///< in the order of Simulator::hands()
@@ -59,8 +59,8 @@ struct SimulatedFrame {
 /// Frame i is a pure function of the parameters and of i. Not to be used by several threads at once.
 class Simulator {
  public:
-  static constexpr double kDepthUnit = 0.0001;            ///< m per count
-  static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< of frame 0
+  static constexpr double kDepthUnit = 0.0001;            ///< length of one count of the depth image [m]
+  static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< time stamp of frame 0 [us]
 
   /// Errors: the hand mesh was not fetched or is unusable, there is no such sequence, or a left hand is requested from
   /// a sequence with both hands or none. `mesh_folder`: see hand_mesh_folder().
@@ -78,8 +78,9 @@ class Simulator {
 
  private:
   Simulator(const SimulatorParams& params, const Intrinsics& camera);
-  // The objects of the scene.
+  // The triangles of the scene's objects.
   SceneGeometry things(const SceneState& state) const;
+  // The material of every surface of the scene.
   std::vector<Material> materials() const;
   // Adds the sensor's noise to an ideal depth image.
   Image<float> spoil(const RenderedView& view, std::int64_t number) const;

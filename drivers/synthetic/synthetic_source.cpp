@@ -34,13 +34,13 @@ SourceEvent SyntheticSource::next(std::chrono::milliseconds patience) {
 }
 
 bool SyntheticSource::wait_until_due(std::chrono::milliseconds patience) {
-  // The first call starts the clock.
+  // The first call sets the time of frame 0.
   if (start_us_ < 0) {
     start_us_ = clock_.steady_us();
     start_utime_ = clock_.utime();
   }
 
-  // Time until the next frame.
+  // Compute the time until the next frame.
   const double period_us = 1e6 / simulator_.fps();
   const auto elapsed = static_cast<double>(clock_.steady_us() - start_us_);
   const double wait_us = static_cast<double>(next_) * period_us - elapsed;
@@ -55,12 +55,12 @@ bool SyntheticSource::wait_until_due(std::chrono::milliseconds patience) {
 }
 
 FramePtr SyntheticSource::deliver() {
-  // Render; the number counts on when the sequence repeats.
+  // Render the frame. Its number keeps increasing when the sequence repeats.
   const std::int64_t number = next_++;
   SimulatedFrame simulated = simulator_.render(number % simulator_.frame_count());
   auto frame = std::make_shared<RgbdFrame>(*simulated.frame);
 
-  // Number and time of the frame, and of the truth about it.
+  // Set the number and the time stamp of the frame, and of the truth about it.
   const std::int64_t since_start = std::llround(1e6 * static_cast<double>(number) / simulator_.fps());
   frame->number = number;
   frame->utime = (spec_.live ? start_utime_ : Simulator::kFirstUtime) + since_start;

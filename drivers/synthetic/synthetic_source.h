@@ -11,16 +11,16 @@
 
 namespace barehand::synthetic {
 
-/// A simulated hand and its truth in the frame that was delivered last.
+/// A simulated hand, and the truth about it in the frame that was delivered last.
 struct SimulatedHand {
   HandProfile profile;              ///< measured on the hand
   std::optional<TableFrame> truth;  ///< none if the hand is not in view
   HandPose pose;                    ///< T_camera_segment
 };
 
-/// The simulator as a source of frames. Replay: every frame once, with times from 1 s on. Live: a frame becomes due at
-/// its time by the clock and carries this time; frames that nobody took in time are dropped, as a sensor would drop
-/// them.
+/// The simulator as a source of frames. A replay delivers every frame once, with time stamps from 1 s on. A live source
+/// delivers each frame when it is due by the clock, with that time as its time stamp; like a sensor, it drops frames
+/// that were not taken in time.
 class SyntheticSource : public FrameSource {
  public:
   /// `text`: the part after "sim:", see parse_synthetic_spec(). `clock` must outlive the source; it is used for live
@@ -41,7 +41,7 @@ class SyntheticSource : public FrameSource {
  private:
   SyntheticSource(SyntheticSpec spec, Simulator simulator, std::string name, const Clock& clock);
   bool at_end() const { return !spec_.loop && next_ >= simulator_.frame_count(); }
-  /// Waits until the next frame is due; false if that takes longer than `patience`.
+  /// Waits until the next frame is due. Returns false if that takes longer than `patience`.
   bool wait_until_due(std::chrono::milliseconds patience);
   FramePtr deliver();
 
@@ -50,8 +50,8 @@ class SyntheticSource : public FrameSource {
   std::string name_;
   const Clock& clock_;
   std::int64_t next_ = 0;
-  std::int64_t start_us_ = -1;    // clock time of frame 0 once live frames were requested; before: -1
-  std::int64_t start_utime_ = 0;  // the same since the epoch
+  std::int64_t start_us_ = -1;    // steady clock at live frame 0; -1 before the first request
+  std::int64_t start_utime_ = 0;  // time stamp of live frame 0 [us since the epoch]
   std::vector<SimulatedHand> hands_;
 };
 

@@ -20,7 +20,7 @@ std::optional<T> number_in(const std::string& text) {
   return value;
 }
 
-/// Splits "a=1,b=2" into values by key.
+/// Splits "a=1,b=2" into a map from key to value.
 Result<std::map<std::string, std::string>> split(std::istringstream& words, const std::string& where) {
   std::map<std::string, std::string> values;
   for (std::string word; std::getline(words, word, ',');) {
@@ -33,7 +33,7 @@ Result<std::map<std::string, std::string>> split(std::istringstream& words, cons
   return values;
 }
 
-/// Sets the values that were given, and remembers the first error.
+/// A visitor that sets the values that were given, and remembers the first error.
 class SpecReader : public ConfigVisitor {
  public:
   SpecReader(std::map<std::string, std::string> values, std::string where)
@@ -101,7 +101,7 @@ class SpecReader : public ConfigVisitor {
   std::optional<Error> error_;
 };
 
-/// Lists all keys with defaults and meanings.
+/// A visitor that lists all keys with their defaults and meanings.
 class SpecLister : public ConfigVisitor {
  public:
   using ConfigVisitor::operator();

@@ -13,7 +13,7 @@
 
 namespace barehand {
 
-/// Everything a configuration file says: one group per stage.
+/// All values of a configuration file: one group per stage.
 struct Config {
   RunParams run;
   DetectionParams detection;
@@ -36,7 +36,7 @@ void visit(V& v, Config& c) {
   v("openni2", c.openni2,
     "wanted mode of an OpenNI2 sensor, and when it is reopened; fx, fy, cx and cy replace the sensor's own");
 
-  // One key serves the tracker and what is published.
+  // The publisher has no key of its own for this: it uses the tracker's.
   c.publish.hold_time = c.tracker.loss.hold_time;
 }
 

@@ -13,8 +13,8 @@ std::size_t capacity(const FrameSource& source, const PipelineOptions& options) 
   return source.live() ? 1 : options.replay_capacity;
 }
 
-/// If the sensor's clock differs by more than this from ours, it says nothing about latency (for example when a log is
-/// replayed to the bus).
+/// If a frame's time stamp differs by more than this from the present time, it says nothing about latency (for example
+/// when a log is replayed to the bus).
 constexpr std::int64_t kMaxLatencyUs = 10'000'000;
 /// The inline runner takes at most this many frames at once from a live source, since a source that never pauses must
 /// not starve the tracker.
@@ -67,7 +67,7 @@ void Pipeline::run_threaded() {
 
   std::jthread preprocessor([&] {
     while (true) {
-      // Taken first: meanwhile a frame in the input queue can still be replaced by a newer one.
+      // Wait for the feedback before the frame is popped: until then, a newer frame can still replace it in the queue.
       const HandEstimates feedback = take_feedback();
       auto item = pop(kInput);
       if (!item) break;
@@ -208,7 +208,7 @@ void Pipeline::deliver(const Item& item) {
       continue;
     }
     delivered = false;
-    // A failure that lasts for hours is reported ever more rarely: after 1, 2, 4, 8, ... frames.
+    // A lasting failure is reported after 1, 2, 4, 8, ... failed frames only.
     if (std::has_single_bit(static_cast<unsigned>(missed) + 1)) report(monitor, item, consumed.error());
     if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
   }

@@ -40,23 +40,23 @@ struct PipelineOptions {
   bool threaded = true;                    ///< false: everything on the calling thread
   int max_failures_in_a_row = 30;          ///< this many failures of one stage or sink end the run
   std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
-  std::stop_token stop;                    ///< the same as request_stop(), for owners that outlive the pipeline
+  std::stop_token stop;                    ///< ends the run like request_stop(); can exist before the pipeline does
   std::chrono::milliseconds patience{50};  ///< longest wait of one call of a live source; bounds the time to stop
 };
 
 /// How a run ended.
 struct RunResult {
   PipelineHealth health;
-  std::optional<Error> error;           ///< why the run ended early, or a sink could not finish
+  std::optional<Error> error;           ///< why the run ended early, or why a sink could not finish
   std::vector<std::string> incomplete;  ///< names of the sinks that missed frames
   bool stopped = false;                 ///< by request_stop() or the stop token
 };
 
-/// Counters that show whether the pipeline is alive, since the start of the run.
+/// Counters, since the start of the run, by which a watchdog sees whether the pipeline still works.
 struct PipelinePulse {
   std::int64_t answers = 0;   ///< calls of the source that returned, with or without a frame
   std::int64_t finished = 0;  ///< frames that left the pipeline, published or failed
-  std::int64_t inside = 0;    ///< frames on their way through it
+  std::int64_t inside = 0;    ///< frames in the queues and stages now
 };
 
 /// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on
@@ -72,7 +72,7 @@ class Pipeline {
 
   /// Call once. Returns when all frames are processed.
   RunResult run();
-  /// No more frames are taken from the source. Any thread may call it.
+  /// Takes no more frames from the source. Any thread may call it.
   void request_stop() { stop_ = true; }
   /// Counters since the start of the run. Any thread may call it at any time.
   PipelineHealth health() const;
@@ -92,20 +92,20 @@ class Pipeline {
   enum QueueIndex { kInput, kToTrack, kToSinks, kQueueCount };
   enum class Capture { frame, nothing, end };
 
-  // Queues, with the waiting time of each frame.
+  // Access to the queues; each frame's waiting time is recorded when it leaves.
   bool push(QueueIndex queue, Item item);
   std::optional<Item> pop(QueueIndex queue);
   std::optional<Item> try_pop(QueueIndex queue);
-  // Records how long the item waited.
+  // Records how long the item waited in the queue, and returns it.
   std::optional<Item> waited_for(QueueIndex queue, std::optional<Item> item);
   bool stopped() const { return stop_ || options_.stop.stop_requested(); }
-  // Takes one event from the source.
+  // Takes one event from the source. Returns whether it was a frame (a skipped one counts), nothing, or the end.
   Capture capture(std::chrono::milliseconds patience);
-  // Reports, ever more rarely, that a live source delivers no frames.
+  // Reports, at growing intervals, that a live source delivers no frames.
   Capture waited(std::chrono::milliseconds patience);
   void run_inline();
   void run_threaded();
-  // One frame through all stages, on the calling thread.
+  // Passes one frame through all stages on the calling thread.
   void process(Item item);
   HandEstimates take_feedback();
   bool preprocess(Item& item, const HandEstimates& feedback);
@@ -116,12 +116,12 @@ class Pipeline {
 
   // Logs a failure.
   void report(const StageMonitor& stage, const Item& item, const Error& error);
-  // Ends the run if the stage failed too often in a row.
+  // Ends the run if the stage has failed on too many frames in a row.
   void end_if_hopeless(const StageMonitor& stage, const Error& error);
   void end_with(Error error);
   std::int64_t latency_us(const Item& item) const;
   PipelineHealth counts() const;
-  /// The pipeline's own queues, indexed by QueueIndex; they follow the queues of the source.
+  /// The part of `health.queues` with the pipeline's own queues, indexed by QueueIndex; the source's queues come first.
   static std::span<QueueHealth> own_queues(PipelineHealth& health);
 
   PipelineStages stages_;

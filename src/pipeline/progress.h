@@ -11,27 +11,27 @@
 
 namespace barehand {
 
-/// Frames of one hand by track status.
+/// Number of frames of one hand in each track status.
 struct StatusCounts {
   Handedness handedness = Handedness::right;
   std::array<std::int64_t, 4> frames{};  ///< indexed by TrackStatus
   std::int64_t of(TrackStatus status) const { return frames[static_cast<int>(status)]; }
 };
 
-/// Says how a run is going: one line that is rewritten on a terminal, now and then a line elsewhere.
+/// Prints the progress of a run: on a terminal one line that is rewritten, otherwise a new line every ten seconds.
 class ProgressSink : public Sink {
  public:
   struct Options {
     bool terminal = false;
-    std::optional<std::int64_t> frames;  ///< how many will come, where that is known
-    bool quiet = false;                  ///< counts alone
+    std::optional<std::int64_t> frames;  ///< number of frames of the source, if it is known
+    bool quiet = false;                  ///< only count, print nothing
   };
   ProgressSink(std::ostream& out, Options options, const Clock& clock);
 
   std::string name() const override { return "progress"; }
   Result<void> consume(const TrackedFrame& tracked) override;
   Result<void> finish() override;
-  /// One a hand.
+  /// The counts of each hand, in the order of the estimates.
   const std::vector<StatusCounts>& counts() const { return counts_; }
 
  private:

@@ -8,7 +8,8 @@
 namespace barehand {
 namespace {
 
-/// Sources, channels and the counting of failures are set up once; the fit to the person is not begun anew.
+/// Whether a key cannot change while the pipeline runs: sources, channels and limits of failures are set up once, and
+/// a fit to the person that has begun keeps its parameters.
 bool fixed(const std::string& key) {
   constexpr const char* kFixed[] = {"run.",     "detection.",        "world.", "foreign_camera.",
                                     "openni2.", "tracker.shape_fit."};
@@ -32,12 +33,14 @@ Reload::Changes Reload::apply(const Config& wanted) {
     (fixed(key) ? changes.for_restart : changes.made).push_back(key + ": " + old + " -> " + value);
   }
 
+  // Merge the groups that may change into the configuration in force.
   Config next = in_force_;
   next.preprocess = wanted.preprocess;
   next.tracker = wanted.tracker;
   next.tracker.shape_fit = in_force_.tracker.shape_fit;
   next.publish = wanted.publish;
 
+  // Post them to the stages and sinks that they concern.
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
   for (auto* slot : {&out_.bus, &out_.states_log, &out_.view}) put_if_changed(*slot, in_force_.publish, next.publish);

@@ -8,20 +8,20 @@
 
 namespace barehand {
 
-/// Mailboxes for new parameters. Each user takes its own between two frames.
+/// Mailboxes for new parameters. Each stage or sink takes the parameters from its own mailbox between two frames.
 struct PendingParams {
   Slot<PreprocessParams> preprocess;
   Slot<TrackerParams> tracker;
   Slot<PublishParams> bus, states_log, view;
 };
 
-/// Exchanges the configuration of a running pipeline.
+/// Changes the configuration of a running pipeline.
 class Reload {
  public:
   /// `in_force`: the configuration that the run was started with. `out` must outlive this object.
   Reload(Config in_force, PendingParams& out) : in_force_(std::move(in_force)), out_(out) {}
 
-  /// What changed, one text per value, such as "tracker.doubt: 0.15 -> 0.2".
+  /// What changed: one text per value, such as "tracker.doubt: 0.15 -> 0.2".
   struct Changes {
     std::vector<std::string> made;
     std::vector<std::string> for_restart;  ///< cannot change while running; the old values stay in force

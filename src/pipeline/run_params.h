@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// How `barehand track` runs, apart from the method. What changes no result (threads, outputs) is an option of the
-/// command instead.
+/// Parameters of a run of `barehand track` that do not belong to a stage. Settings that change no result (threads,
+/// outputs) are options of the command line instead.
 struct RunParams {
   std::int64_t seed = 1;
   int max_failures_in_a_row = 30;

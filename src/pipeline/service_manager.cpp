@@ -9,9 +9,9 @@
 namespace barehand {
 namespace {
 
-/// A message is a list of lines, so that a text may only have one.
+/// Every line of a message is one assignment, so only the text's first line can be sent.
 std::string status_line(const std::string& text) {
-  return "STATUS=" + as_utf8(text.substr(0, text.find('\n')));  // systemd takes nothing else
+  return "STATUS=" + as_utf8(text.substr(0, text.find('\n')));  // systemd accepts UTF-8 only
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void ServiceManager::ready(const std::string& status) const {
 }
 
 void ServiceManager::reloading() const {
-  // The time tells systemd 253 and later which reload this is an answer to.
+  // From the time, systemd (253 and later) knows which request to reload this message answers.
   sd_notify(0, ("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(clock_.steady_us())).c_str());
 }
 

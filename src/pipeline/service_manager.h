@@ -7,30 +7,32 @@
 
 namespace barehand {
 
-/// Tells systemd how a service of Type=notify is doing (sd_notify). Elsewhere nothing happens.
+/// Reports the state of a service of Type=notify to systemd (sd_notify). Does nothing if systemd did not start it.
 class ServiceManager {
  public:
-  /// `clock` outlives it.
+  /// `clock` must outlive this object.
   explicit ServiceManager(const Clock& clock);
 
-  /// Whether there is somebody to tell.
+  /// Whether a service manager listens.
   bool present() const { return present_; }
-  /// Any thread. Started, or done with reloading. Of `status` the first line is told.
+  /// The service has started, or has reloaded its configuration. Sends the first line of `status`. Any thread may call
+  /// it.
   void ready(const std::string& status) const;
-  /// Any thread. `ready` follows.
+  /// The service reloads its configuration; call ready() when that is done. Any thread may call it.
   void reloading() const;
-  /// Any thread.
+  /// The service shuts down. Any thread may call it.
   void stopping() const;
-  /// Any thread. One line for `systemctl status`.
+  /// Sends the first line of `text` for `systemctl status`. Any thread may call it.
   void status(const std::string& text) const;
-  /// One thread. Something was achieved: feeds the watchdog, no oftener than it needs.
+  /// Feeds the watchdog, at most four times in its period. Call whenever the pipeline has made progress, from one
+  /// thread only.
   void alive();
 
  private:
   const Clock& clock_;
   const bool present_;
-  std::int64_t watchdog_us_ = 0;  // 0: there is none
-  std::int64_t due_us_ = 0;
+  std::int64_t watchdog_us_ = 0;  // period of the watchdog; 0: there is none
+  std::int64_t due_us_ = 0;       // when it may be fed next; steady clock
 };
 
 }  // namespace barehand

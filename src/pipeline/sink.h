@@ -8,22 +8,22 @@
 
 namespace barehand {
 
-/// One frame with all that became of it.
+/// One frame with the results of all stages.
 struct TrackedFrame {
   FramePtr frame;
   HandObservations observations;
   HandEstimates estimates;
 };
 
-/// Where results go: the bus, a table, a log, pictures. Used by one thread, in the order of the frames.
+/// An output of the pipeline: the bus, a table, a log, images. Used by one thread, in the order of the frames.
 class Sink {
  public:
   virtual ~Sink() = default;
   virtual std::string name() const = 0;
   virtual Result<void> consume(const TrackedFrame& tracked) = 0;
-  /// No frame came for a while: what is due by the clock. Called again and again until one comes.
+  /// Does what is due by the clock. Called repeatedly while no frame arrives.
   virtual Result<void> idle() { return {}; }
-  /// After the last frame, also of a run that failed: everything written is on disk when it returns.
+  /// Called after the last frame, also if the run failed. When it returns, everything written is on disk.
   virtual Result<void> finish() { return {}; }
 };
 

@@ -11,7 +11,7 @@ std::string time_row(const std::string& name, const TimeSummary& time) {
                    time.mean * 1e3, time.p50 * 1e3, time.p95 * 1e3, time.p99 * 1e3, time.max * 1e3);
 }
 
-/// "dropped by transit 12, input 2", a line; empty if nothing was.
+/// A line such as "dropped by transit 12, input 2"; empty if no frame was dropped.
 std::string drops(const std::vector<QueueHealth>& queues) {
   std::string text;
   for (const QueueHealth& queue : queues)

@@ -7,9 +7,9 @@
 
 namespace barehand {
 
-/// The closing report of a run, for people: frames, track status of each hand, drops, times per stage in milliseconds.
+/// The final report of a run for the user: frames, track status of each hand, drops, times per stage in milliseconds.
 std::string summary(const PipelineHealth& health, const std::vector<StatusCounts>& hands, double seconds);
-/// One line on how the pipeline is doing.
+/// One line with the pipeline's counters, the median times of its stages and the state of its queues.
 std::string health_line(const PipelineHealth& health);
 
 }  // namespace barehand

@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-/// A bare name is one of the shipped folders.
+/// The folder with the networks: a name without a slash means one of the folders in configs/.
 std::string networks_folder(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   return find_data_file("configs/" + name).value_or(name);

@@ -14,15 +14,15 @@
 
 namespace barehand {
 
-/// The two computing stages as the pipeline wants them; they own their stage objects.
+/// The stages of PipelineStages that compute: each function owns the objects that it calls.
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
 };
 
-/// `profiles`: of the hands to track. `initial`: start the first from this pose; none: find it. `inbox`: commands from
-/// outside; may be empty. `pending`: looked at before every frame; may be null. `workers`, `log` and `pending` outlive
-/// the stages.
+/// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.
+/// `inbox`: commands from outside; may be empty. `pending`: changed parameters, taken before every frame; may be null.
+/// `workers`, `log` and `pending` must outlive the stages.
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
                               RepeatLog& log, PendingParams* pending = nullptr);

@@ -10,11 +10,11 @@
 namespace barehand {
 namespace {
 
-constexpr double kDistance = 0.5, kWall = 1.0;  // of hand and background [m]
-constexpr double kDepthUnit = 1e-4;             // [m]
+constexpr double kDistance = 0.5, kWall = 1.0;  // distances of the hand and of the wall behind it from the camera [m]
+constexpr double kDepthUnit = 1e-4;             // length of one unit of the depth image [m]
 const Intrinsics kCamera{640, 480, 525, 525, 319.5, 239.5};
 
-/// The hand without colour before a wall.
+/// Renders a depth image of the hand before a wall.
 FramePtr render_frame(const Skin& skin, const HandPose& pose) {
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = kCamera;
@@ -27,7 +27,7 @@ FramePtr render_frame(const Skin& skin, const HandPose& pose) {
   return frame;
 }
 
-/// Where the preprocessor is to look.
+/// The estimate from which the preprocessor knows where to look for the hand.
 HandEstimates feedback_of(const HandPose& pose, const std::shared_ptr<const HandProfile>& profile) {
   auto estimate = std::make_shared<HandEstimate>();
   estimate->status = TrackStatus::tracking;
@@ -39,6 +39,7 @@ HandEstimates feedback_of(const HandPose& pose, const std::shared_ptr<const Hand
 }  // namespace
 
 Result<TrialTimes> time_trial_level(const Config& config, int per_segment, DeviceObserver& device, Workers& workers) {
+  // Load the shipped hand and build its model.
   const auto path = find_data_file("configs/hands/adult_right.json");
   if (!path) return tl::unexpected(path.error());
   const auto loaded = load_profile(*path);
@@ -46,7 +47,7 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   const auto profile = std::make_shared<const HandProfile>(*loaded);
   HandModel model(config.tracker, profile, workers, nullptr);
 
-  // The palm's middle on the optical axis.
+  // Render it with the palm's middle on the optical axis, and preprocess the frame.
   const SE3 T_camera_palm{palm_orientation(0, 0, 0), {0, 0.5 * profile->hand_length(), kDistance}};
   const HandPose pose = forward_kinematics(*profile, T_camera_palm, {});
   const auto seen =
@@ -55,13 +56,14 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   if (!seen->front()->hand_present)
     return fail("the test hand is not found with these values", "preprocess", "see barehand track --print-config");
 
-  // What the tracker would hand over; the poses stay valid while the model draws no others.
+  // Make the batch that the tracker would compare; its poses stay valid until the model draws new ones.
   const PreparedObservation& prepared = model.segment_tracker.prepare(*seen->front(), pose);
   const SegmentSamples& samples =
       model.segment_tracker.sample(prepared, model.fusion.first_proposals(pose), {1, 1, 0, 1}, per_segment);
   const SegmentTrackerParams& params = config.tracker.segment_tracker;
   const SampleBatch batch{model.surface, prepared.map, prepared.id, samples.poses, first_compared(params)};
 
+  // Time both observers with it.
   CpuObserver cpu(distance_cap(params), workers);
   PatchDistances distances;
   const auto times = time_comparison(batch, cpu, device, SystemClock(), distances);

@@ -6,15 +6,15 @@
 
 namespace barehand {
 
-/// What comparing one level took.
+/// How long it takes to compare the samples of one level with the data.
 struct TrialTimes {
-  int samples = 0;  ///< of all segments
+  int samples = 0;  ///< number of samples of all segments together
   ComparisonTimes times;
 };
 
-/// Times the first level of a frame as the tracker would compare it with a configuration, but with `per_segment`
-/// samples: around the shipped hand, which an ideal camera of 640x480 pixels sees flat at half a metre. Errors: the
-/// hand's file, the device's.
+/// Measures how fast the CPU and the device compare the first level of a frame, as the tracker would do it with this
+/// configuration but with `per_segment` samples. The frame shows the shipped hand, flat and half a metre before an
+/// ideal camera of 640x480 pixels. Errors: those of loading the hand's file, and of the device.
 Result<TrialTimes> time_trial_level(const Config& config, int per_segment, DeviceObserver& device, Workers& workers);
 
 }  // namespace barehand

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSteps = 15;  // intervals between frames from which the unit of the stamps is checked
 // Intervals that suffice for this check at the end of a short recording.
 constexpr std::size_t kFewestSteps = 2;
-constexpr std::int64_t kMany = 10;                              // warn if more than one frame in this many was not used
+constexpr std::int64_t kUnusedRatio = 10;                       // warn if more than one frame in this many was not used
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // larger frame numbers are damaged
 
 /// Shortest and longest plausible interval between two frames [us]: 2000 and 0.5 frames per second.
@@ -131,7 +131,7 @@ std::vector<std::string> FrameOrder::take_doubts() { return std::exchange(doubts
 
 std::vector<std::string> FrameOrder::take_last_doubts() {
   look_at_steps();
-  if (unused_ * kMany > frames_)
+  if (unused_ * kUnusedRatio > frames_)
     doubts_.push_back(
         formatted("%lld of %lld frames are not later than the frame before them and are not used: are "
                   "they in order of time?",

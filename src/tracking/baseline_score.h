@@ -3,18 +3,18 @@
 namespace barehand {
 
 /// How well a track's hand is explained normally: a running value of its scores. It falls fast and rises slowly, so
-/// that a phase in which fingers are taken for their neighbours stands out against the better ones before. It starts
+/// that frames in which fingers are taken for their neighbours stand out against the better frames before. It starts
 /// below the first score, since a hand may be found in a wrong pose.
 class BaselineScore {
  public:
   void reset() { level_ = 0; }
-  /// One tracked frame's global score [m].
+  /// Adds a tracked frame's global score [m].
   void update(double score) {
     constexpr double kStart = 0.7, kFall = 0.2, kRise = 0.01;
     if (level_ == 0) level_ = kStart * score;
     level_ += (score < level_ ? kFall : kRise) * (score - level_);
   }
-  /// [m]; 0 before the first frame.
+  /// The baseline score [m]; 0 before the first frame.
   double level() const { return level_; }
 
  private:

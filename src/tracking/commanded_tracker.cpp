@@ -17,8 +17,11 @@ CommandedTracker::CommandedTracker(const TrackerParams& params, const TwoHandTra
       tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 
 Result<HandEstimates> CommandedTracker::process(const HandObservations& observations) {
+  // Take changed parameters and new commands.
   if (const auto params = changed_ ? changed_->take() : std::nullopt) tracker_.change(*params);
   if (inbox_) collect(observations[0]->frame->sensor);
+
+  // Execute the waiting commands if the limit allows it, then track.
   if (++frames_ % kPause == 0) allowed_ = std::min(allowed_ + 1, kBurst);
   if (allowed_ > 0 && !waiting_.empty()) follow_waiting();
   return last_ = tracker_.process(observations);
@@ -36,7 +39,7 @@ void CommandedTracker::collect(const std::string& sensor) {
   }
 }
 
-/// Whether nothing that still waits had to go.
+/// Removes the oldest waiting command of this kind and hand if there are too many. Returns whether none was removed.
 bool CommandedTracker::make_room_for(const Command& command) {
   const auto is_same = [&](const Command& c) { return c.kind == command.kind && c.hand_id == command.hand_id; };
   const bool one_a_side = command.kind == Command::Kind::set_profile && !command.hand_id;

@@ -12,26 +12,27 @@
 
 namespace barehand {
 
-/// A tracker of hands that takes commands from outside (command_t) between two frames: reset, start at a pose, another
-/// hand profile. A command that cannot be read or followed is reported and changes nothing. A flood of commands cannot
-/// keep it from tracking: commands are followed on kBurst frames, then on one of kPause; of those that come meanwhile
-/// the newest of each kind and hand is followed then.
+/// A tracker of hands that executes commands from outside (command_t) between two frames: reset, start at a pose, use
+/// another hand profile. A command that cannot be read or executed is reported and changes nothing. Commands are
+/// limited like a token bucket: up to kBurst frames may execute commands, and one more is allowed every kPause frames.
+/// Of the commands that wait, only the newest of each kind and hand is kept.
 class CommandedTracker {
  public:
   static constexpr int kBurst = 3, kPause = 150;
 
-  /// What arrived since the last call; asked before every frame, on the thread of `process`. Empty: no commands.
+  /// Returns the commands that arrived since its last call. It is called before every frame, on the thread of
+  /// process(). An empty function: there are no commands.
   using Inbox = std::function<std::vector<Result<Command>>()>;
 
-  /// `changed`: where changed parameters arrive; looked at before every frame; may be null. It, `workers` and `log`
-  /// outlive the tracker.
+  /// `changed`: changed parameters, taken before every frame; may be null. It, `workers` and `log` must outlive the
+  /// tracker.
   CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles, std::uint64_t seed,
                    Workers& workers, Inbox inbox, RepeatLog& log, Slot<TrackerParams>* changed = nullptr);
 
-  /// Follows what arrived, and tracks the hands in this frame. An error never comes from here: it is the type that the
-  /// pipeline wants of a stage.
+  /// Executes commands, then tracks the hands in this frame. Never returns an error: the pipeline requires this type of
+  /// every stage.
   Result<HandEstimates> process(const HandObservations& observations);
-  /// Of the first hand.
+  /// Tracks the first hand from this pose, T_camera_segment, on.
   void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }
 
  private:
@@ -47,8 +48,9 @@ class CommandedTracker {
   Slot<TrackerParams>* const changed_;
   TwoHandTracker tracker_;
   HandEstimates last_;
-  std::vector<Command> waiting_;  // one of each kind and hand at most, a profile for any hand once a hand; oldest first
-  int allowed_ = kBurst;          // frames on which commands may be followed
+  // At most one command of each kind and hand, oldest first; of profiles for any hand, as many as there are hands.
+  std::vector<Command> waiting_;
+  int allowed_ = kBurst;  // number of frames that may still execute commands
   int frames_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 
-// That both ends of the segment are near the truth; the less certain one decides.
+// Probability that both ends of the segment lie within kConfidenceRadius of the truth: that of the less certain end.
 double confidence(const HandProfile& profile, const SegmentState& state, int segment) {
   const Eigen::Vector3d bone = state.T_camera_segment.R * profile.segments[segment].distal;
   const auto J_distal = point_jacobian(bone);
@@ -17,8 +17,8 @@ double confidence(const HandProfile& profile, const SegmentState& state, int seg
                   probability_within(kConfidenceRadius, J_distal * state.covariance * J_distal.transpose()));
 }
 
-// A hand of another size than its profile's may well be one that is seen in a wrong scale, so that its place is wrong
-// by as much along the way from the camera.
+// Covariance for an unknown scale: if the hand seems to have another size than its profile, the depth may be wrong by
+// the same factor, and then so is the distance from the camera.
 Matrix6d scale_doubt(const SE3& T_camera_segment, double size_in_view) {
   Matrix6d doubt = Matrix6d::Zero();
   const Eigen::Vector3d off = (size_in_view - 1) * T_camera_segment.t;
@@ -65,12 +65,13 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
   std::array<bool, kSegmentCount> hidden;
   for (int s = 0; s < kSegmentCount; ++s) hidden[s] = refined.matched[s] < params.seen_fraction;
 
-  // A pose that was found or given anew since the last estimate is no motion from there.
+  // A pose that was found or given since the last estimate does not continue it, so it yields no velocity.
   const double dt = last_tracked_ ? std::abs(out.utime - last_tracked_->utime) * kMicro : 0;
   const bool same_track = chosen.prediction && dt == chosen.prediction->dt;
   if (!same_track) uncertainty_.restart();
   const auto covariance = chosen.belief ? *chosen.belief : uncertainty_.covariance(*out.profile, refined, hidden, dt);
 
+  // Fill in the state of every segment.
   for (int s = 0; s < kSegmentCount; ++s) {
     SegmentState& state = out.segments[s];
     state.T_camera_segment = refined.pose[s];
@@ -84,7 +85,7 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
   }
 }
 
-// As it was tracked last; how its uncertainty grows from then on is said where it is published (PoseHold).
+// Repeats the last tracked pose. PoseHold lets its covariance grow when it is published.
 void EstimateBuilder::fill_held(HandEstimate& out) const {
   out.segments = last_tracked_->segments;
   out.score = last_tracked_->score;

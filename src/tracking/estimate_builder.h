@@ -11,25 +11,26 @@
 
 namespace barehand {
 
-/// The ids that a tracker gives to the hands it finds, one after the other.
+/// The ids that a tracker gives to the hands that it finds: `first`, then `step` more for each new hand, so that two
+/// trackers never give the same id.
 struct HandIds {
   std::int32_t first = 1, step = 1;
 };
 
-/// Builds the estimate of a frame: which segments are seen, velocities, covariance and confidence, and what is kept of
-/// the last tracked frame while the hand is held or lost.
+/// Builds the estimate of a frame: which segments are seen, their velocities, covariances and confidences. While the
+/// hand is held or lost, the estimate repeats the pose of the last tracked frame.
 class EstimateBuilder {
  public:
   EstimateBuilder(const TrackerContext& context, HandIds ids);
 
-  /// A new hand gets a new id.
+  /// A new track begins: the hand gets a new id.
   void start_track();
-  /// Continues with the context's new parameters.
+  /// Continues with the changed parameters of the context.
   void change();
-  /// No hand is known any more.
+  /// Forgets the last tracked pose.
   void reset() { last_tracked_.reset(); }
 
-  /// `chosen`: the pose of this frame, null: none. It counts only while tracking.
+  /// `chosen`: the pose of this frame; null: there is none. It is used only if `status` is tracking.
   HandEstimatePtr build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen,
                         const PersonModel& person, Decisions decisions);
 

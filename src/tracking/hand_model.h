@@ -9,18 +9,19 @@
 
 namespace barehand {
 
-/// One person's hand and the parts of the tracker that are made for it. Another hand is another model.
+/// One person's hand, and the parts of the tracker that are built for this hand. Another hand needs another model.
 struct HandModel {
-  /// `workers` outlives it; `observer` compares samples with the data, as it did for the model before; none: the CPU.
+  /// `observer` compares samples with the data and is passed on from model to model; null: the CPU does it. `workers`
+  /// must outlive the model.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers,
             std::shared_ptr<Observer> observer);
-  /// The same with a skin and a search that are there already; the search may be that of a similar hand.
+  /// The same with an existing skin and an existing initialiser, which may be that of a similar hand.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin,
             std::shared_ptr<Initialiser> initialiser, Workers& workers, std::shared_ptr<Observer> observer);
 
   std::shared_ptr<const HandProfile> profile;
   std::shared_ptr<const Skin> skin;
-  std::shared_ptr<const HandSurface> surface;  ///< of the local trackers
+  std::shared_ptr<const HandSurface> surface;  ///< skin points that the local trackers compare with the data
   SegmentTracker segment_tracker;
   Fusion fusion;
   Refinement refinement;

@@ -10,9 +10,10 @@
 namespace barehand {
 namespace {
 
-// Those of other people, then those of a depth unit that is wrong.
+// Sizes of the copies relative to the profile: four of other people's hands, then two that a wrong depth unit explains.
 constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
-constexpr double kNobody = 1.4;  // and its inverse: sizes that two grown-ups do not differ by
+// The hands of two adults never differ by this ratio.
+constexpr double kImpossibleRatio = 1.4;
 
 /// Scales a pose about the middle of the palm, whose position the data determines best.
 HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
@@ -31,7 +32,7 @@ void HandSizeVerifier::make_candidates() {
 }
 
 std::string other_size(double size, const HandProfile& profile) {
-  if (size > kNobody || size < 1 / kNobody)
+  if (size > kImpossibleRatio || size < 1 / kImpossibleRatio)
     return formatted(
         "the hand in the data is about %.1f times the profile's size: is depth_units_per_metre (depth_unit of a "
         "message) "
@@ -45,28 +46,29 @@ std::string other_size(double size, const HandProfile& profile) {
 
 std::optional<double> HandSizeVerifier::look(const HandObservation& observation, const HandPose& pose, double score) {
   // One copy per frame, in turn, since more would delay the frame.
-  if (looks_ >= kLooks) return std::nullopt;
+  if (compared_ >= kFramesCompared) return std::nullopt;
   if (candidates_.empty()) make_candidates();
-  const std::size_t turn = frames_++ % kEvery;
+  const std::size_t turn = frames_++ % kLookEvery;
   if (turn >= candidates_.size()) return std::nullopt;
-  Candidate& candidate = candidates_[turn];  // one a frame, or this frame would come late
+  Candidate& candidate = candidates_[turn];
   const HandPose start = scaled(*profile_, pose, candidate.size);
   const double other = candidate.refinement->refine(observation, start, start, kIterations).score;
 
+  // Count the copy's advantages. When every copy has been compared once more, decide.
   candidate.better += clearly_better(other, score);
   candidate.much_better += clearly_better(other, score, kFarBetter);
   candidate.sum += other;
   if (turn + 1 < candidates_.size()) return std::nullopt;
-  ++looks_;
+  ++compared_;
   return conclude();
 }
 
 std::optional<double> HandSizeVerifier::conclude() {
   const auto best = std::ranges::min_element(candidates_, {}, &Candidate::sum);
-  const bool at_once = looks_ == kFew && best->much_better == kFew;
-  if (looks_ < kLooks && !at_once) return std::nullopt;
-  const std::optional<double> size = at_once || best->better >= kMost ? std::optional(best->size) : std::nullopt;
-  looks_ = kLooks;
+  const bool at_once = compared_ == kFramesIfObvious && best->much_better == kFramesIfObvious;
+  if (compared_ < kFramesCompared && !at_once) return std::nullopt;
+  const std::optional<double> size = at_once || best->better >= kVotesNeeded ? std::optional(best->size) : std::nullopt;
+  compared_ = kFramesCompared;
   candidates_.clear();
   return size;
 }

@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Checks whether a profile that is not fitted has the size of the tracked hand: on a few frames it compares how well
-/// smaller and larger copies of the hand explain the data.
+/// Checks whether a profile that is not fitted to the person has the size of the tracked hand: in a few frames it
+/// compares how well smaller and larger copies of the hand explain the data.
 class HandSizeVerifier {
  public:
   /// `skin`: the one that was built for the profile. The copies are made at the first call of look(), since most
@@ -21,17 +21,21 @@ class HandSizeVerifier {
 
   /// Compares one of the copies, in turn, with the profile in a tracked frame. `pose`: the refined pose, which
   /// explains the frame with `score` [m]. After enough frames it returns, once, the size of the hand in view relative
-  /// to the profile, provided that another size explains most of these frames clearly better. A
-  /// few frames are enough if it explains all of them far better.
+  /// to the profile, provided that another size explains most of these frames clearly better. A few frames are enough
+  /// if it explains all of them far better.
   std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
-  static constexpr int kEvery = 7, kLooks = 10, kMost = 7, kFew = 3, kIterations = 10;
+  static constexpr int kLookEvery = 7;        // each copy is compared in every n-th tracked frame
+  static constexpr int kFramesCompared = 10;  // frames in which each copy is compared before the check concludes
+  static constexpr int kVotesNeeded = 7;      // of these frames, a copy must explain at least this many clearly better
+  static constexpr int kFramesIfObvious = 3;  // frames that suffice if a copy explains all of them far better
+  static constexpr int kIterations = 10;      // Gauss-Newton steps of one comparison
 
   struct Candidate {
-    double size;
+    double size;  // relative to the profile
     std::unique_ptr<Refinement> refinement;
-    int better = 0, much_better = 0;  // frames that it explains clearly better, and far better
+    int better = 0, much_better = 0;  // frames that this size explains clearly / far better than the profile's own size
     double sum = 0;                   // sum of its scores [m]
   };
   void make_candidates();
@@ -41,10 +45,11 @@ class HandSizeVerifier {
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
   std::vector<Candidate> candidates_;
-  int frames_ = 0, looks_ = 0;
+  int frames_ = 0;    // calls of look()
+  int compared_ = 0;  // frames in which each copy was compared
 };
 
-/// A message for the user: a hand of `size` times the profile's size is in view, and what to do about it.
+/// A message for the user: the hand in view has `size` times the profile's size, and what can be done about it.
 std::string other_size(double size, const HandProfile& profile);
 
 }  // namespace barehand

@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// An error if so many samples are asked for that their pairs do not fit into `available` bytes.
+/// Returns an error if the memory for all pairs of samples (belief propagation) exceeds `available` bytes.
 Result<void> check_memory(const TrackerParams& params, std::int64_t available);
 
 }  // namespace barehand

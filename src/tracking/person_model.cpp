@@ -17,7 +17,7 @@ void PersonModel::start_learning() {
   fit_.reset();
   size_verifier_.reset();
   size_in_view_ = 1;
-  said_size_ = false;
+  size_reported_ = false;
   const TrackerParams& params = context_.params;
   if (!given_->scanned_skin)
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
@@ -76,7 +76,7 @@ void PersonModel::check_size(const HandObservation& observation, const RefinedPo
 
 void PersonModel::doubt_size(double size) {
   size_in_view_ = size;
-  if (!std::exchange(said_size_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
+  if (!std::exchange(size_reported_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
 }
 
 void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {
@@ -101,7 +101,7 @@ void PersonModel::adopt_scan() {
                                          context_.workers, context_.observer);
     context_.log->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
     if (fit_ && scan_->of_hand_before()) expect_any_size();
-  } catch (const std::exception& e) {  // most likely memory: the hand as it is does, too
+  } catch (const std::exception& e) {  // most likely out of memory: tracking continues with the hand as it is
     context_.log->warn("the hand could not be scanned: {}", e.what());
   }
 }

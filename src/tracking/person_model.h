@@ -11,35 +11,36 @@
 
 namespace barehand {
 
-/// The hand that is tracked, and what is learnt of its person meanwhile: a mean hand is fitted to the bones, skin that
-/// was not scanned before is scanned, and the size of any other hand is checked. What is learnt counts from the next
-/// frame on.
+/// The model of the tracked hand, which learns the person while tracking: the bones of a mean hand are fitted, a skin
+/// that was not scanned before is scanned, and the size of any other profile is checked. What is learnt is used from
+/// the next frame on.
 class PersonModel {
  public:
-  /// `given`: the hand before anything is learnt.
+  /// `given`: the profile before anything is learnt. `context` must outlive this object.
   PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given);
 
   HandModel& hand() { return *model_; }
-  /// As learnt so far.
+  /// The profile as learnt so far.
   const HandProfile& profile() const { return *model_->profile; }
   const std::shared_ptr<const HandProfile>& shared_profile() const { return model_->profile; }
-  /// Size of the hand in view relative to its profile, as far as that is known; 1: nothing speaks against it.
+  /// Size of the hand in view relative to its profile; 1 unless another size was found.
   double size_in_view() const { return size_in_view_; }
 
-  /// The hand in view has `size` times the profile's size: reported once, and no pose is certain from now on.
+  /// The hand in view seems to have `size` times the profile's size. This is reported once, and estimates state a
+  /// larger uncertainty until the next track.
   void doubt_size(double size);
-  /// A track begins; it may be another person's.
+  /// A track begins, possibly of another person.
   void start_track();
-  /// Learns from a tracked frame. `good`: it is explained well enough to learn from.
+  /// Learns from a tracked frame. `good`: the frame is explained well enough to learn the bones and the skin from it.
   void learn(const HandObservation& observation, const RefinedPose& refined, bool good);
-  /// Takes a scan that has ended meanwhile.
+  /// If a scan has ended, continues with the scanned hand.
   void adopt_scan();
-  /// Forgets the person.
+  /// Forgets what was learnt of the person.
   void reset();
   /// Continues with another given hand, of which nothing is learnt yet.
   void use(std::shared_ptr<const HandProfile> given);
-  /// Continues with other parameters and another observer, which the context is to get next, with the person as
-  /// learnt so far. May throw; then nothing has changed.
+  /// Continues with other parameters and another observer, and keeps what was learnt of the person. Call before the
+  /// context gets them. May throw; then nothing has changed.
   void change(const TrackerParams& params, std::shared_ptr<Observer> observer);
 
  private:
@@ -52,11 +53,11 @@ class PersonModel {
   const TrackerContext& context_;
   std::shared_ptr<const HandProfile> given_;
   std::unique_ptr<HandModel> model_;
-  std::optional<PersonFit> fit_;                   // if the given hand is a mean hand
-  std::unique_ptr<PersonScan> scan_;               // if its skin was not scanned before
-  std::optional<HandSizeVerifier> size_verifier_;  // of a hand that is not fitted, or no longer
+  std::optional<PersonFit> fit_;                   // only if the given profile is a mean hand
+  std::unique_ptr<PersonScan> scan_;               // only if the skin of the given profile was not scanned
+  std::optional<HandSizeVerifier> size_verifier_;  // only while the profile is not being fitted
   double size_in_view_ = 1;
-  bool said_size_ = false;
+  bool size_reported_ = false;
 };
 
 }  // namespace barehand

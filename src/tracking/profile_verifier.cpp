@@ -10,29 +10,34 @@
 namespace barehand {
 namespace {
 
-constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};  // a search compensates a tenth by itself
-// Failed searches between two tries of another size. What stays in view without being found is most likely no hand, so
-// tries become rare.
+// Sizes of the copies, relative to the profile, that are tried when nothing is found. A deviation of a tenth needs no
+// copy, since a search with the profile itself still finds the hand.
+constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};
+// Number of failed searches per try of another size: kOften for the first kOftenUntil failures, then kSeldom, since
+// what stays in view without being found is most likely no hand.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 
-// The size that detected joints show deviates by 4 % from frame to frame, and people differ little in proportions. What
-// deviates by more than kOtherSize (logarithm) is verified, which costs a search: the first kVerified times, then
-// seldom.
-constexpr double kAnySize = 0.4, kOtherSize = 0.1, kSameSize = 0.2;
-constexpr int kSizeLooks = 10, kVerified = 3, kVerifiedEvery = 30;
-// Far from the size of any hand, the networks see about two thirds of the deviation (of the logarithm).
+// The size that detected joints show varies by 4 % from frame to frame, and people differ little in proportions. All
+// sizes are logarithms of the ratio to the profile.
+constexpr double kAnySize = 0.4,  // standard deviation expected of the size of a hand in view
+    kOtherSize = 0.1,             // a size that deviates by more than this is verified, which costs a search
+    kSameSize = 0.2;              // a size within this range of the confirmed one counts as the confirmed one
+constexpr int kSizeLooks = 10,    // frames of a track whose detected joints are used
+    kVerified = 3,                // since the last confirmed size, the first few other sizes are all verified
+    kVerifiedEvery = 30;          // after these, only every n-th one is
+// The networks understate sizes far from those of real hands: beyond kFarSize (logarithm), the true deviation may be
+// kUnderstated times the one that the joints show.
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
-// Attempts for the mirrored profile if the profile's own score is not confident. A hand of the other side is found by
-// the first or second attempt in most cases; a hand of the own side must not be taken for one of the other by the luck
-// of many attempts.
+// Attempts for the mirrored profile if the profile's own score is not confident. Most hands of the other side are found
+// by the first or second attempt; with many attempts, the mirrored profile might fit a hand of the own side by chance.
 constexpr int kMirroredAttempts = 2;
 
 // A verification ends when one side has the advantage kVerificationAdvantage over at least kFewestFrames frames in
 // which both are tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is
 // searched in every kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
-// Searches in a row that must find the profile's own side after a verification found the other one.
+// Number of searches in a row that the own side must win after a verification found the other side.
 constexpr int kToConfirm = 3;
 
 }  // namespace
@@ -40,7 +45,7 @@ constexpr int kToConfirm = 3;
 ProfileVerifier::ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
                                  Workers& workers, std::shared_ptr<spdlog::logger> log)
     : params_(params), profile_(profile), seed_(seed), workers_(workers), log_(std::move(log)) {
-  // Of what is only tried: neither a skin nor a GPU is worth its start.
+  // The trackers of this check run for a few frames only, so scanning a skin or opening a GPU is not worth the time.
   params_.shape_fit.scans = 0;
   params_.segment_tracker.observer = "cpu";
 }
@@ -49,9 +54,9 @@ std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(const HandProfile& prof
   return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
 }
 
-void ProfileVerifier::say_side() {
-  if (said_side_) return;
-  said_side_ = true;
+void ProfileVerifier::report_other_side() {
+  if (side_reported_) return;
+  side_reported_ = true;
   const auto seen = to_string(mirrored_->view().profile->handedness);
   log_->warn("the data looks like a {} hand, but the profile is of a {} one: give --hand {}, or --hand both", seen,
              to_string(profile_.handedness), seen);
@@ -75,9 +80,9 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
   auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
 
-  // Once the other side was seen, the own side must win several searches in a row.
+  // After a verification found the other side, the own side must win several searches in a row.
   const bool worse = clearly_better(other_score, score);
-  if (worse) say_side();
+  if (worse) report_other_side();
   if (to_confirm_ > 0) to_confirm_ = clearly_better(score, other_score) ? to_confirm_ - 1 : kToConfirm;
   if (worse || to_confirm_ > 0) return true;
 
@@ -112,7 +117,7 @@ bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
   if (++verification.frames == kMostFrames || lost || other || same) verification_.reset();
   if (!other) return false;
   to_confirm_ = kToConfirm;
-  say_side();
+  report_other_side();
   return true;
 }
 
@@ -150,18 +155,18 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
 }
 
 void ProfileVerifier::nothing_found(const HandObservation& observation, double score) {
-  // A try costs a search, so it is made only now and then.
-  if (said_size_ || !observation.hand_present) return;
+  // A try costs a search, so only some failures lead to one.
+  if (size_reported_ || !observation.hand_present) return;
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
 
   // Search with a smaller or a larger copy.
   const double size = kSizes[tries_++ % kSizes.size()];
   const auto other = tracker_of(scaled(profile_, size))->search(observation, Effort::quick, 1);
-  const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // a larger hand misses by more
+  const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // scores grow with the size of the hand
   if (!other || other->score() > lost_score || !clearly_better(other->score(), score)) return;
   log_->warn("{}", other_size(size, profile_));
-  said_size_ = true;
+  size_reported_ = true;
 }
 
 }  // namespace barehand

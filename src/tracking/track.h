@@ -11,7 +11,7 @@
 
 namespace barehand {
 
-/// What a tracker remembers of the hand that it follows or looks for.
+/// What a tracker remembers of the hand that it follows or searches.
 struct Track {
   explicit Track(const TrackerParams& params) : motion(params.prediction, params.icp), state(params.loss) {}
 
@@ -19,46 +19,48 @@ struct Track {
   TrackState state;
   BaselineScore baseline;
   std::optional<HandPose> last_good;  ///< T_camera_segment of the last frame that was explained well
-  int ambiguous_frames = 0;           ///< since the track began
-  int search_frames = 0;              ///< in which it was searched, since it was followed last
-  bool searched = false;              ///< whether it was in this frame
+  int ambiguous_frames = 0;           ///< number of ambiguous frames since the track began
+  int search_frames = 0;              ///< number of frames with a search since the hand was last followed well
+  bool searched = false;              ///< whether the present frame was searched
 
-  /// Whether a hand was followed until now, so that it is most likely near its last pose.
+  /// Whether a last pose of the hand is known, near which the hand most likely is.
   bool was_followed() const { return last_good || motion.has_pose(); }
   bool tentative() const { return state.phase() == TrackPhase::tentative; }
 
-  /// Whether a frame is explained worse than `factor` times the baseline, and not confidently either.
+  /// Whether a score [m] is worse than `factor` times the baseline, and not confident either.
   bool exceeds_baseline(double score, double factor, const ChoiceParams& choice) const {
     return score >= std::max(choice.search_convincing, factor * baseline.level());
   }
-  /// A hand that was lost a moment ago is known: what is explained so much worse is half of it, or something else.
+  /// Whether a pose of a lost hand scores so much worse than the baseline that it shows a part of the hand, or another
+  /// object.
   bool unlike_before(double score, const ChoiceParams& choice) const {
     return choice.unlike > 0 && state.status() == TrackStatus::lost && exceeds_baseline(score, choice.unlike, choice);
   }
-  /// Whether a pose of a lost hand needs the next frame's confirmation: half of a hand fits many poses a little.
-  /// `confirms`: it continues a tentative pose, and so confirms it.
+  /// Whether a pose of a lost hand must be confirmed by the next frame, since a half-visible hand fits many poses
+  /// roughly. `confirms`: the pose continues a tentative one, and so confirms it.
   bool needs_confirmation(double score, bool confirms, const ChoiceParams& choice) const {
     return choice.unsure > 0 && state.status() == TrackStatus::lost && !confirms &&
            score > choice.unsure * baseline.level() && !unlike_before(score, choice);
   }
-  /// Effort of the next search. Most are quick. After a track they are at first, too, as a full one would hold up its
-  /// next frames.
+  /// Effort of the next search: one of `full_search_every` searches is full. Directly after a loss, the first searches
+  /// are quick, since a full one would delay the next frames.
   Effort effort(int full_search_every) const {
     constexpr int kQuickFirst = 2;
     const int first_full = was_followed() ? std::min(kQuickFirst, full_search_every - 1) : 0;
     return search_frames % full_search_every == first_full ? Effort::full : Effort::quick;
   }
 
-  /// What a search is worth: a hand that was followed is near its last pose, a first start is worth several full ones.
+  /// Number of attempts of a search: one for a hand that was followed, since it is near its last pose, and up to
+  /// `search_attempts` for the first start of a track.
   int attempts(Effort effort, int search_attempts) const {
     return effort == Effort::full && !was_followed() ? search_attempts : 1;
   }
 
-  /// The pose of a frame that continues the track; fingers that are not seen follow their neighbours.
+  /// Continues the track with the pose of a frame; fingers that are not seen bend with their neighbours.
   void continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params);
-  /// Continues with other parameters: a hand that was followed is followed on.
+  /// Continues with other parameters; a hand that is tracked or held stays tracked.
   void change(const TrackerParams& params);
-  /// No hand is known any more.
+  /// Forgets the hand, so that it is searched from nothing.
   void forget();
 };
 

@@ -11,15 +11,15 @@
 
 namespace barehand {
 
-/// What the parts of one tracker share. The tracker owns it; a part reads it.
+/// What the parts of one tracker share. The tracker owns it, and its parts only read it.
 struct TrackerContext {
   TrackerParams params;
-  std::uint64_t seed;                   ///< of all random numbers, together with the number of the frame
-  Workers& workers;                     ///< outlives the tracker
-  std::shared_ptr<spdlog::logger> log;  ///< what a user should know
-  std::shared_ptr<Observer> observer;   ///< compares samples with the data; lasts while models change: it may be a GPU
+  std::uint64_t seed;                   ///< seeds all random numbers, together with the number of the frame
+  Workers& workers;                     ///< must outlive the tracker
+  std::shared_ptr<spdlog::logger> log;  ///< for messages to the user
+  std::shared_ptr<Observer> observer;   ///< compares samples with the data; kept from model to model, may be a GPU
 
-  /// What compares samples under other parameters: the same, unless what concerns it changes.
+  /// The observer for other parameters: the present one, unless they ask for another observer.
   std::shared_ptr<Observer> observer_for(const TrackerParams& other) const {
     if (same_observer(params.segment_tracker, other.segment_tracker)) return observer;
     return make_observer(other.segment_tracker, workers, log);

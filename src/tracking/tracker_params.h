@@ -15,7 +15,7 @@
 
 namespace barehand {
 
-/// How the pieces of the tracker play together, and the parameters of each.
+/// Parameters of the tracker as a whole, and those of each of its parts.
 struct TrackerParams {
   std::string skin = "blended";
   int skin_points = 100;
@@ -89,7 +89,7 @@ void visit(V& v, TrackerParams& p) {
   v("initialiser", p.initialiser, "search for start poses in one observation");
   v("shape_fit", p.shape_fit, "learning the hand of the person in view");
 
-  // One key serves every unit that needs the value.
+  // These have no keys of their own: they use those of other groups.
   p.initialiser.min_hand_pixels = p.loss.min_hand_pixels;
   p.refinement.energy.limit_widening_deg = p.fusion.limit_widening_deg;
 }

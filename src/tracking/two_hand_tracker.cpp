@@ -7,11 +7,11 @@
 namespace barehand {
 namespace {
 
-// A search takes longer than tracking. Beside a tracked hand, the other one is therefore searched only in every n-th
-// frame.
+// A search takes longer than tracking. While one hand is tracked, the other one is therefore searched only in every
+// n-th frame, unless it was detected.
 constexpr int kSearchEvery = 3;
 
-/// Distance of the palm from the middle of the observed hand [m].
+/// Distance of the palm from the centroid of the observed points [m]; kNowhere if no hand was observed.
 double distance(const HandPose& pose, const HandObservation& observation) {
   constexpr double kNowhere = 10;
   if (!observation.hand_present || observation.cloud.empty()) return kNowhere;
@@ -34,50 +34,49 @@ void TwoHandTracker::use(int k, std::shared_ptr<const HandProfile> profile) {
   else
     hands_[k] =
         std::make_unique<HandTracker>(params_, std::move(profile), seed_, workers_, log_, HandIds{k + 1, count()});
-  check_anew();
+  renew_verifiers();
 }
 
 void TwoHandTracker::change(const TrackerParams& params) {
   for (const auto& hand : hands_) hand->apply(UseParams{params});
   params_ = params;
-  check_anew();
+  renew_verifiers();
 }
 
-void TwoHandTracker::check_anew() {
+void TwoHandTracker::renew_verifiers() {
   verifiers_.clear();
-  for (const auto& hand : hands_)  // with two hands, the other side is tracked as well, so nothing is reported
+  for (const auto& hand : hands_)  // two hands: both sides are tracked, so a wrong side or size is not reported
     if (hand)
       verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, seed_, workers_,
                                                              count() == 1 ? log_ : make_silent_logger()));
 }
 
-HandEstimates TwoHandTracker::process(const HandObservations& in_order) {
+HandEstimates TwoHandTracker::process(const HandObservations& observations) {
   // With one hand there is nothing to distribute.
-  if (count() == 1) return {process_only(*in_order[0])};
+  if (count() == 1) return {process_single_hand(*observations[0])};
   ++frame_;
-  const HandObservations observations = by_hand(in_order);
+  const HandObservations ordered = by_hand(observations);
   HandEstimates out(hands_.size());
 
   // Track the hands that are being tracked, in parallel.
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
-    if (!searched(k, *observations[k])) tracked.push_back(k);
+    if (!searched(k, *ordered[k])) tracked.push_back(k);
   workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
     const int k = tracked[i];
-    out[k] =
-        verifiers_[k]->verifying() ? track_with_mirrored(k, *observations[k]) : hands_[k]->process(*observations[k]);
+    out[k] = verifiers_[k]->verifying() ? track_with_mirrored(k, *ordered[k]) : hands_[k]->process(*ordered[k]);
   });
 
-  // Search the others.
+  // End tracks that turn out to be of the other side, check the sizes, and search the other hands.
   for (const int k : tracked) {
-    judge_verification(k, *out[k]);
-    judge_size(k, *observations[k], *out[k]);
+    apply_verification(k, *out[k]);
+    check_tracked_size(k, *ordered[k], *out[k]);
   }
   if (tracked.empty())
-    search_both(observations, out);
+    search_both(ordered, out);
   else
     for (int k = 0; k < count(); ++k)
-      if (!out[k]) search_one(k, observations, out);
+      if (!out[k]) search_one(k, ordered, out);
   return out;
 }
 
@@ -90,9 +89,9 @@ HandEstimatePtr TwoHandTracker::track_with_mirrored(int k, const HandObservation
   return estimate;
 }
 
-/// A hand that was tracked alone may turn out to be of the other side. If the other side is tracked, too, it takes
-/// over from there.
-void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
+/// A hand that was tracked alone may turn out to be of the other side. If there is a tracker for the other side, it
+/// continues from the mirrored pose.
+void TwoHandTracker::apply_verification(int k, const HandEstimate& estimate) {
   HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
   ProfileVerifier& check = *verifiers_[k];
   if (other && other->view().status == TrackStatus::tracking) check.end_verification();
@@ -101,13 +100,13 @@ void TwoHandTracker::judge_verification(int k, const HandEstimate& estimate) {
   if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
-void TwoHandTracker::judge_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
+void TwoHandTracker::check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
   if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().doubts_size) return;
   const auto size = verifiers_[k]->other_size_in_view(observation, estimate.score);
   if (size) hands_[k]->apply(DoubtSize{*size});
 }
 
-bool TwoHandTracker::judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
+bool TwoHandTracker::check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
   if (!params_.size_check || !found) return false;
   verifiers_[k]->expect_any_size();
   const auto size = verifiers_[k]->other_size_in_view(observation, found->score());
@@ -117,16 +116,16 @@ bool TwoHandTracker::judge_size(int k, const HandObservation& observation, std::
   return true;
 }
 
-HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation) {
+HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& observation) {
   HandTracker& hand = *hands_[0];
   ProfileVerifier& check = *verifiers_[0];
 
-  // A track goes on; its verification may end it.
+  // Continue a track; its verification may end it.
   const TrackView before = hand.view();
   if (before.status != TrackStatus::searching || before.start_is_given) {
     HandEstimatePtr estimate = check.verifying() ? track_with_mirrored(0, observation) : hand.process(observation);
-    judge_verification(0, *estimate);
-    judge_size(0, observation, *estimate);
+    apply_verification(0, *estimate);
+    check_tracked_size(0, observation, *estimate);
     return estimate;
   }
 
@@ -134,10 +133,10 @@ HandEstimatePtr TwoHandTracker::process_only(const HandObservation& observation)
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
-  // Report a wrong size, or refuse a hand of the other side. A side that the detection sees needs no comparison with a
-  // mirrored hand, which has the wrong size, too.
+  // Report a wrong size, and reject a hand of the other side. If the size is wrong but the detection shows the
+  // profile's own side, the mirrored profile is not tried, since it has the wrong size, too.
   const double score = found ? found->score() : INFINITY;
-  const bool other_size = judge_size(0, observation, found);
+  const bool other_size = check_found_size(0, observation, found);
   if (score > params_.loss.lost_score) {
     if (!other_size && params_.size_check) check.nothing_found(observation, score);
   } else if (params_.side_check) {
@@ -159,7 +158,7 @@ HandObservations TwoHandTracker::by_hand(const HandObservations& observations) c
   return observations;
 }
 
-/// Whether the observation may belong to any hand, so that the k-th one is searched in it.
+/// A hand is searched if it has neither a track nor a given start, and the observation belongs to no tracked hand.
 bool TwoHandTracker::searched(int k, const HandObservation& observation) const {
   const TrackView track = hands_[k]->view();
   return !observation.followed && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
@@ -170,18 +169,18 @@ void TwoHandTracker::search_one(int k, const HandObservations& observations, Han
   const TrackView track = hands_[k]->view();
   if (observations[k]->detected || frame_ % kSearchEvery == 0)
     found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
-  judge_size(k, *observations[k], found);
+  check_found_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
 void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
-  // If one side finds no hand at all, that must not count more than a bad explanation.
+  // A side that finds no hand counts like one with a bad explanation, not worse.
   const double none = params_.loss.lost_score;
   const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->score(), none) : none; };
 
-  // Whether some side already explains the observation well enough.
+  // Whether one of the sides explains the observation well enough already.
   const auto confident = [&](int j) {
     return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.search_convincing;
   };
@@ -192,7 +191,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
-  // One attempt each, and more of them only where neither side is confident.
+  // Each side makes one attempt, and more only where neither side is confident.
   const auto look = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
@@ -201,7 +200,8 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     if (most > 1 && !confident(j)) look(j, most);
   }
 
-  // Each side owns the observation that it explains clearly better. Two observations are assigned together.
+  // Each side owns the observation that it explains clearly better than the other side does. Two observations are
+  // assigned together.
   std::array<int, 2> owned = {-1, -1};  // observation of each hand; -1: none
   if (observations[0]->hand_present && observations[1]->hand_present) {
     const double straight = score(0, 0) + score(1, 1), crossed = score(0, 1) + score(1, 0);
@@ -216,10 +216,10 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     }
   }
 
-  // Start the tracks. A single start is verified against the other side.
+  // Start the tracks. If only one hand starts, it is verified against the other side in the next frames.
   for (int k = 0; k < 2; ++k) {
     const int j = owned[k];
-    if (j >= 0) judge_size(k, *observations[j], found[k][j]);
+    if (j >= 0) check_found_size(k, *observations[j], found[k][j]);
     if (params_.side_check && j >= 0 && owned[1 - k] < 0)
       verifiers_[k]->begin_verification(*observations[j], std::move(found[1 - k][j]));
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)

@@ -11,10 +11,10 @@ namespace barehand {
 /// Tracks one hand, or the left and the right hand of a person, each with its own HandTracker.
 /// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no
 /// feedback yet, because the hands were found only a moment ago, each region is assigned to the nearer hand. (2) If
-/// both hands are searched, both sides look at every region, and the side that explains it clearly better owns it;
-/// otherwise it stays unassigned. (3) If only one hand is tracked, no track is started on a hand of the other side, and
-/// a track whose first frames show the other side is given up; both are reported in the log. The results are as
-/// deterministic as those of HandTracker.
+/// both hands are searched, both sides search every region, and the side that explains it clearly better owns it;
+/// otherwise it stays unassigned. (3) A track whose first frames show a hand of the other side is given up. If there is
+/// only one profile, no track is started on such a hand in the first place, and both cases are logged. The results are
+/// as deterministic as those of HandTracker.
 class TwoHandTracker {
  public:
   using Profiles = std::vector<std::shared_ptr<const HandProfile>>;
@@ -23,30 +23,31 @@ class TwoHandTracker {
   TwoHandTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
                  std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
-  /// Processes one frame: one observation per hand in, one estimate per hand out, in the order of the profiles.
-  HandEstimates process(const HandObservations& in_order);
+  /// Processes one frame. One observation per hand in; they are in the order of the profiles only if they follow
+  /// feedback (see by_hand). Estimates come out in the order of the profiles.
+  HandEstimates process(const HandObservations& observations);
   int count() const { return static_cast<int>(hands_.size()); }
   /// The tracker of the k-th hand.
   HandTracker& hand(int k) { return *hands_[k]; }
   /// Tracks another person's hand as the k-th one from the next frame on.
   void use(int k, std::shared_ptr<const HandProfile> profile);
-  /// Continues with other parameters; see HandTracker::change().
+  /// Continues with other parameters; see UseParams.
   void change(const TrackerParams& params);
 
  private:
-  // Creates the profile checks anew, which belong to the present profiles and parameters.
-  void check_anew();
-  // Tracks the k-th hand and, beside it, the mirrored one of its verification.
+  // Replaces the profile verifiers, which belong to the former profiles and parameters.
+  void renew_verifiers();
+  // Tracks the k-th hand and, in parallel, the mirrored hand of its verification.
   HandEstimatePtr track_with_mirrored(int k, const HandObservation& observation);
-  // Gives up a hand that its verification shows to be of the other side.
-  void judge_verification(int k, const HandEstimate& estimate);
-  // Doubts the size of a tracked hand if the detected joints show another one.
-  void judge_size(int k, const HandObservation& observation, const HandEstimate& estimate);
-  // The same for what a search found. Returns whether the size is doubted.
-  bool judge_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
+  // Gives up the k-th hand if its verification shows that it is of the other side.
+  void apply_verification(int k, const HandEstimate& estimate);
+  // Marks the size of a tracked hand as wrong if the detected joints indicate another size.
+  void check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate);
+  // The same for the pose that a search found. Returns whether another size was found.
+  bool check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
   // Processes a whole frame if there is only one hand.
-  HandEstimatePtr process_only(const HandObservation& observation);
-  // The observations in the order of the hands.
+  HandEstimatePtr process_single_hand(const HandObservation& observation);
+  // Returns the observations in the order of the hands.
   HandObservations by_hand(const HandObservations& observations) const;
   // Whether the k-th hand is searched in this observation instead of being tracked.
   bool searched(int k, const HandObservation& observation) const;

@@ -13,7 +13,7 @@ namespace {
 using Log = std::vector<double>;
 constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// Constant offsets cancel in Eq. 8, so the best state is set to 0, where single precision is finest.
+/// Shifts log values so that the best one is 0, where single precision is finest. Constant offsets cancel in Eq. 8.
 void relative_to_best(const Log& h, std::vector<float>& relative) {
   const double best = *std::max_element(h.begin(), h.end());
   relative.resize(h.size());
@@ -35,6 +35,7 @@ void normalise(Log& log_belief) {
 
 BeliefPropagation::BeliefPropagation(std::span<const int> parent)
     : parent_(parent.begin(), parent.end()), children_(parent.size()), up_(parent.size()), down_(parent.size()) {
+  // Sort the nodes by depth, and collect the children of each.
   std::vector<std::size_t> depth(parent.size(), 0);
   for (std::size_t i = 0; i < parent.size(); ++i) {
     assert((i == 0) == (parent[i] < 0) && parent[i] < static_cast<int>(i));
@@ -58,7 +59,7 @@ void BeliefPropagation::gather(const Input& input, int node, int without, bool w
 
 /// The message of Eq. 7 from a child to its parent.
 void BeliefPropagation::send_up(const Input& input, int node) {
-  // What the child knows without its parent.
+  // Gather the child's evidence without the message from its parent.
   Message& m = up_[node];
   const EdgeEnergy& e = input.energy[node];
   gather(input, node, -1, false, m.evidence);
@@ -92,7 +93,7 @@ void BeliefPropagation::send_up(const Input& input, int node) {
 
 /// The message of Eq. 7 from a parent to its child.
 void BeliefPropagation::send_down(const Input& input, int node) {
-  // What the parent knows without this child.
+  // Gather the parent's evidence without the message from this child.
   Message& m = down_[node];
   const EdgeEnergy& e = input.energy[node];
   gather(input, parent_[node], node, true, m.evidence);
@@ -130,7 +131,7 @@ void BeliefPropagation::run(std::span<const Log> log_phi, std::span<const EdgeEn
   for (std::size_t d = 1; d < layers_.size(); ++d)
     workers.for_each_index(static_cast<int>(layers_[d].size()), [&](int k) { send_down(input, layers_[d][k]); });
 
-  // Eq. 8.
+  // Combine them to the beliefs (Eq. 8).
   for (std::size_t i = 0; i < parent_.size(); ++i) {
     gather(input, static_cast<int>(i), -1, true, log_beliefs[i]);
     normalise(log_beliefs[i]);

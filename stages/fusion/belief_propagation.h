@@ -15,8 +15,8 @@ struct EdgeEnergy {
   const float* row(std::size_t child) const { return value.data() + child * parents; }
 };
 
-/// Sum-product yields the posterior marginals, max-product the max-marginals, whose best states form the most likely
-/// configuration.
+/// Which messages are passed: sum-product ones yield the posterior marginals, max-product ones the max-marginals, whose
+/// best states together form the most likely configuration.
 enum class Marginals { sum, max };
 
 /// Exact belief propagation on a tree (Eq. 7, 8), in the log domain to avoid underflow and overflow. An object keeps
@@ -49,7 +49,7 @@ class BeliefPropagation {
   void send_down(const Input& input, int node);
 
   std::vector<int> parent_;
-  /// layers: nodes of equal depth, which do not depend on each other
+  /// The children of each node, and the nodes of each depth, whose messages do not depend on each other.
   std::vector<std::vector<int>> children_, layers_;
   std::vector<Message> up_, down_;  ///< from node i to its parent, and from its parent to node i
 };

@@ -37,12 +37,15 @@ const Proposals& Fusion::first_proposals(const HandPose& predicted, double inter
 }
 
 const HandBelief& Fusion::fuse(const SegmentSamples& samples, int level) {
+  // Compute the energies of all pairs of samples at every joint (Eq. 4).
   const double sigma_prox = geometric(params_.sigma_prox_start, params_.sigma_prox_end, level, params_.levels);
   workers_.for_each_index(kSegmentCount - 1, [&](int i) {
     const int s = i + 1;
     frames_[s].reset(joints_[s], samples.poses[parent_of(s)]);
     joint_energy(joints_[s], sigma_prox, frames_[s], samples.poses[s], energy_[s]);
   });
+
+  // Propagate the beliefs over the tree (Eq. 7, 8).
   const Marginals marginals = params_.marginals == "max" ? Marginals::max : Marginals::sum;
   propagation_.run(samples.log_likelihood, energy_, marginals, workers_, belief_.log_belief);
   return belief_;
@@ -67,7 +70,7 @@ const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const Han
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {
   FusedPose fused;
 
-  // The pose.
+  // The pose: the mean of the best mode, or the best sample.
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& poses = samples.poses[s];
     const auto& log_belief = belief.log_belief[s];

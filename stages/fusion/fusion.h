@@ -28,10 +28,11 @@ class Fusion {
 
   const FusionParams& params() const { return params_; }
 
-  /// The proposals of level 0: one box per segment around the prediction. `interval_factor` scales all search ranges
-  /// of the frame: the time since the last frame relative to the nominal interval (2 after a dropped frame).
+  /// The proposals of level 0 (first, coarsest level): one box per segment around the prediction. `interval_factor`
+  /// scales all search ranges of the frame: the time since the last frame relative to the nominal interval (2 after a
+  /// dropped frame).
   const Proposals& first_proposals(const HandPose& predicted, double interval_factor = 1);
-  /// Marginal posterior of every segment over its samples, exact on the tree (Eq. 4-8). Levels count from 0.
+  /// Marginal posterior of every segment over its samples, exact on the tree (paper, Eq. 4-8). Levels count from 0.
   const HandBelief& fuse(const SegmentSamples& samples, int level);
   /// Memory that fuse() needs for this number of samples per segment: the energies of all pairs of samples at the 15
   /// joints [bytes].

@@ -4,7 +4,7 @@
 
 namespace barehand {
 
-/// Settings of the soft constraints, the message passing and the hierarchy of levels (paper Sec. 4.3, 4.4). "start"
+/// Parameters of the soft constraints, the message passing and the hierarchy of levels (paper Sec. 4.3, 4.4). "start"
 /// and "end" are the values at the first and the last level, with a geometric progression in between; the paper keeps
 /// its sigmas constant.
 struct FusionParams {

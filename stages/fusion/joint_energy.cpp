@@ -10,7 +10,7 @@ namespace {
 
 float inverse_square(double sigma) { return static_cast<float>(1 / (sigma * sigma)); }
 
-/// The part of an angle that lies outside mid +- half, measured the short way round the circle.
+/// The part of an angle that lies outside mid +- half; the difference from mid is wrapped to +-pi first.
 inline float beyond(float angle, float mid, float half) {
   constexpr float kTurn = 2 * std::numbers::pi_v<float>;
   const float off = angle - mid;
@@ -32,7 +32,7 @@ void energy_row(const JointModel& joint, float inv_prox_sq, const ParentFrames& 
   const float *a20 = parents.column(2, 0), *a21 = parents.column(2, 1), *a22 = parents.column(2, 2);
   const JointModel j = joint;
 
-  // One parent sample per lane.
+  // Each SIMD lane handles one parent sample.
   for (std::size_t p = 0; p < parents.size(); ++p) {
     const float dx = x[p] - o[0], dy = y[p] - o[1], dz = z[p] - o[2];
     const float prox = (dx * dx + dy * dy + dz * dz) * inv_prox_sq;
@@ -43,7 +43,7 @@ void energy_row(const JointModel& joint, float inv_prox_sq, const ParentFrames& 
     const float r11 = a10[p] * b1[0] + a11[p] * b1[1] + a12[p] * b1[2];
     const float r12 = a10[p] * b2[0] + a11[p] * b2[1] + a12[p] * b2[2];
 
-    // Angles beyond the limits, and twist.
+    // Flexion and abduction beyond their limits, and the twist, which should be 0.
     const float twist = fast_atan2(r10, std::sqrt(r00 * r00 + r20 * r20));
     const float abduction = beyond(fast_atan2(-r20, r00), j.abduction_mid, j.abduction_half);
     const float flexion = beyond(fast_atan2(r12, r11), j.flexion_mid, j.flexion_half);

@@ -42,6 +42,7 @@ const std::vector<std::size_t>& DistinctChoice::best(const std::vector<SE3>& pos
 }
 
 SE3 mode_mean(const std::vector<SE3>& poses, const std::vector<double>& log_belief, double radius, double angle) {
+  // Average the offsets of the nearby samples from the best one, weighted by their beliefs.
   const std::size_t best = std::max_element(log_belief.begin(), log_belief.end()) - log_belief.begin();
   Vector6d sum = Vector6d::Zero();
   double weights = 0;

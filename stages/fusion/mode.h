@@ -6,12 +6,12 @@
 
 namespace barehand {
 
-/// Selects samples that are good and differ from each other. An object keeps its buffers between calls but no other
+/// Selects samples of high belief that differ from each other. An object keeps its buffers between calls but no other
 /// state.
 class DistinctChoice {
  public:
-  /// Indices of at most `count` samples in the order of falling belief; of equal beliefs the lower index comes first.
-  /// A sample is left out if it lies within `separation` half widths of an earlier choice on every axis of that
+  /// Indices of at most `count` samples in the order of decreasing belief; of equal beliefs the lower index comes
+  /// first. A sample is left out if it lies within `separation` half widths of an earlier choice on every axis of that
   /// choice's frame. Valid until the next call.
   const std::vector<std::size_t>& best(const std::vector<SE3>& poses, const std::vector<double>& log_belief, int count,
                                        const Vector6d& half_width, double separation);

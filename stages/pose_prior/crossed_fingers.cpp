@@ -8,8 +8,10 @@
 namespace barehand {
 namespace {
 
-constexpr double kCrossed = 0.005;  // both joints of the last phalanx beyond the neighbour's by this [m]
+// Fingers cross if both ends of the last phalanx lie beyond those of the neighbour's by at least this [m].
+constexpr double kCrossed = 0.005;
 
+/// Distal end of phalanx `k` (0 to 2) of a finger in the palm frame [m].
 Eigen::Vector3d end_in_palm(const HandProfile& profile, const HandPose& pose, int finger, int k) {
   return pose[kPalm].inverse() * distal_end(profile, pose, segment_of(finger, k));
 }
@@ -23,8 +25,8 @@ bool crosses_next(const HandProfile& profile, const HandPose& pose, int finger) 
   });
 }
 
-/// Abduction that turns a finger to a point of the palm frame [rad]; little for a point that only a bent finger
-/// reaches.
+/// Abduction that turns a finger to a point of the palm frame [rad]. The point counts as at least one phalanx away
+/// along the finger, so that a point that only a bent finger reaches gives a small angle.
 double abduction_towards(const HandProfile& profile, int finger, const Eigen::Vector3d& p_palm) {
   const int root = segment_of(finger, 0);
   const Eigen::Vector3d p = profile.rest_relative(root).inverse() * p_palm;
@@ -38,13 +40,17 @@ std::optional<HandPose> uncrossed(const HandProfile& profile, const HandPose& po
   const auto limits = widened_limits(profile, widening);
   for (int finger = 1; finger + 1 < kFingerCount; ++finger) {
     if (!crosses_next(profile, pose, finger)) continue;
+
+    // Exchange the joint angles of the pair, and turn each finger to where the other one was.
     if (!changed) changed = articulated_from(profile, pose, limits);
     auto& angles = changed->angles;
     for (int k = 0; k < 3; ++k) std::swap(angles[segment_of(finger, k)], angles[segment_of(finger + 1, k)]);
     for (const auto& [f, other] : {std::pair(finger, finger + 1), std::pair(finger + 1, finger)})
       angles[segment_of(f, 0)].abduction = abduction_towards(profile, f, end_in_palm(profile, pose, other, 1));
-    ++finger;  // the next one has changed places
+    ++finger;  // the next finger has been exchanged, too
   }
+
+  // Pose the hand with these angles.
   if (!changed) return std::nullopt;
   clamp_angles(changed->angles, limits);
   return posed(profile, *changed);

@@ -6,9 +6,10 @@
 
 namespace barehand {
 
-/// A tracker that takes two neighbouring fingers for one another ends with fingers that cross, which hands hardly do:
-/// the pose in which such a pair lies side by side, each finger where the other one was. None where no fingers cross.
-/// Joints come out closed, angles within the profile's limits widened by `widening` [rad].
+/// Corrects fingers that cross. Hands seldom cross fingers, but a tracker that confuses two neighbouring ones does.
+/// Returns the pose in which such a pair lies side by side, each finger in the place of the other one; none if no
+/// fingers cross. In the returned pose the joints are closed, and all angles are within the profile's limits widened by
+/// `widening` [rad].
 std::optional<HandPose> uncrossed(const HandProfile& profile, const HandPose& pose, double widening);
 
 }  // namespace barehand

@@ -9,8 +9,8 @@ namespace {
 
 using Seen = std::array<bool, kSegmentCount>;
 
-/// Mean of `value(s)` over the segments of the rank of `segment` in the nearest fingers in which that one is seen; none
-/// for the thumb, which moves on its own.
+/// Mean of `value(s)` over the corresponding segments (the same phalanx as `segment`) of the nearest fingers in which
+/// that phalanx is seen; none if there are none, and for the thumb, which moves on its own.
 template <class Value>
 std::optional<double> of_nearest_seen(int segment, const Seen& seen, const Value& value) {
   const int finger = finger_of(segment), k = segment - segment_of(finger, 0);
@@ -54,18 +54,23 @@ HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, c
 
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
                                const Seen& seen, const std::array<double, kSegmentCount>& shown, double widening) {
-  constexpr double kMemory = 1.5;      // s, in which the difference from the neighbours falls to a third
-  constexpr double kSliver = 0.3;      // of a finger's segment: so little of it does not tell how a grasp closes
-  constexpr double kThumbShare = 0.5;  // of what its two joints bend
+  constexpr double kMemory = 1.5;  // time constant with which the difference from the neighbours decays [s]
+  constexpr double kSliver = 0.3;  // a segment with a smaller visible fraction does not show how a grasp closes
+  constexpr double kThumbShare =
+      0.5;  // bending of the fingers as a fraction of that of the thumb's two joints together
   const double forgotten = 1 - std::exp(-dt / kMemory);
   const auto limits = widened_limits(profile, widening);
   const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
   const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
+
+  // If only the thumb is seen, find how far the fingers bend with it.
   const int thumb_middle = segment_of(0, 1), thumb_tip = segment_of(0, 2);
   const bool only_thumb =
       seen[thumb_middle] && seen[thumb_tip] &&
       std::all_of(shown.begin() + segment_of(1, 0), shown.end(), [](double x) { return x < kSliver; });
   const double with_thumb = only_thumb ? kThumbShare * (bent(thumb_middle) + bent(thumb_tip)) : 0;
+
+  // Move the hidden joints from the palm to the tips.
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
     if (!hidden_to_its_tip(s, seen)) continue;

@@ -7,7 +7,7 @@ namespace barehand {
 
 namespace {
 
-/// Shortens the two halves of a velocity to the bounds.
+/// Limits the linear and the angular part of a velocity to their maximum norms.
 Vector6d bounded(Vector6d velocity, const PredictionParams& params) {
   const double speed = velocity.head<3>().norm(), angular = velocity.tail<3>().norm();
   if (speed > params.max_speed) velocity.head<3>() *= params.max_speed / speed;
@@ -37,10 +37,13 @@ void MotionModel::restart(const HandPose& pose, std::int64_t utime) {
 
 void MotionModel::update(const HandPose& pose, const std::array<bool, kSegmentCount>& seen,
                          const Prediction& prediction) {
+  // The global motion of this frame: that of ICP or, without it, that of the palm. Otherwise the whole motion would
+  // count as relative motion and be applied twice.
   const double dt = prediction.dt;
   const bool usable = has_pose_ && dt > 0 && dt <= params_.max_interval;
-  // Without ICP the palm stands for the hand; else the whole motion would count as relative and be applied twice.
   const SE3 global = prediction.icp.reliable ? prediction.icp.motion : SE3(pose[kPalm] * pose_[kPalm].inverse());
+
+  // The velocities of the segments relative to it, and its own.
   const HandPose carried = moved(usable ? global : SE3{}, pose_);
   for (int s = 0; s < kSegmentCount; ++s) {
     const Vector6d measured =
@@ -49,6 +52,7 @@ void MotionModel::update(const HandPose& pose, const std::array<bool, kSegmentCo
   }
   if (usable) global_velocity_ = boxminus(carried[kPalm], pose_[kPalm]) / dt;
   if (!usable) global_velocity_.setZero();
+
   pose_ = pose;
   seen_ = seen;
   utime_ = prediction.utime;
@@ -64,13 +68,17 @@ HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, 
   HandPose pose = carried;
   std::array<Vector6d, kSegmentCount> velocity;
   for (int s = 0; s < kSegmentCount; ++s) {
-    velocity[s].head<3>() = motion.R * velocity_[s].head<3>();  // turns with the hand
+    // The velocities turn with the hand.
+    velocity[s].head<3>() = motion.R * velocity_[s].head<3>();
     velocity[s].tail<3>() = motion.R * velocity_[s].tail<3>();
+
+    // A seen segment moves with its own velocity.
     if (s == kPalm || seen_[s]) {
       pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity[s]);
       continue;
     }
-    // What is not seen keeps its joint angles and goes with its parent, which may be seen to move.
+
+    // An unseen segment keeps its joint angles, apart from a damped bending, and moves with its parent.
     const int parent = parent_of(s);
     pose[s] = pose[parent] * (carried[parent].inverse() * carried[s]);
     const Eigen::Vector3d bending = velocity[s].tail<3>() - velocity[parent].tail<3>();
@@ -84,18 +92,23 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   Prediction result;
   result.utime = observation.frame->utime;
   result.dt = std::abs(static_cast<double>(observation.frame->utime - utime_) * 1e-6);
+
+  // With few points, hold the last pose.
   const StartPose held{"held", pose_};
   cloud_.reset(observation);
   if (static_cast<int>(cloud_.size()) < icp_params_.min_points) {
     result.candidates = {held};
     return result;
   }
+
+  // Find the global motion by ICP, which starts from the last motion.
   const bool recent = result.dt > 0 && result.dt <= params_.max_interval;
   const double ahead = recent && params_.velocity ? result.dt : 0;
   const SE3 last_motion = boxplus(pose_[kPalm], ahead * global_velocity_) * pose_[kPalm].inverse();
   const auto model = visible_points_.of(surface, pose_, observation.frame->camera, icp_params_.model_points);
   result.icp = align_rigid(model, cloud_, last_motion, motion_bound(icp_params_, result.dt), icp_params_);
 
+  // The candidates: the motion of ICP or the last one, with and without the segments' own velocities.
   const HandPose carried = moved(last_motion, pose_);
   const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};
   if (result.icp.reliable) {

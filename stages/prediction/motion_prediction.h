@@ -11,9 +11,9 @@
 
 namespace barehand {
 
-/// Transition between frames (paper Sec. 4.4): ICP for the global motion, constant velocity for every segment
-/// relative to it. Deviation: segments that were not seen hold relative to the global motion at sensor rate, where
-/// their velocity is noise that feeds itself.
+/// Transition between frames (paper Sec. 4.4): ICP for the global motion, and a constant velocity of every segment
+/// relative to it. Deviation from the paper: at sensor rate, unseen segments keep their pose relative to the global
+/// motion, since their velocity would be noise that amplifies itself.
 struct PredictionParams {
   bool velocity = true;
   double damping = 0.7;
@@ -41,21 +41,23 @@ void visit(V& v, PredictionParams& p) {
   v("max_interval", p.max_interval, 1e-3, 60.0, "s, after a longer gap between frames velocities are discarded");
 }
 
-/// A pose the next frame may start from. The tracker lets candidates compete by their global score.
+/// A pose from which refinement of the next frame may start. The tracker chooses between these candidates by their
+/// global score.
 struct StartPose {
   std::string name;  ///< held, icp, icp_velocity, velocity
   HandPose pose;
 };
 
+/// The start poses of one frame, and the global motion that led to them.
 struct Prediction {
-  FrameVector<StartPose> candidates;  ///< [0] is the primary one, the centre of the level 0 proposals
+  FrameVector<StartPose> candidates;  ///< [0] is the primary one, the centre of the proposals of level 0
   IcpResult icp;
-  std::int64_t utime = 0;  ///< of the observation [us]
-  double dt = 0;           ///< [s] since the last pose
+  std::int64_t utime = 0;  ///< time stamp of the observation [us]
+  double dt = 0;           ///< time since the last pose [s]
   const HandPose& primary() const { return candidates.front().pose; }
 };
 
-/// What is carried from frame to frame: the last pose and the motion that led to it.
+/// The motion model of a hand: the last pose and the velocities that led to it. It predicts the next frame's poses.
 class MotionModel {
  public:
   MotionModel(const PredictionParams& params, const IcpParams& icp_params) : params_(params), icp_params_(icp_params) {}
@@ -64,14 +66,15 @@ class MotionModel {
   const HandPose& pose() const { return pose_; }
   std::int64_t utime() const { return utime_; }
 
-  /// Starts anew from a pose without velocity. `utime` [us] of the observation it belongs to.
+  /// Starts again from a pose without velocity. `utime`: time stamp of the observation that it belongs to [us].
   void restart(const HandPose& pose, std::int64_t utime);
-  /// Records the estimate of a frame whose prediction was `prediction`. `seen`: estimated from data.
+  /// Records the estimate of a frame whose prediction was `prediction`. `seen`: segments that were estimated from data.
   void update(const HandPose& pose, const std::array<bool, kSegmentCount>& seen, const Prediction& prediction);
   void forget() { has_pose_ = false; }
 
-  /// Candidates for an observation. Needs has_pose(). With few hand points the pose is held: one candidate `held`.
-  /// Equal stamps are a standstill; a recording played backwards has falling stamps and moves all the same.
+  /// Candidates for an observation; call only if has_pose(). With few hand points, the only candidate is the last pose
+  /// (`held`). Equal time stamps mean that nothing moved. Decreasing time stamps, as of a recording played backwards,
+  /// are treated like increasing ones.
   Prediction predict(const HandObservation& observation, const HandSurface& surface);
 
  private:
@@ -84,13 +87,13 @@ class MotionModel {
   std::int64_t utime_ = 0;
   HandPose pose_;
   std::array<bool, kSegmentCount> seen_{};
-  std::array<Vector6d, kSegmentCount> velocity_{};  // per second, relative to the global motion; camera frame
-  Vector6d global_velocity_ = Vector6d::Zero();     // of the palm's frame under the global motion, per second
+  std::array<Vector6d, kSegmentCount> velocity_{};  // twist of each segment relative to the global motion [per second]
+  Vector6d global_velocity_ = Vector6d::Zero();     // twist of the palm under the global motion [per second]
   ObservedCloud cloud_;
   VisiblePoints visible_points_;
 };
 
-/// The pose moved rigidly: every segment by `motion` (camera frame).
+/// Moves the whole pose rigidly by `motion` (camera frame).
 HandPose moved(const SE3& motion, const HandPose& pose);
 
 }  // namespace barehand

@@ -84,7 +84,7 @@ void HandMask::find_supported(const Image<float>& depth) {
   }
 }
 
-void HandMask::judge_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected) {
+void HandMask::classify_by_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected) {
   for (std::size_t i = 0; i < depth.size(); ++i)
     evidence_[i] = depth[i] <= 0 ? Evidence::none : (supported_[i] ? Evidence::hand : Evidence::other);
   if (!detected) return;
@@ -99,7 +99,7 @@ void HandMask::judge_depth(const Image<float>& depth, const Region& region, cons
     }
 }
 
-void HandMask::judge_colour(const Image<float>& depth) {
+void HandMask::classify_by_colour(const Image<float>& depth) {
   constexpr auto kNone = static_cast<std::int32_t>(Evidence::none), kHand = static_cast<std::int32_t>(Evidence::hand),
                  kOther = static_cast<std::int32_t>(Evidence::other), kOpen = static_cast<std::int32_t>(Evidence::open);
   const float least_skin = static_cast<float>(params_.skin_odds), most_other = -static_cast<float>(params_.other_odds);
@@ -141,11 +141,11 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
   if (grid.coloured) {
     colour_evidence(frame, skin, region);
     count_.compute(edge, params_.skew_px, edges_);
-    judge_colour(depth);
+    classify_by_colour(depth);
     const float fx = static_cast<float>(frame.camera.fx);
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
   } else {
-    judge_depth(depth, region, hand.detected);
+    classify_by_depth(depth, region, hand.detected);
   }
   mask.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {

@@ -31,8 +31,8 @@ class HandMask {
   void support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
   void find_supported(const Image<float>& depth);
-  void judge_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected);
-  void judge_colour(const Image<float>& depth);
+  void classify_by_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected);
+  void classify_by_colour(const Image<float>& depth);
 
   PreprocessParams params_;
   PixelRays rays_;

@@ -22,13 +22,14 @@ constexpr int kThumbJoints = 5, kFingerJoints = 4;
 /// with the fingers up, a positive turn about +y moves a finger to the left, where a right hand has its thumb.
 double towards_thumb(const HandProfile& profile) { return side_sign(profile.handedness); }
 
-/// Direction of the proximal phalanx in the plane of the palm, positive towards the thumb.
+/// Direction of the proximal phalanx in the plane of the palm [rad], positive towards the thumb.
 double azimuth(const HandProfile& profile, int finger, const JointAngles& angles) {
   const Eigen::Vector3d rest = -profile.rest_relative(segment_of(finger, 0)).R.col(2);
   return towards_thumb(profile) * (std::atan2(-rest.x(), -rest.z()) + angles.abduction);
 }
 
-/// The thumb's metacarpal in spherical coordinates about the palm's long axis.
+/// The direction of the thumb's metacarpal [rad]: its rotation about the palm's long axis, and its angle to the index
+/// finger's metacarpal.
 struct ThumbDirection {
   double rotate, abduction;
 };
@@ -42,11 +43,14 @@ ThumbDirection thumb_direction(const HandProfile& profile, const HandPose& pose)
 }  // namespace
 
 GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
+  // All joint angles; channels that are not filled below cannot be observed.
   std::array<JointAngles, kSegmentCount> angle;
   for (int s = 0; s < kSegmentCount; ++s) angle[s] = joint_angles(profile, pose, s);
   const double side = towards_thumb(profile);
   GloveAngles glove;
   glove.channel.fill(std::numeric_limits<double>::quiet_NaN());
+
+  // The joints, finger by finger.
   auto joint = glove.joint.begin();
   for (int finger = 0; finger < kFingerCount; ++finger) {
     const JointAngles& a = angle[segment_of(finger, 0)];
@@ -57,6 +61,8 @@ GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
     if (finger == kThumb) *joint++ = side * b.abduction;
     *joint++ = angle[segment_of(finger, 2)].flexion;
   }
+
+  // The channels: the thumb, then the flexions of each finger and its abduction from the finger before.
   const ThumbDirection thumb = thumb_direction(profile, pose);
   auto channel = glove.channel.begin();
   *channel++ = thumb.rotate;
@@ -84,14 +90,19 @@ GloveSegments segments_of_joint(int joint) {
 }
 
 GloveSegments segments_of_channel(int channel) {
+  // The channels after the last finger (palm arch, wrist) are not observed.
   constexpr int kThumbChannels = 4, kIndexChannels = 3, kPalmArch = 19;
   if (channel >= kPalmArch) return {};
+
+  // The thumb's and the index finger's channels.
   if (channel == 0 || channel == 3) return {kPalm, segment_of(kThumb, 0)};
   if (channel < kThumbChannels) return {segment_of(kThumb, channel - 1), segment_of(kThumb, channel)};
   if (channel < kThumbChannels + kIndexChannels) {
     const int segment = segment_of(kIndex, channel - kThumbChannels);
     return {parent_of(segment), segment};
   }
+
+  // Each other finger has three flexions and an abduction.
   const int finger = kIndex + 1 + (channel - kThumbChannels - kIndexChannels) / 4;
   const int place = (channel - kThumbChannels - kIndexChannels) % 4;
   if (place == 3) return {segment_of(finger - 1, 0), segment_of(finger, 0)};

@@ -10,20 +10,20 @@ namespace barehand {
 inline constexpr int kGloveJointCount = 21;
 inline constexpr int kGloveChannelCount = 22;
 
-/// glove_state_t's joint names, in its order.
+/// The joint names of glove_state_t, in its order.
 extern const std::array<std::string_view, kGloveJointCount> kGloveJointNames;
 
-/// Everything a glove would measure [rad]; NaN where it cannot be observed.
+/// The angles that a data glove would measure [rad]; NaN where they cannot be observed.
 struct GloveAngles {
   std::array<double, kGloveJointCount> joint;
   std::array<double, kGloveChannelCount> channel;  ///< CyberGlove order
 };
 
-/// Joint angles against the profile's rest pose; between neighbouring fingers, the angle of their proximal phalanges
-/// in the plane of the palm. See lcmtypes/glove_state_t.lcm for the meaning of every value.
+/// Joint angles relative to the profile's rest pose and, between neighbouring fingers, the angle of their proximal
+/// phalanges in the plane of the palm. See lcmtypes/glove_state_t.lcm for the meaning of every value.
 GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose);
 
-/// The two segments a value depends on; -1: none (it cannot be observed).
+/// The two segments that a value depends on; -1: none, the value cannot be observed.
 struct GloveSegments {
   int a = -1, b = -1;
 };

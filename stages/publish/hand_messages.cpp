@@ -34,7 +34,7 @@ void copy(const Eigen::Vector3d& v, double (&out)[3]) {
   for (int i = 0; i < 3; ++i) out[i] = v[i];
 }
 
-/// (w, x, y, z) with w >= 0: of the two quaternions of a rotation always the same one.
+/// Writes a rotation as the quaternion (w, x, y, z) with w >= 0, which makes it unique.
 void copy(const Eigen::Matrix3d& R, double (&out)[4]) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
   const double sign = q.w() < 0 ? -1 : 1;

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// `utime` [us] is the time of the report, `source` FrameSource::name().
+/// The pipeline's health as a message. `utime`: the time of the report [us]. `source`: FrameSource::name().
 health_t health_message(const PipelineHealth& health, std::int64_t utime, const std::string& source);
 
 }  // namespace barehand

@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-/// Weight of the new value in a first-order low pass.
+/// Weight of the new value in a first-order low pass. `cutoff` [Hz], `dt` [s].
 double weight(double cutoff, double dt) {
   const double tau = 1 / (2 * std::numbers::pi * cutoff);
   return 1 / (1 + tau / dt);

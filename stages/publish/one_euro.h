@@ -4,8 +4,8 @@
 
 namespace barehand {
 
-/// The One-Euro filter (Casiez, Roussel & Vogel, CHI 2012): a low pass whose cut-off rises with speed, so that a hand
-/// at rest does not tremble and a fast one does not lag.
+/// Parameters of the One-Euro filter (Casiez, Roussel & Vogel, CHI 2012): a low pass whose cut-off frequency rises with
+/// speed, so that a resting hand does not jitter and a fast one does not lag.
 struct OneEuroParams {
   bool enabled = true;
   double min_cutoff = 3.0;
@@ -23,10 +23,10 @@ void visit(V& v, OneEuroParams& p) {
   v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off frequency of the low pass on the speed");
 }
 
-/// One filtered rigid motion; translation and rotation have a cut-off each.
+/// Filters one rigid transform; translation and rotation have separate cut-off frequencies.
 class OneEuroPose {
  public:
-  /// `dt` > 0: seconds since the last call; the first call after a reset returns `raw`.
+  /// Filters the next value. `dt`: seconds since the last call, > 0. The first call after a reset returns `raw`.
   SE3 filter(const SE3& raw, double dt, const OneEuroParams& params);
   void reset() { started_ = false; }
 

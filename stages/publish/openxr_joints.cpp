@@ -6,9 +6,10 @@ namespace barehand {
 namespace {
 
 constexpr int kThumb = 0, kMiddle = 2;
-/// Mean metacarpal lengths of index to little finger [mm] and the part of the way from the wrist joint to the middle
-/// knuckle that the middle metacarpal takes; the rest are the carpal bones.
+/// Mean lengths of the metacarpals from the thumb (not used here) to the little finger [mm].
 constexpr std::array<double, kFingerCount> kMetacarpal_mm = {46.2, 68.1, 64.6, 58.0, 53.7};
+/// Length of the middle metacarpal as a fraction of the distance from the wrist joint to the middle knuckle; the carpal
+/// bones are the rest.
 constexpr double kMetacarpalPart = 0.63;
 
 /// The knuckle of a finger in the palm's frame.
@@ -27,7 +28,7 @@ SE3 metacarpal(const HandProfile& profile, int finger) {
   return T_palm_joint;
 }
 
-/// Half the palm's thickness at a point on its frame's -z axis.
+/// Half the palm's thickness [m] at a point on its -z axis, `distance` [m] from the wrist.
 double palm_radius(const SegmentProfile& palm, double distance) {
   const double t = std::clamp(distance / palm.length, 0.0, 1.0);
   return (1 - t) * palm.half_thickness[0] + t * palm.half_thickness[1];
@@ -42,11 +43,14 @@ std::array<OpenXrJoint, kOpenXrJointCount> openxr_joints(const HandProfile& prof
   };
   std::array<OpenXrJoint, kOpenXrJointCount> joints;
   auto next = joints.begin();
-  // The palm's centre is the middle of the middle finger's metacarpal.
+
+  // The palm's centre, which is the middle of the middle finger's metacarpal, and the wrist.
   SE3 centre = metacarpal(profile, kMiddle);
   centre.t = (centre.t + knuckle(profile, kMiddle)) / 2;
   *next++ = in_palm(centre);
   *next++ = in_palm(SE3());
+
+  // The fingers, each from the metacarpal to the tip.
   for (int finger = 0; finger < kFingerCount; ++finger) {
     if (finger != kThumb) *next++ = in_palm(metacarpal(profile, finger));
     for (int k = 0; k < 3; ++k) {

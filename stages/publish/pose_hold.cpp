@@ -5,6 +5,7 @@
 namespace barehand {
 namespace {
 
+/// The state of a segment that has been held for `seconds`.
 SegmentState held(SegmentState state, double seconds, const PublishParams& params) {
   const double position = params.hold_growth * seconds, rotation = params.hold_growth_rotation * seconds;
   state.covariance.diagonal().head<3>().array() += position * position;
@@ -23,12 +24,14 @@ PublishedTrack PoseHold::update(const HandEstimate& estimate, const PublishParam
     last_.reset();
     return {};
   }
-  // A pose that a tracker holds from the start (it was given one) is held from then on.
+
+  // A tracked pose becomes the last one. So does a pose that was given to the tracker and never tracked.
   if (estimate.status == TrackStatus::tracking || (estimate.status == TrackStatus::holding && !last_)) {
     last_ = {TrackStatus::tracking, true, estimate.utime, estimate.segments};
   }
   if (estimate.status == TrackStatus::tracking) return *last_;
 
+  // Without data, hold the last pose until it is too old.
   PublishedTrack track;
   track.status = TrackStatus::lost;
   if (!last_) return track;

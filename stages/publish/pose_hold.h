@@ -9,16 +9,17 @@
 
 namespace barehand {
 
-/// What may be said of a hand in one frame.
+/// The state of a hand in one frame as it is published.
 struct PublishedTrack {
   TrackStatus status = TrackStatus::searching;
-  bool has_pose = false;  ///< tracking or holding
-  std::int64_t pose_utime = 0;
+  bool has_pose = false;                             ///< whether the hand is tracked or held
+  std::int64_t pose_utime = 0;                       ///< time stamp of the frame in which the pose was tracked [us]
   std::array<SegmentState, kSegmentCount> segments;  ///< meaningless without a pose
 };
 
-/// Keeps the promise to consumers: a hand that is not seen any more is held at its last pose with growing covariance
-/// for a limited time, then it is lost and has no pose. A search that starts anew forgets the pose at once.
+/// Guarantees consumers of the messages the following: a hand that is not seen any more is held at its last pose with
+/// growing covariance for a limited time; then it is lost and has no pose. If the tracker forgets the hand (status
+/// searching), the pose is dropped at once.
 class PoseHold {
  public:
   PublishedTrack update(const HandEstimate& estimate, const PublishParams& params);

@@ -10,12 +10,15 @@ void PoseSmoother::reset() {
 }
 
 HandPose PoseSmoother::smooth(const HandPose& raw, std::int64_t utime, const OneEuroParams& params) {
-  constexpr double kLongestGap = 1.0;
-  const double dt = std::abs(1e-6 * static_cast<double>(utime - utime_));  // replay may run backwards
+  // Start again after a gap.
+  constexpr double kLongestGap = 1.0;                                      // [s]
+  const double dt = std::abs(1e-6 * static_cast<double>(utime - utime_));  // a replay may run backwards
   if (!params.enabled || (started_ && (dt == 0 || dt > kLongestGap))) reset();
   if (!params.enabled) return raw;
   started_ = true;
   utime_ = utime;
+
+  // Filter the palm, and the other segments relative to their parents.
   HandPose smoothed;
   smoothed[kPalm] = filters_[kPalm].filter(raw[kPalm], dt, params);
   for (int s = 1; s < kSegmentCount; ++s) {

@@ -8,11 +8,12 @@
 
 namespace barehand {
 
-/// Smooths a hand pose: the palm in the camera, every other segment relative to its parent. Joints that are closed in
-/// the raw pose stay closed, which sixteen filters in camera coordinates would not keep.
+/// Smooths a hand pose: the palm in the camera frame, every other segment relative to its parent. Joints that are
+/// closed in the raw pose therefore stay closed, which sixteen filters in the camera frame would not achieve.
 class PoseSmoother {
  public:
-  /// Starts anew after a gap of more than a second and where time does not move.
+  /// Returns the smoothed pose. The filter starts again after a gap of more than a second, and if the time stamp did
+  /// not change.
   HandPose smooth(const HandPose& raw, std::int64_t utime, const OneEuroParams& params);
   void reset();
 

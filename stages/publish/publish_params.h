@@ -4,9 +4,10 @@
 
 namespace barehand {
 
+/// Parameters of the published messages: smoothing, and how uncertainty grows while a pose is held.
 struct PublishParams {
   OneEuroParams smoothing;
-  double hold_time = 0.5;  ///< s the last pose of a lost hand is held; the key is tracker.loss.hold_time
+  double hold_time = 0.5;  ///< how long the last pose of a lost hand is held [s]; the key is tracker.loss.hold_time
   double hold_growth = 0.1;
   double hold_growth_rotation = 1.0;
   bool operator==(const PublishParams&) const = default;

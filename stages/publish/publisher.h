@@ -9,11 +9,11 @@
 
 namespace barehand {
 
-/// Sends messages on `<prefix>`HAND_STATE, GLOVE_STATE, HAND_JOINTS and HEALTH to every sink it was given (a bus, a
-/// log, both). Sinks outlive it.
+/// Sends messages to every sink (a bus, a log, or both), on the channels HAND_STATE, GLOVE_STATE, HAND_JOINTS and
+/// HEALTH with the prefix in front. The sinks must outlive this object.
 class Publisher {
  public:
-  /// A prefix that makes a channel name longer than 63 bytes is an error.
+  /// Errors: with this prefix, a channel name would be too long for LCM (63 bytes).
   static Result<Publisher> create(std::string prefix, std::vector<MessageSink*> sinks);
 
   /// Every sink gets the messages even if another fails; the first error is returned.

@@ -11,13 +11,14 @@
 
 namespace barehand {
 
-/// The observer that `params.observer` asks for; the CPU where that is not to be had, with a warning if it was asked
-/// for by name. `workers` outlives it; `clock` measures which one is faster.
+/// Makes the observer that `params.observer` asks for. If its device cannot be opened, the CPU compares the samples; a
+/// device that was asked for by name is then reported with a warning. `clock` measures whether the device is faster
+/// than the CPU. `workers` must outlive the observer.
 std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
                                         std::shared_ptr<spdlog::logger> log,
                                         std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>());
 
-/// Whether both ask for the same observer: opening a device takes long, and so does measuring it.
+/// Whether both ask for the same observer, so that it can be kept: opening and measuring a device takes long.
 bool same_observer(const SegmentTrackerParams& a, const SegmentTrackerParams& b);
 
 }  // namespace barehand

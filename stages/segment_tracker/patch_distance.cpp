@@ -9,7 +9,7 @@
 namespace barehand {
 namespace {
 
-constexpr float kNearest = 0.01f;  // m; no depth sensor sees anything closer than this
+constexpr float kNearest = 0.01f;  // points closer than this are ignored, since no depth sensor sees them [m]
 constexpr int kBlock = 64;         // points per block: their intermediate results fit into the first-level cache
 
 /// Intermediate results for a block of skin points.
@@ -80,7 +80,7 @@ inline void project(const SegmentSurface& skin, int begin, int n, const View& vi
   }
 }
 
-/// Copies whole cells with one load each; gathering their four members lane by lane would take four.
+/// Copies the cells of the block's pixels. One load per cell is faster than gathering its four members separately.
 inline void look_up(const PixelMap& map, int n, Block& block) {
   const PixelMap::Cell* cells = map.cells.data();
   const std::int32_t* hidden = map.hidden.data();

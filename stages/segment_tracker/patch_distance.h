@@ -5,8 +5,8 @@
 
 namespace barehand {
 
-/// Compares one sample `T_camera_segment` of a segment with the data (Eq. 1). `cap` [m] bounds the distance of a
-/// single pixel; infinity leaves Eq. 1 as it is. The result has single precision; the order of the sums is fixed for a
+/// Compares one sample `T_camera_segment` of a segment with the data (paper, Eq. 1). `cap` [m] limits the distance of a
+/// single pixel; infinity leaves Eq. 1 as it is. The result has single precision; the order of summation is fixed for a
 /// given instruction set.
 PatchDistance patch_distance(const SegmentSurface& skin, const SE3& T_camera_segment, int segment, const PixelMap& map,
                              float cap);

@@ -13,14 +13,16 @@
 
 namespace barehand {
 
-/// Data of one frame that all levels share: the pixel map, with the pixels that are hidden at the prediction.
+/// Data of one frame that all levels share: the pixel map, in which the pixels are marked where the hand hides its own
+/// segments at the predicted pose.
 struct PreparedObservation {
   PixelMap map;
-  std::uint64_t id = 0;                            ///< of the map, unique within the tracker
+  std::uint64_t id = 0;                            ///< id of the map, unique within the tracker
   std::array<double, kSegmentCount> unoccluded{};  ///< alpha of Eq. 3 at the predicted pose
 };
 
-/// The 16 local trackers of Sec. 4. Each draws samples for its own segment and evaluates them on the data around it.
+/// The 16 local trackers (paper Sec. 4). Each draws samples for its own segment and evaluates them on the data around
+/// it.
 /// Results depend on the arguments only, not on earlier calls or the number of workers. A returned reference is valid
 /// until the same function is called again, because its memory is reused.
 class SegmentTracker {
@@ -39,7 +41,7 @@ class SegmentTracker {
   /// which alpha is 0.
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key,
                                int count);
-  /// S of them.
+  /// The same with S samples per segment (parameter `samples`).
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) {
     return sample(prepared, proposals, key, params_.samples);
   }

@@ -4,7 +4,8 @@
 
 namespace barehand {
 
-/// Local trackers: how many samples, how they are compared with the data, what counts as hidden (paper Sec. 4.1, 4.2).
+/// Parameters of the local trackers: how many samples are drawn, how they are compared with the data, and what counts
+/// as hidden (paper Sec. 4.1, 4.2).
 struct SegmentTrackerParams {
   int samples = 40;
   int samples_on_device = 0;

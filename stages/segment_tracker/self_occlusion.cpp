@@ -10,7 +10,7 @@ namespace {
 
 using ImagePoint = PredictedPatch::ImagePoint;
 constexpr float kFar = std::numeric_limits<float>::max();
-constexpr float kNearest = 0.01f;  // [m]
+constexpr float kNearest = 0.01f;  // points closer than this are ignored, since no depth sensor sees them [m]
 
 /// Projects the skin points that face the camera into pixels of the map.
 void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map, std::vector<ImagePoint>& points) {
@@ -44,7 +44,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   project_front(skin, T, map, points);
   if (points.empty()) return;
 
-  // Its bounding box in the image.
+  // Find its bounding box in the image.
   float u_lo = kFar, v_lo = kFar, u_hi = -kFar, v_hi = -kFar, z_lo = kFar;
   for (const ImagePoint& p : points) {
     u_lo = std::min(u_lo, p.u);
@@ -54,7 +54,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     z_lo = std::min(z_lo, p.z);
   }
 
-  // The grid: it covers the margin, and its cells are finer than the spacing of the points.
+  // Lay out the grid: it includes the margin, and its cells are finer than the spacing of the points.
   const float scale = map.fx / z_lo, border = static_cast<float>(margin) * scale;
   const float skin_area = std::accumulate(skin.area.begin(), skin.area.end(), 0.0f);
   const float spacing = std::sqrt(skin_area / static_cast<float>(skin.size())) * scale;
@@ -70,7 +70,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   z.assign(static_cast<std::size_t>(columns) * rows, kFar);
   gap_sq.assign(z.size(), kFar);
 
-  // Every cell gets the depth of the nearest skin point.
+  // Give every cell the depth of the nearest skin point.
   const float centre = (cell - 1) / 2.0f, side = static_cast<float>(cell);
   for (int row = 0; row < rows; ++row) {
     float* row_gap = gap_sq.data() + static_cast<std::size_t>(row) * columns;
@@ -79,7 +79,6 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     for (const ImagePoint& p : points) {
       const float dv_sq = (v - p.v) * (v - p.v);
       for (int column = 0; column < columns; ++column) {
-        // Keep the nearest skin point of the cell.
         const float du = u0 + centre + static_cast<float>(column) * side - p.u;
         const float d = du * du + dv_sq;
         const bool nearer = d < row_gap[column];
@@ -90,8 +89,8 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   }
 }
 
-/// The rule of Sec. 4.2: skin data is substantially closer to the camera than the prediction. Data of other objects is
-/// treated per sample.
+/// The rule of the paper (Sec. 4.2): a segment is hidden where hand pixels are substantially closer to the camera than
+/// its prediction. Occlusion by other objects is decided per sample, in patch_distance().
 void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
   for (int s = 0; s < kSegmentCount; ++s)
     for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
@@ -100,14 +99,17 @@ void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
     });
 }
 
-/// The other rule: the predicted skin of another segment is in front, found with a depth buffer of the whole predicted
-/// hand.
+/// The other rule: a segment is hidden where the predicted skin of another segment is in front of it. A depth buffer of
+/// the whole predicted hand shows this.
 void SelfOcclusion::label_by_model(float threshold, PixelMap& map) {
+  // Render the depth buffer.
   front_.assign(map.cells.size(), kFar);
   for (const PredictedPatch& patch : patches_)
     for_each_pixel(patch, map, [&](std::size_t pixel, std::size_t cell) {
       if (patch.gap_sq[cell] <= patch.outline_sq) front_[pixel] = std::min(front_[pixel], patch.z[cell]);
     });
+
+  // Compare each segment with it.
   for (int s = 0; s < kSegmentCount; ++s)
     for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
       if (front_[pixel] < patches_[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;

@@ -9,21 +9,21 @@
 
 namespace barehand {
 
-/// The predicted depth of one segment's skin on a coarse grid around it. Beyond the outline the depth of the nearest
-/// skin point is used, so that samples that leave the outline find a value, too. The buffers are kept between calls.
+/// The predicted depth of one segment's skin on a coarse grid around it. Beyond the outline, a cell has the depth of
+/// the nearest skin point, so that samples outside the outline find a value, too. The buffers are kept between calls.
 struct PredictedPatch {
   struct ImagePoint {
     float u, v, z;
   };
   std::vector<ImagePoint> points;  ///< skin points that face the camera; u, v in pixels of the map, z [m]
-  int u0 = 0, v0 = 0;              ///< corner of the first cell, in pixels of the map
+  int u0 = 0, v0 = 0;              ///< pixel of the map at the corner of the first cell
   int cell = 1;                    ///< side of a cell [pixel], smaller than the spacing of the skin points
   int columns = 0, rows = 0;       ///< 0: the segment is outside the region of interest
   float outline_sq = 0;            ///< cells closer to a skin point than this lie within the outline [pixel^2]
   std::vector<float> z;            ///< depth [m]
   std::vector<float> gap_sq;       ///< squared distance to the nearest skin point [pixel^2]
 
-  /// Computes the grid for a predicted pose; `margin` [m] around the segment is covered, too.
+  /// Computes the grid for a predicted pose. The grid includes a margin of `margin` [m] around the segment.
   void predict(const SegmentSurface& skin, const SE3& T_camera_segment, const PixelMap& map, double margin);
 };
 
@@ -40,7 +40,7 @@ class SelfOcclusion {
   void label_by_model(float threshold, PixelMap& map);
 
   std::array<PredictedPatch, kSegmentCount> patches_;
-  std::vector<float> front_;  ///< nearest predicted skin at each pixel of the map [m]
+  std::vector<float> front_;  ///< depth of the nearest predicted skin at each pixel of the map [m]
 };
 
 }  // namespace barehand

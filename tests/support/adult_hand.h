@@ -10,17 +10,18 @@
 
 namespace barehand::test {
 
-/// The shipped default hand of either side.
+/// The shipped adult hand; a left hand is its mirror image.
 inline std::shared_ptr<const HandProfile> adult_hand(Handedness side = Handedness::right) {
   const Result<HandProfile> right = load_profile(BAREHAND_CONFIGS "/hands/adult_right.json");
   EXPECT_TRUE(right) << right.error().message();
   return std::make_shared<const HandProfile>(side == Handedness::right ? *right : mirrored(*right));
 }
 
-/// Fingers up, palm towards a camera at `distance` [m], every finger joint flexed by `flexion` [rad].
+/// A pose with the fingers up and the palm towards a camera at `distance` [m]. Every joint of the fingers, except the
+/// thumb's, is flexed by `flexion` [rad].
 inline HandPose facing_pose(const HandProfile& profile, double distance, double flexion = 0.15) {
   SE3 T_camera_palm;
-  // Hand -z (fingers) is up (camera -y), hand +y (back of the hand) looks away from the camera (+z).
+  // Hand -z (fingers) is camera -y (up), and hand +y (back of the hand) is camera +z (away from the camera).
   T_camera_palm.R << 1, 0, 0, 0, 0, 1, 0, 1, 0;
   if (T_camera_palm.R.determinant() < 0) T_camera_palm.R.col(0) *= -1;
   T_camera_palm.t = {0, 0.08, distance};
@@ -30,7 +31,7 @@ inline HandPose facing_pose(const HandProfile& profile, double distance, double 
   return forward_kinematics(profile, T_camera_palm, angles);
 }
 
-/// A pose turned about a point, by a rotation vector in the camera frame [rad].
+/// The pose turned about the point `centre` [m] by a rotation vector [rad], both in the camera frame.
 inline HandPose turned(HandPose pose, const Eigen::Vector3d& rotation, const Eigen::Vector3d& centre) {
   const Eigen::Matrix3d R = exp_so3(rotation);
   for (SE3& T : pose) T = {R * T.R, centre + R * (T.t - centre)};

@@ -7,13 +7,13 @@
 
 namespace barehand {
 
-/// What a run of the `barehand` command left behind.
+/// The result of a run of the `barehand` command.
 struct Outcome {
   int exit_code;
   std::string output;  ///< standard output and error
 };
 
-/// Runs the program that was built with the tests (BAREHAND_PROGRAM) to its end.
+/// Runs the program that was built with the tests (BAREHAND_PROGRAM), and waits for its end.
 inline Outcome barehand(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), BAREHAND_PROGRAM);
   ChildProcess child(std::move(arguments));
@@ -21,7 +21,7 @@ inline Outcome barehand(std::vector<std::string> arguments) {
   return {exit_code, child.output()};
 }
 
-/// Runs a script of bash that knows $B, the program, and $D, `folder`.
+/// Runs a bash script in which $B is the program and $D is `folder`.
 inline Outcome script(const std::string& folder, const std::string& text) {
   ChildProcess child({"bash", "-c", "B=" BAREHAND_PROGRAM " D=" + folder + "; " + text});
   const int exit_code = child.finish();

@@ -13,10 +13,12 @@
 
 namespace barehand {
 
-/// A program that runs beside the test as a daemon would: no terminal, its standard output and error in one pipe.
+/// A program that runs while the test runs, as a daemon would: without a terminal, with its standard output and error
+/// in one pipe.
 class ChildProcess {
  public:
   explicit ChildProcess(std::vector<std::string> arguments) {
+    // Connect its output to a pipe.
     int pipe_ends[2];
     if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
     posix_spawn_file_actions_t actions;
@@ -24,7 +26,8 @@ class ChildProcess {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
-    // Whoever runs the tests may have been started to ignore some of these.
+
+    // Reset the signals' handlers: the tests may run in a shell that ignores some of these signals.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t usual;
@@ -32,6 +35,8 @@ class ChildProcess {
     for (const int number : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) sigaddset(&usual, number);
     posix_spawnattr_setsigdefault(&attributes, &usual);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+
+    // Start the program.
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
@@ -52,17 +57,17 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Reads until the output so far contains `text`; false if the output ends without it.
+  /// Reads until the output so far contains `text`. Returns false if the output ends without it.
   bool wait_for(const std::string& text) {
     while (output_.find(text) == std::string::npos)
       if (!read_some()) return false;
     return true;
   }
-  /// Reads on; false at the end of the output.
+  /// Waits for more output and reads it. Returns false at the end of the output.
   bool wait_for_more() { return read_some(); }
   pid_t pid() const { return pid_; }
   void signal(int number) { kill(pid_, number); }
-  /// Waits for the end. Exit code, or 128 + the signal that ended it.
+  /// Waits for the program's end. Returns its exit code, or 128 + the signal that ended it.
   int finish() {
     while (read_some()) {
     }
@@ -74,7 +79,7 @@ class ChildProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
   const std::string& output() const { return output_; }
-  /// After finish(): most memory that was in RAM at once [bytes].
+  /// After finish(): the program's peak memory in RAM [bytes].
   long peak_memory() const { return peak_memory_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace barehand::test {
 
-/// A user for whom permissions count, which they do not for root.
+/// While it exists, the process runs as an ordinary user if it was root, for whom file permissions have no effect.
 class OrdinaryUser {
  public:
   OrdinaryUser() {

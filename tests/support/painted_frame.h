@@ -7,7 +7,7 @@
 
 namespace barehand::test {
 
-/// What an ideal camera with colour sees of a posed skin 1 m before a grey wall.
+/// The frame of an ideal colour and depth camera that sees a posed skin before a grey wall, which is 1 m away.
 inline std::shared_ptr<RgbdFrame> paint_frame(const Skin& skin, const HandPose& pose, const Intrinsics& camera) {
   constexpr double kWall = 1.0;  // [m]
   auto frame = std::make_shared<RgbdFrame>();

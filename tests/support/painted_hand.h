@@ -11,7 +11,7 @@ namespace barehand::test {
 
 inline Intrinsics small_camera() { return {320, 240, 262.0, 262.0, 159.5, 119.5}; }
 
-/// Of every pixel the nearest one that is marked, by 0 or more; -1: none is.
+/// For every pixel, the index of the nearest marked pixel (value 0 or more); -1: no pixel is marked.
 inline Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
   NearestCell nearest;
   nearest.index(marked);
@@ -21,14 +21,18 @@ inline Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
   return result;
 }
 
-/// What an ideal camera sees of a posed skin before a wall at `wall` [m]; the whole image is the region of interest.
-/// Unit tests of single stages use it; accuracy is only ever measured on hands that the tracker does not know.
+/// The observation of an ideal camera that sees a posed skin before a wall at `wall` [m]; the whole image is the region
+/// of interest. Use it for unit tests of single stages only: accuracy is measured on hands that the tracker does not
+/// know.
 inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const HandPose& pose, double wall = 1.2) {
+  // Render the skin.
   const Intrinsics camera = small_camera();
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = camera;
   RenderedHand rendered;
   render_hand(skin, pose, camera, {0, 0, 1, camera.width, camera.height}, rendered);
+
+  // Fill in the observation: the wall, then the hand's pixels.
   auto observation = std::make_shared<HandObservation>();
   observation->frame = frame;
   observation->hand_present = true;
@@ -48,7 +52,7 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
   return observation;
 }
 
-/// The same observation at another time.
+/// The same observation with another time stamp.
 inline std::shared_ptr<HandObservation> stamped(const HandObservation& observation, std::int64_t utime) {
   auto frame = observation.frame ? std::make_shared<RgbdFrame>(*observation.frame) : std::make_shared<RgbdFrame>();
   frame->utime = utime;

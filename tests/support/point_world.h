@@ -11,11 +11,11 @@
 
 namespace barehand::test {
 
-/// Small camera that sees a hand at 0.4 m with 1.7 mm per pixel.
+/// A small camera. At 0.4 m, where the hands are, a pixel is 1.7 mm wide.
 inline Intrinsics small_camera() { return {320, 240, 240, 240, 159.5, 119.5}; }
 
-/// A hand drawn by dense points of its skin before a wall at 0.9 m; every pixel labelled without error. It comes out of
-/// a sleeve, which counts as background.
+/// A hand that is drawn by dense points of its skin before a wall at 0.9 m. Every pixel is labelled without error. The
+/// hand comes out of a sleeve, which counts as background.
 class PointWorld {
  public:
   enum class Arm { none, sleeve };
@@ -37,7 +37,8 @@ class PointWorld {
     return observation;
   }
 
-  /// Covers the columns from `u_begin` on with an object at `z`, and takes the hidden hand points away.
+  /// Covers the columns from `u_begin` on with an object at the depth `z` [m], and removes the hand points that it
+  /// hides.
   static void occlude(HandObservation& observation, int u_begin, float z) {
     for (int v = 0; v < observation.depth.height(); ++v) {
       for (int u = u_begin; u < observation.depth.width(); ++u) {
@@ -50,6 +51,7 @@ class PointWorld {
   }
 
  private:
+  // Draws a point of the camera frame unless something nearer is in its pixel.
   static void draw_point(const Eigen::Vector3d& p, PixelLabel label, HandObservation& o) {
     const Eigen::Vector2d uv = o.frame->camera.project(p).array().round();
     const int u = static_cast<int>(uv.x()), v = static_cast<int>(uv.y());
@@ -81,6 +83,7 @@ class PointWorld {
     return o.label.contains(u, v) && o.label.at(u, v) == PixelLabel::hand;
   }
 
+  // Collects the hand's pixels and a part of their points, and computes normals away from the hand's outline.
   static void finish(HandObservation& o) {
     o.normal.reset(o.depth.width(), o.depth.height(), Eigen::Vector3f::Zero());
     for (int v = 0; v < o.depth.height(); ++v) {
@@ -99,7 +102,7 @@ class PointWorld {
   Arm arm_;
 };
 
-/// Mean distance of the segments' distal ends [m].
+/// Mean distance between the segments' distal ends in two poses [m].
 inline double mean_error(const HandProfile& profile, const HandPose& a, const HandPose& b) {
   double sum = 0;
   for (int s = 0; s < kSegmentCount; ++s) sum += (distal_end(profile, a, s) - distal_end(profile, b, s)).norm();

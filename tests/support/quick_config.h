@@ -8,15 +8,15 @@
 
 namespace barehand::test {
 
-/// `text` with `after` in place of `before`, which must be there.
+/// `text` with its first `before` replaced by `after`. Throws if `text` does not contain `before`.
 inline std::string replaced(std::string text, const std::string& before, const std::string& after) {
   const auto at = text.find(before);
   if (at == std::string::npos) throw std::logic_error("nowhere: " + before);
   return text.replace(at, before.size(), after);
 }
 
-/// The default configuration, complete, with full searches cut down to quick ones: for tests that are about something
-/// else than how a hand is found, which takes minutes under a sanitizer.
+/// The complete default configuration, but with quick instead of full searches, which take minutes under a sanitizer.
+/// For tests that do not test how a hand is found.
 inline std::string quick_config() {
   Config config;
   config.tracker.search_attempts = 1;

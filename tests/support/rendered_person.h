@@ -10,7 +10,8 @@
 
 namespace barehand::test {
 
-/// A depth image of a person in front of a wall: a box for a body, a capsule for the forearm, and a hand. Metres.
+/// A depth image of a person in front of a wall: a box for the body, a capsule for the forearm, and a hand. Lengths are
+/// in metres, positions in the camera frame.
 class RenderedPerson {
  public:
   explicit RenderedPerson(const Intrinsics& camera, double wall = 1.6) : camera_(camera) {
@@ -18,7 +19,7 @@ class RenderedPerson {
     is_hand_.reset(camera.width, camera.height, 0);
   }
 
-  /// An upright box that faces the camera, its middle at (x, y, z).
+  /// Adds the front of an upright box that faces the camera, with its middle at (x, y, z).
   RenderedPerson& box(double x, double y, double z, double width, double height) {
     for (int v = 0; v < camera_.height; ++v)
       for (int u = 0; u < camera_.width; ++u) {
@@ -28,13 +29,14 @@ class RenderedPerson {
     return *this;
   }
 
+  /// Adds a capsule between the points `a` and `b`.
   RenderedPerson& capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) {
     for (int v = 0; v < camera_.height; ++v)
       for (int u = 0; u < camera_.width; ++u) put(u, v, capsule_depth(camera_, u, v, a, b, radius), false);
     return *this;
   }
 
-  /// The hand, and a forearm from its wrist to an elbow.
+  /// Adds a hand, and a forearm from its wrist to an elbow.
   RenderedPerson& hand(const HandProfile& profile, const HandPose& pose, const Eigen::Vector3d& elbow) {
     capsule(pose[kPalm].t + 0.02 * (elbow - pose[kPalm].t).normalized(), elbow, 0.028);
     RenderedHand rendered;
@@ -68,7 +70,7 @@ class RenderedPerson {
 
 inline Intrinsics vga_camera() { return {640, 480, 525, 525, 319.5, 239.5}; }
 
-/// Where the joints of a pose are, in the order of the landmarks.
+/// The landmarks of a pose in the camera frame [m].
 inline std::array<Eigen::Vector3d, kLandmarkCount> landmarks(const HandProfile& profile, const HandPose& pose) {
   std::array<Eigen::Vector3d, kLandmarkCount> points;
   points[kWristLandmark] = pose[kPalm].t;

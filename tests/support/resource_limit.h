@@ -6,7 +6,7 @@
 
 namespace barehand::test {
 
-/// Another limit of this process while it lives, such as RLIMIT_NOFILE.
+/// Lowers a resource limit of this process, such as RLIMIT_NOFILE, as long as this object exists.
 class ResourceLimit {
  public:
   ResourceLimit(decltype(RLIMIT_FSIZE) resource, rlim_t most) : resource_(resource) {
@@ -23,7 +23,8 @@ class ResourceLimit {
   rlimit before_{};
 };
 
-/// Lets no file grow past `bytes` while it lives, as a full disk would: a write may succeed in part.
+/// Prevents files from growing beyond `bytes` as long as this object exists. As on a full disk, a write may succeed in
+/// part.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)), limit_(RLIMIT_FSIZE, bytes) {}

@@ -10,17 +10,18 @@
 
 namespace barehand {
 
-/// A small image of half-millimetre-scale pixels around the optical axis.
+/// A camera with a small image around the optical axis. At 0.4 m, a pixel is 0.8 mm wide.
 inline Intrinsics small_camera(int width = 96, int height = 96) {
   return {width, height, 525, 525, (width - 1) / 2.0, (height - 1) / 2.0};
 }
 
+/// Depth and label of one pixel.
 struct ScenePixel {
-  float depth = 0;  ///< [m], 0: none
+  float depth = 0;  ///< [m]; 0: no depth
   PixelLabel label = PixelLabel::background;
 };
 
-/// Index of the nearest hand pixel by search in growing squares; -1: none.
+/// Index of the nearest hand pixel, found by a search in growing squares; -1: there is none.
 inline std::int32_t nearest_in(const Image<PixelLabel>& label, int u, int v) {
   std::int32_t nearest = -1;
   int best = std::numeric_limits<int>::max();
@@ -35,7 +36,8 @@ inline std::int32_t nearest_in(const Image<PixelLabel>& label, int u, int v) {
   return nearest;
 }
 
-/// Whole-image region of interest from a function of (u, v); exact nearest hand pixels.
+/// Makes an observation whose region of interest is the whole image, from a function that gives the pixel at (u, v).
+/// The nearest hand pixels are exact.
 inline HandObservation make_observation(const Intrinsics& camera, const std::function<ScenePixel(int, int)>& scene) {
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = camera;
@@ -57,7 +59,8 @@ inline HandObservation make_observation(const Intrinsics& camera, const std::fun
   return o;
 }
 
-/// Depth along the ray of pixel (u, v) to a capsule between a and b (camera frame), by sphere tracing; 0: missed.
+/// Depth z at pixel (u, v) of a capsule between a and b (camera frame), found by sphere tracing [m]; 0: the ray misses
+/// the capsule.
 inline float capsule_depth(const Intrinsics& camera, int u, int v, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                            double radius) {
   const Eigen::Vector3d ray = camera.unproject(u, v, 1).normalized();
@@ -72,7 +75,7 @@ inline float capsule_depth(const Intrinsics& camera, int u, int v, const Eigen::
   return 0;
 }
 
-/// Every segment a 30 mm bone of 8 mm radius: what the rendered capsules are.
+/// A profile whose segments all are capsules like the rendered one: bones of 30 mm with a radius of 8 mm.
 inline HandProfile capsule_profile() {
   HandProfile profile;
   for (SegmentProfile& s : profile.segments) {
@@ -83,7 +86,7 @@ inline HandProfile capsule_profile() {
   return profile;
 }
 
-/// A bone across the view, pointing up in the image, its back towards the camera.
+/// T_camera_segment of a bone at the depth `z` [m] that points up in the image, with its back towards the camera.
 inline SE3 upright_pose(double z = 0.4) {
   SE3 T;
   T.R.col(0) = Eigen::Vector3d(1, 0, 0);
@@ -93,7 +96,7 @@ inline SE3 upright_pose(double z = 0.4) {
   return T;
 }
 
-/// The capsule of one segment in front of an empty background at 1 m.
+/// The pixel at (u, v) of a scene with one segment's capsule at upright_pose(), before a background at 1 m.
 inline ScenePixel upright_capsule(const Intrinsics& camera, int u, int v) {
   const SE3 T = upright_pose();
   const float z = capsule_depth(camera, u, v, T.t, T * Eigen::Vector3d(0, 0, -0.03), 0.008);

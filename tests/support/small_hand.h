@@ -4,7 +4,8 @@
 
 namespace barehand::test {
 
-/// A simple right hand with round numbers: the fingers lie side by side along -z, and the joints flex and abduct.
+/// A simple right hand with round numbers: the fingers lie side by side, roughly along -z. The root joints flex and
+/// abduct, the others only flex.
 inline HandProfile small_hand() {
   HandProfile profile;
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -12,12 +12,12 @@
 
 namespace barehand::test {
 
-/// A fresh folder for one test, removed at its end.
+/// A new, empty folder for one test; it is removed with this object.
 class TempFolder {
  public:
   TempFolder() {
     std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::replace(name.begin(), name.end(), '/', '_');  // of parameterised tests
+    std::replace(name.begin(), name.end(), '/', '_');  // names of parameterised tests contain slashes
     std::string pattern = (std::filesystem::temp_directory_path() / (name + "_XXXXXX")).string();
     if (!mkdtemp(pattern.data())) ADD_FAILURE() << pattern << " cannot be made";
     path_ = pattern;

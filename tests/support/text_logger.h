@@ -8,7 +8,7 @@
 
 namespace barehand::test {
 
-/// Writes its lines to `text`, which outlives it.
+/// A logger that writes its lines to `text`, which must outlive it.
 inline std::shared_ptr<spdlog::logger> text_logger(std::ostream& text) {
   return std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text));
 }

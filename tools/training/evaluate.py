@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How good networks are on scenes and people that took no part in the training.
+"""Measures how good networks are on scenes and people that were not part of the training.
 
   evaluate.py FOLDER           measures full.onnx and crop.onnx of a folder with OpenCV (Debian package python3-opencv)
 """
@@ -19,14 +19,15 @@ from network import LABELS
 from scenes.scene import Generator
 from scenes.sensors import KINDS
 
-UNSEEN_SEED = 1_000_004  # other people and scenes than any batch of the training
-_LEAST_PALM = 0.2  # of the program's configuration: a palm below it is not followed up
-_APART = 60.0  # mm: a peak this far from every palm is a false one
+UNSEEN_SEED = 1_000_004  # gives other people and scenes than any batch of the training
+_LEAST_PALM = 0.2  # the program ignores palms with a smaller value in the map (its default configuration)
+_APART = 60.0  # mm; a peak that is farther than this from every palm is a false one
 
 
 def evaluate(network: Callable[[Tensor], tuple], name: str, generator: Generator, batches: int,
              size: int) -> dict[str, float]:
-    """Figures over batches * size scenes of a network, on the generator's device; percentages unless their names say mm."""
+    """Figures of a network over batches * size scenes on the generator's device: percentages unless their names say
+    mm."""
     parts: list[dict[str, torch.Tensor]] = []
     for _ in range(batches):
         truth = make_examples(generator, name, size)
@@ -38,6 +39,7 @@ def evaluate(network: Callable[[Tensor], tuple], name: str, generator: Generator
 
 
 def _figure(key: str, values: torch.Tensor) -> float:
+    """The figure `key` of the values of all scenes: their median, 90th percentile or mean."""
     values = values[~values.isnan()]
     if len(values) == 0:
         return float("nan")
@@ -49,17 +51,18 @@ def _figure(key: str, values: torch.Tensor) -> float:
 
 
 def _labels(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
-    """Intersection over union of each label, in every scene that has it."""
-    said, true = output[1].argmax(1), truth.label[:, ::2, ::2]
+    """Intersection over union of each label, for every scene with at least 20 pixels of it."""
+    predicted, true = output[1].argmax(1), truth.label[:, ::2, ::2]
     figures = {}
     for label, meaning in zip(range(1, LABELS), ("hand", "arm", "object")):
-        ours, theirs = (said == label).flatten(1), (true == label).flatten(1)
+        ours, theirs = (predicted == label).flatten(1), (true == label).flatten(1)
         overlap = (ours & theirs).sum(1) / (ours | theirs).sum(1).clamp_min(1)
         figures[f"overlap of {meaning}"] = overlap[theirs.sum(1) >= 20]
     return figures
 
 
 def _palms(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
+    """Which palms were found, and which frames have a false palm."""
     maps = output[0][:, 0].sigmoid()
     count, rows, columns = maps.shape
     cell = torch.arange(rows * columns, device=maps.device)
@@ -67,7 +70,7 @@ def _palms(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
     distance = (place[None, None] - truth.uv).norm(dim=-1) * truth.mm[:, None, None]  # [B, 2, cells]
     near = (distance < _APART) & truth.seen[..., None]
 
-    # A palm is found if its heat is high; all that is far from any palm should be cold.
+    # A palm is found if the map is high near it; far from all palms, the map should be low.
     heat = maps.flatten(1)
     found = (heat[:, None] * near).amax(2)[truth.seen] > _LEAST_PALM
     far = (heat * ~near.any(1)).amax(1) > _LEAST_PALM
@@ -76,6 +79,7 @@ def _palms(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
 
 
 def _joints(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
+    """Errors of the joints of right hands, which windows have the right side, and hands seen where there are none."""
     usable = truth.seen[:, 0] & truth.right
     errors = joint_errors_mm(output[0], truth)[usable]
     sensor, grasp = truth.scenes.sensor[usable], truth.scenes.grasp[usable]

@@ -1,5 +1,5 @@
-"""Scenes as the networks are fed with them, and what they should answer. The program does the same in
-stages/detection/networks.cpp."""
+"""Examples for the networks: scenes as inputs of a network, with the outputs that it should give. The program prepares
+its inputs in the same way in stages/detection/networks.cpp."""
 from dataclasses import dataclass
 
 import torch
@@ -8,16 +8,17 @@ from torch import Tensor
 from scenes.chance import Chance
 from scenes.scene import Generator, Scenes
 
-MAP_STEP, MAP_OFFSET = 4, 1.5  # cell i of a map is pixel i * step + offset
-CROP_DEPTH = 0.15  # m before and behind the palm that a window shows
-_LEAST_PIXELS = {"full": 25, "crop": 150}  # of a hand, so that it counts as seen
+MAP_STEP, MAP_OFFSET = 4, 1.5  # the centre of cell i of a map is pixel i * MAP_STEP + MAP_OFFSET
+CROP_DEPTH = 0.15  # m; a window shows depths up to this far before and behind the palm
+_LEAST_PIXELS = {"full": 25, "crop": 150}  # a hand with fewer pixels does not count as seen
 
 
 @dataclass
 class Examples:
-    """`image` [B, 2, H, W]; `label` [B, H, W]; `uv` [B, 2, N, 2, pixels] and `depth` [B, 2, N] of N joints (crop) or of the
-    palm (full) of two hands; `seen` [B, 2]: whether a hand counts; `right` [B]: how the first hand looks in the image;
-    `mm` [B]: millimetres per pixel at the palm."""
+    """B examples with two hands each, of which the first one is the hand in question. `image` [B, 2, H, W]; `label` [B,
+    H, W]; `uv` [B, 2, N, 2, pixels] and `depth` [B, 2, N] of the N joints (crop) or of the palm (full) of both hands;
+    `seen` [B, 2]: whether a hand has enough pixels to count; `right` [B]: whether the first hand looks like a right one
+    in the image; `mm` [B]: millimetres per pixel at the palm."""
     image: Tensor
     label: Tensor
     uv: Tensor
@@ -29,20 +30,20 @@ class Examples:
 
 
 def full_input(depth: Tensor) -> Tensor:
-    """[B, 2, H, W] of whole frames [B, H, W, m; 0: nothing]."""
+    """The input [B, 2, H, W] (depth, validity) for whole frames [B, H, W, m; 0: no depth]."""
     valid = depth > 0
     return torch.stack([torch.where(valid, (depth - 1).clamp(-1, 1.5), torch.full_like(depth, 1.5)), valid.float()], 1)
 
 
 def crop_input(depth: Tensor, middle: Tensor) -> Tensor:
-    """[B, 2, H, W] of windows around palms at the depths `middle` [B, m]."""
+    """The input [B, 2, H, W] (depth, validity) for windows around palms at the depths `middle` [B, m]."""
     valid = depth > 0
     near = ((depth - middle[:, None, None]) / CROP_DEPTH).clamp(-1, 1)
     return torch.stack([torch.where(valid, near, torch.ones_like(depth)), valid.float()], 1)
 
 
 def make_examples(generator: Generator, name: str, count: int) -> Examples:
-    """A batch for the network `name`."""
+    """A batch of `count` examples for the network `name`."""
     with torch.no_grad():
         return _full(generator, count) if name == "full" else _crop(generator, count)
 
@@ -57,7 +58,8 @@ def _full(generator: Generator, count: int) -> Examples:
 
 
 def _crop(generator: Generator, count: int) -> Examples:
-    """Windows that show a right hand; every seventh shows the wrong side, so that the side is learned."""
+    """Windows in which the hand looks like a right one: windows of left hands are mirrored. 15 % show a left hand
+    instead, so that the network learns to tell the side."""
     scenes, chance = generator.windows(count), generator.chance
     mirror = torch.where(chance.flag(0.15, count), scenes.right[:, 0], ~scenes.right[:, 0])
     image = crop_input(scenes.depth, scenes.middle[:, 2])
@@ -70,5 +72,5 @@ def _crop(generator: Generator, count: int) -> Examples:
 
 
 def generator_for(seed: int, device: str, mesh, points: int) -> Generator:
-    """A generator with its own stream of random numbers."""
+    """A generator of scenes with its own stream of random numbers. `points`: number of skin points per hand."""
     return Generator(Chance(seed, device), mesh, points)

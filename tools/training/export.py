@@ -1,4 +1,4 @@
-"""Writes the networks as the program reads them: full.onnx, crop.onnx and nets.json (docs/nets.md)."""
+"""Writes the files that the program reads: full.onnx, crop.onnx and nets.json (docs/nets.md)."""
 import inspect
 import json
 import warnings
@@ -12,13 +12,14 @@ from torch import Tensor
 from network import HandNetwork
 from scenes.views import CROP_SIZE, FULL_SIZE
 
-INTERFACE = "1"  # stages/detection/weights.cpp
+INTERFACE = "1"  # version of inputs and outputs that stages/detection/weights.cpp expects
 OUTPUTS = ["j", "seg", "side"]
 SIZES = {"full": FULL_SIZE, "crop": CROP_SIZE}
 
 
 def export(network: HandNetwork, name: str, folder: Path) -> None:
-    """Writes folder/NAME.onnx, which OpenCV 4.6 reads: opset 11, made by the older of PyTorch's two exporters."""
+    """Writes folder/NAME.onnx so that OpenCV 4.6 can read it: with opset 11, by the older of PyTorch's two
+    exporters."""
     network = network.float().cpu().eval()
     options = {"dynamo": False} if "dynamo" in inspect.signature(torch.onnx.export).parameters else {}
     path = folder / f"{name}.onnx"
@@ -31,7 +32,7 @@ def export(network: HandNetwork, name: str, folder: Path) -> None:
 
 
 def write_manifest(folder: Path, version: str) -> None:
-    """Writes folder/nets.json for the networks that are there."""
+    """Writes folder/nets.json, which describes the networks in the folder."""
     manifest: dict = {"version": version, "interface": INTERFACE}
     for name in SIZES:
         data = (folder / f"{name}.onnx").read_bytes()
@@ -40,7 +41,7 @@ def write_manifest(folder: Path, version: str) -> None:
 
 
 def opencv_network(name: str, folder: Path) -> Callable[[Tensor], tuple[Tensor, ...]]:
-    """folder/NAME.onnx as OpenCV runs it, for images [B, 2, H, W]. Needs Debian's python3-opencv."""
+    """A function that runs folder/NAME.onnx with OpenCV on images [B, 2, H, W]. Needs Debian's python3-opencv."""
     import cv2
 
     reader = cv2.dnn.readNetFromONNX(str(folder / f"{name}.onnx"))
@@ -56,7 +57,7 @@ def opencv_network(name: str, folder: Path) -> Callable[[Tensor], tuple[Tensor, 
 
 
 def greatest_difference(network: HandNetwork, name: str, folder: Path, images: Tensor) -> float:
-    """Of OpenCV's outputs from PyTorch's over `images` [B, 2, H, W]."""
+    """The greatest difference between OpenCV's and PyTorch's outputs for `images` [B, 2, H, W]."""
     with torch.no_grad():
         wanted = network.float().cpu().eval()(images.cpu())
     return max(float((ours - theirs).abs().max()) for ours, theirs in zip(wanted, opencv_network(name, folder)(images)))

@@ -1,16 +1,17 @@
-"""What the networks are trained for, and how the maps are read as positions."""
+"""The loss functions of the networks, and how positions are read from the maps."""
 import torch
 from torch import Tensor
 from torch.nn import functional
 
 from examples import CROP_DEPTH, MAP_OFFSET, MAP_STEP, Examples
 
-_LABEL_WEIGHTS = (1.0, 1.5, 1.5, 1.5)
-_PALM_RADIUS = 25.0  # mm: how wide a palm is in the full network's map
+_LABEL_WEIGHTS = (1.0, 1.5, 1.5, 1.5)  # of background, hand, arm, object
+_PALM_RADIUS = 25.0  # mm; standard deviation of a palm's bell curve in the full network's map
 
 
 def soft_argmax(maps: Tensor) -> tuple[Tensor, Tensor]:
-    """Mean column and row [B, N, 2] of the distributions that the logits [B, N, h, w] stand for, and these."""
+    """The distributions [B, N, h, w] that the logits [B, N, h, w] define: their mean column and row [B, N, 2], and the
+    distributions themselves."""
     share = maps.flatten(2).softmax(-1).reshape(maps.shape)
     columns = torch.arange(maps.shape[3], device=maps.device, dtype=maps.dtype)
     rows = torch.arange(maps.shape[2], device=maps.device, dtype=maps.dtype)
@@ -18,7 +19,7 @@ def soft_argmax(maps: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def _bumps(cells: Tensor, width: Tensor, like: Tensor) -> Tensor:
-    """[B, N, h, w] bell curves of height 1 around `cells` [B, N, 2] with standard deviations `width` [B]."""
+    """Bell curves [B, N, h, w] of height 1 around `cells` [B, N, 2] with the standard deviations `width` [B]."""
     columns = torch.arange(like.shape[3], device=like.device, dtype=like.dtype)
     rows = torch.arange(like.shape[2], device=like.device, dtype=like.dtype)
     square = (columns - cells[..., 0, None, None]) ** 2 + (rows[:, None] - cells[..., 1, None, None]) ** 2
@@ -26,12 +27,13 @@ def _bumps(cells: Tensor, width: Tensor, like: Tensor) -> Tensor:
 
 
 def _label_loss(logits: Tensor, label: Tensor) -> Tensor:
+    """The cross entropy of the labels, which the network gives for every second row and column."""
     weights = torch.tensor(_LABEL_WEIGHTS, device=logits.device)
     return functional.cross_entropy(logits, label[:, ::2, ::2], weight=weights)
 
 
 def full_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
-    """Palms as bumps, nothing elsewhere; labels."""
+    """Loss of the full network: its map should show a bell curve at each palm and 0 otherwise; plus the label loss."""
     maps, labels, _ = (part.float() for part in output)
     width = (_PALM_RADIUS / truth.mm / MAP_STEP).clamp(0.8, 4)
     bumps = _bumps((truth.uv[:, :, 0] - MAP_OFFSET) / MAP_STEP, width, maps) * truth.seen[:, :, None, None]
@@ -41,13 +43,14 @@ def full_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
 
 
 def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
-    """Joints of right hands in the image and in depth, peaked maps, labels, side."""
+    """Loss of the crop network: joints of right hands in the image and in depth, maps with narrow peaks, labels,
+    side."""
     maps, labels, side = (part.float() for part in output)
     logits, depths = maps.chunk(2, 1)
     cells, share = soft_argmax(logits)
     target = (truth.uv[:, 0] - MAP_OFFSET) / MAP_STEP
 
-    # Joints outside of the window and hands that are not seen do not count.
+    # Joints outside the window and hands that are not seen have no weight.
     inside = ((target > -1) & (target < logits.shape[3])).all(-1)
     weight = (inside & (truth.seen[:, 0] & truth.right)[:, None]).float()
     mean = lambda values: (values * weight).sum() / weight.sum().clamp_min(1)
@@ -57,6 +60,7 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     bumps = bumps / bumps.sum((2, 3), keepdim=True).clamp_min(1e-6)
     peaked = mean(-(bumps * (share + 1e-9).log()).sum((2, 3)))
 
+    # The side, with the rarer side weighted up.
     seen = truth.seen[:, 0].float()
     rarer = torch.where(truth.right, 0.25, 1.0) * seen
     sides = functional.binary_cross_entropy_with_logits(side[:, 0], truth.right.float(), reduction="none")
@@ -68,7 +72,7 @@ LOSSES = {"full": full_loss, "crop": crop_loss}
 
 
 def joint_errors_mm(maps: Tensor, truth: Examples) -> Tensor:
-    """[B, 21] distances of the joints that a crop network's maps [B, 42, h, w] say from the true ones [mm]."""
+    """Distances [B, 21] of the joints in a crop network's maps [B, 42, h, w] from the true joints [mm]."""
     logits, depths = maps.float().chunk(2, 1)
     cells, share = soft_argmax(logits)
     pixels = cells * MAP_STEP + MAP_OFFSET - truth.uv[:, 0]

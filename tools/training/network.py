@@ -1,4 +1,4 @@
-"""The two networks: one small U-shaped architecture with two sizes. docs/nets.md states what goes in and comes out."""
+"""The two networks: one small U-shaped architecture in two sizes. docs/nets.md describes their inputs and outputs."""
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
@@ -21,8 +21,9 @@ class _Residual(nn.Module):
 
 
 class HandNetwork(nn.Module):
-    """[B, 2, H, W] (depth, validity) to maps [B, 2 N, H/4, W/4] (N logits, then N depths), labels [B, 4, H/2, W/2] and
-    the log odds of a right hand [B, 1]."""
+    """Computes from images [B, 2, H, W] (depth, validity) the maps [B, 2 N, H/4, W/4] (N logits, then N depths), the
+    logits of the labels [B, 4, H/2, W/2], and the log odds of a right hand [B, 1]. `widths`: channels at full to 1/16
+    resolution."""
 
     def __init__(self, joints: int, widths: tuple[int, int, int, int, int]) -> None:
         super().__init__()
@@ -49,11 +50,12 @@ class HandNetwork(nn.Module):
 
 
 def _beside(coarse: Tensor, fine: Tensor) -> Tensor:
+    """The channels of both, with the coarse ones enlarged to the size of the fine ones."""
     return torch.cat([functional.interpolate(coarse, size=fine.shape[2:], mode="nearest"), fine], 1)
 
 
 def make_network(name: str) -> HandNetwork:
-    """`name`: "full", which finds palms in whole frames, or "crop", which finds the joints in a window."""
+    """Makes the network `name`: "full" finds palms in whole frames, "crop" finds the joints in a window."""
     if name == "full":
         return HandNetwork(1, (12, 24, 48, 64, 96))
     return HandNetwork(21, (16, 32, 64, 96, 128))

@@ -9,7 +9,8 @@ from hands_folder import add_hands_option, right_hand
 from scenes.chance import Chance
 from scenes.scene import Generator
 
-_COLOURS = np.array([[40, 40, 40], [60, 200, 60], [200, 120, 60], [60, 60, 220]], np.uint8)  # BGR of the labels
+# Colours (BGR) of the labels background, hand, arm, object.
+_COLOURS = np.array([[40, 40, 40], [60, 200, 60], [200, 120, 60], [60, 60, 220]], np.uint8)
 
 
 def main() -> None:

@@ -2,7 +2,7 @@
 """Trains the networks that find hands, measures them on unseen scenes, and writes a folder that the program reads.
 
   train.py OUT                 half an hour on a GPU
-  train.py OUT --smoke         a minute or two on a processor: whether it all works, not whether it is good
+  train.py OUT --smoke         a minute or two on a processor: shows that the training works, not how good it is
 """
 import argparse
 import json
@@ -20,31 +20,32 @@ from hands_folder import add_hands_option, right_hand
 from losses import LOSSES
 from network import HandNetwork, make_network
 
-_SHARE = {"full": 0.33, "crop": 0.67}  # of the time
+_SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
 _BATCH = {"full": 160, "crop": 256}
 _SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
-_VALIDATION_SEED = 1_000_003  # other people and scenes than any batch of the training
+_VALIDATION_SEED = 1_000_003  # gives other people and scenes than any batch of the training
 
 
 class Schedule:
-    """How far the training is, 0 to 1: by time, or by steps where the result has to be the same each time."""
+    """The progress of the training: by time, or by the number of steps if equal runs must give equal networks."""
 
     def __init__(self, seconds: float, steps: int) -> None:
         self.seconds, self.steps, self.done, self.started = seconds, steps, 0, time.monotonic()
 
     def progress(self) -> float:
+        """The part of the training that is done, 0 to 1."""
         if self.steps:
             return self.done / self.steps
         return (time.monotonic() - self.started) / self.seconds
 
     def rate(self, highest: float = 2e-3) -> float:
-        """Learning rate: rises over the first steps, then falls like a cosine."""
+        """The learning rate: rises linearly over the first steps, then decreases like a cosine."""
         rise = min(1.0, (self.done + 1) / (200 if not self.steps else 10))
         return highest * rise * 0.5 * (1 + math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
 
 
 def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int, points: int) -> HandNetwork:
-    """The trained network `name`. Prints the loss on scenes that it did not see."""
+    """Trains the network `name` and returns it. Prints the loss on scenes that are not part of the training."""
     torch.manual_seed(options.seed)
     device, mesh = options.device, right_hand(options.hands)
     network = make_network(name).to(device)
@@ -55,6 +56,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 4 * batch if options.smoke else batch)
     before = _loss(network, name, unseen)
 
+    # Every step has its own, new examples.
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
@@ -74,7 +76,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
 
     after = _loss(network, name, unseen)
     print(f"{name}: loss on unseen scenes from {before:.3f} to {after:.3f}")
-    if not after < before:  # also if it is not a number
+    if not after < before:  # also true if the loss is not a number
         raise SystemExit(f"{name}: the training did not converge; start it again with another --seed")
     return network
 

@@ -8,11 +8,11 @@
 
 namespace barehand::synthetic {
 
-/// A simulated hand: its mesh, its measured profile and its motion. Sequences move it as a right hand; a left hand is
-/// the mirror image in the plane x = 0.
+/// A simulated hand: its mesh and the profile measured on it. Sequences move it as a right hand; a left hand is the
+/// mirror image in the plane x = 0.
 class AnimatedHand {
  public:
-  /// Index of the sleeve's surface, after those of the segments.
+  /// Index of the sleeve's surface, which follows those of the segments.
   static constexpr std::uint8_t kSleeve = kSegmentCount;
   static constexpr std::uint8_t kSurfaceCount = kSegmentCount + 1;  ///< number of surfaces of one hand
 
@@ -23,15 +23,15 @@ class AnimatedHand {
   Handedness side() const { return profile_.handedness; }
   /// The profile as measured on the mesh at rest.
   const HandProfile& profile() const { return profile_; }
-  /// The hand as a right one, for which sequences are made.
+  /// The hand as a right hand, for which sequences are made.
   const HandRig& rig() const { return rig_; }
   /// Segment of every triangle of the skin.
   const std::vector<std::uint8_t>& triangle_segments() const { return skinner_.triangle_segments(); }
 
-  /// T_camera_segment of the hand on its own side.
+  /// T_camera_segment; a left hand's poses are mirrored.
   HandPose pose(const SkeletonPose& skeleton) const;
-  /// Triangles in the camera frame: first the skin, in the order of triangle_segments(), then the forearm's clothing
-  /// ("blue", "skin" or "none", see SimulatorParams). The indices of surfaces start at `first_surface`.
+  /// Triangles in the camera frame: first the skin, in the order of triangle_segments(), then the forearm (`sleeve` is
+  /// "blue", "skin" or "none", see SimulatorParams). The indices of surfaces start at `first_surface`.
   SceneGeometry geometry(const HandState& state, const std::string& sleeve, std::uint8_t first_surface) const;
 
  private:

@@ -79,7 +79,7 @@ void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<Ski
     hand.weights.push_back(weights[v]);
   }
 
-  // Triangles that degenerate by the merging are dropped.
+  // Copy the triangles, except those that became degenerate by the merging.
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const aiFace& face = mesh.mFaces[f];
     if (face.mNumIndices != 3) continue;
@@ -90,13 +90,13 @@ void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<Ski
 
 /// Checks that the rest pose has OpenXR's axes, a human size and the right side.
 Result<void> check_rest(const HandMesh& hand, const std::string& path) {
-  // The size.
+  // Check the size.
   const double length = (hand.T_hand_joint[joint_of(2, 4)].t).norm();
   if (length < 0.08 || length > 0.35)
     return fail("the hand is " + std::to_string(length) + " units long from wrist to middle tip", path,
                 "the file must be in metres");
 
-  // The axes.
+  // Check the axes.
   for (int joint = 1; joint + 1 < kJointCount; ++joint) {
     if (parent_of_joint(joint + 1) != joint) continue;
     const Eigen::Vector3d next = hand.T_hand_joint[joint].inverse() * hand.T_hand_joint[joint + 1].t;
@@ -104,7 +104,7 @@ Result<void> check_rest(const HandMesh& hand, const std::string& path) {
       return fail("joint " + std::string(joint_name(joint)) + " does not have -z along its bone", path, kRemedy);
   }
 
-  // The side.
+  // Check the side.
   const bool thumb_at_negative_x = hand.T_hand_joint[joint_of(0, 2)].t.x() < 0;
   if (thumb_at_negative_x != (hand.handedness == Handedness::right))
     return fail("this is not a " + std::string(to_string(hand.handedness)) + " hand", path, "give the other file");
@@ -122,7 +122,7 @@ Result<HandMesh> load_hand_mesh(const std::string& path, Handedness handedness) 
   if (!mesh) return fail("no skinned mesh in this file", path, kRemedy);
   const auto bones = bones_by_joint(*mesh);
 
-  // The joints at rest.
+  // Compute the joints at rest, in the frame of the mesh.
   HandMesh hand;
   hand.handedness = handedness;
   for (int joint = 0; joint < kJointCount; ++joint) {

@@ -47,7 +47,7 @@ std::vector<std::string> words(std::string_view name) {
   return parts;
 }
 
-/// Whether the word does not distinguish joints.
+/// Whether a word of a name is ignored because it does not distinguish joints.
 bool is_filler(const std::string& word) {
   constexpr std::array<std::string_view, 11> kFiller = {"",        "xr",   "hand",  "joint", "ext", "finger",
                                                         "phalanx", "left", "right", "l",     "r"};

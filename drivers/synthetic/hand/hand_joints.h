@@ -7,9 +7,9 @@
 
 namespace barehand::synthetic {
 
-/// The 25 joints of a rigged hand that WebXR and OpenXR name: wrist, thumb {metacarpal, proximal, distal, tip}, then
-/// index, middle, ring, little {metacarpal, proximal, intermediate, distal, tip}. OpenXR's palm joint is left out,
-/// since it is a point and not a bone.
+/// The number of joints of a rigged hand. They are those of WebXR and OpenXR, in this order: wrist, thumb {metacarpal,
+/// proximal, distal, tip}, then index, middle, ring, little {metacarpal, proximal, intermediate, distal, tip}. OpenXR's
+/// palm joint is left out, since it is a point and not a bone.
 inline constexpr int kJointCount = 25;
 inline constexpr int kWristJoint = 0;
 
@@ -38,8 +38,9 @@ constexpr int parent_of_joint(int joint) {
   return joint == 1 || (joint >= 5 && joint % 5 == 0) ? kWristJoint : joint - 1;
 }
 
-/// Recognises "index-finger-phalanx-proximal" (WebXR), "XR_HAND_JOINT_INDEX_PROXIMAL_EXT" (OpenXR), "index_proximal",
-/// "pinky" for little, and a side as prefix or suffix ("left_", "_r").
+/// The joint with this name; none if there is no such joint. Recognises "index-finger-phalanx-proximal" (WebXR),
+/// "XR_HAND_JOINT_INDEX_PROXIMAL_EXT" (OpenXR), "index_proximal", "pinky" for little, and a side as prefix or suffix
+/// ("left_", "_r").
 std::optional<int> joint_from_name(std::string_view name);
 /// The name of a joint for messages, such as "index_proximal".
 std::string_view joint_name(int joint);

@@ -13,7 +13,7 @@ namespace barehand::synthetic {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The joints, up to four, that a vertex follows; the weights sum to 1.
+/// The joints, up to four, that a vertex follows, and its weights, which sum to 1.
 struct SkinWeights {
   std::array<std::uint8_t, 4> joint{};
   std::array<float, 4> weight{};
@@ -35,7 +35,7 @@ struct HandMesh {
 };
 
 /// Reads a glTF hand with OpenXR joint names and axes. The hierarchy of the nodes is ignored: joints are often stored
-/// as flat siblings, and their names tell the hierarchy. Errors: an unreadable file, missing joints, axes that are not
+/// as siblings, and their names define the hierarchy. Errors: an unreadable file, missing joints, axes that are not
 /// OpenXR's, a size that no hand in metres has, a hand of the other side.
 Result<HandMesh> load_hand_mesh(const std::string& path, Handedness handedness);
 

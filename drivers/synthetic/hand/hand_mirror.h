@@ -6,7 +6,7 @@ namespace barehand::synthetic {
 
 /// A point reflected in the plane x = 0.
 inline Eigen::Vector3d mirrored(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
-/// The rigid motion that a mirror in the plane x = 0 shows.
+/// A rigid transform reflected in the plane x = 0: M T M with M = diag(-1, 1, 1).
 inline SE3 mirrored(const SE3& T) {
   const Eigen::DiagonalMatrix<double, 3> M(-1, 1, 1);
   return {M * T.R * M, mirrored(T.t)};

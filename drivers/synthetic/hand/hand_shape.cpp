@@ -3,7 +3,7 @@
 namespace barehand::synthetic {
 namespace {
 
-/// Scale factors for what moves with a joint, along the joint's own axes.
+/// Scale factors, along the joint's own axes, for the skin and the next joint that follow a joint.
 Eigen::Vector3d stretch(int joint, const HandShape& shape) {
   const std::array<double, kFingerCount> length = {shape.thumb, shape.index, shape.middle, shape.ring, shape.little};
   if (segment_of_joint(joint) == kPalm) return shape.scale * Eigen::Vector3d(1, shape.thickness, 1);
@@ -15,9 +15,9 @@ Eigen::Vector3d stretch(int joint, const HandShape& shape) {
 
 HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
   HandMesh result = mesh;
-  std::array<Eigen::Affine3d, kJointCount> deform;  // old to new hand frame
+  std::array<Eigen::Affine3d, kJointCount> deform;  // maps the old to the new skin, both in the hand frame
 
-  // Stretch joint after joint.
+  // Stretch the bones joint by joint, from the wrist to the tips.
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SE3& T = mesh.T_hand_joint[joint];
     const int parent = parent_of_joint(joint);
@@ -27,7 +27,7 @@ HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
                     Eigen::Translation3d(-T.t);
   }
 
-  // The skin follows by its weights.
+  // Move the skin by its weights.
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = 0; i < 4; ++i)

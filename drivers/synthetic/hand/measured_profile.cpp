@@ -10,13 +10,13 @@
 namespace barehand::synthetic {
 namespace {
 
-/// A sample of the skin in a segment's frame.
+/// A sample of the skin.
 struct SkinSample {
-  Eigen::Vector3d point;
-  double area;
+  Eigen::Vector3d point;  ///< in the segment's frame [m]
+  double area;            ///< weight of the sample [m^2]
 };
 
-/// Samples the skin of a segment evenly: ten points on each of the triangles that belong to it.
+/// Samples the skin of a segment: ten evenly spread points on each triangle that belongs to it.
 std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
   std::vector<SkinSample> samples;
   const SE3 T_segment_hand = mesh.T_hand_joint[joint_of_segment(segment)].inverse();
@@ -36,23 +36,24 @@ std::vector<SkinSample> skin_of(const HandMesh& mesh, int segment) {
   return samples;
 }
 
-/// Elliptic cross-sections along a bone, linear between both ends: centre x, centre y, half width and half thickness
-/// at end 0, then at end 1.
+/// Elliptic cross-sections along a bone, interpolated linearly between its ends: centre x, centre y, half width and
+/// half thickness at end 0, then at end 1 [m].
 using EllipticTaper = Eigen::Matrix<double, 8, 1>;
 
-/// Gauss-Newton on the first-order distance to the skin, ((x / a)^2 + (y / b)^2 - 1) / |gradient| (Sampson).
+/// Fits elliptic sections to the skin by Gauss-Newton on the Sampson distance, the first-order distance of a point from
+/// an ellipse: ((x / a)^2 + (y / b)^2 - 1) / |gradient|.
 EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, double radius) {
   EllipticTaper fit;
   fit << 0, 0, radius, radius, 0, 0, radius, radius;
   for (int iteration = 0; iteration < 30; ++iteration) {
     Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Identity() * 1e-12;
     Eigen::Matrix<double, 8, 1> b = Eigen::Matrix<double, 8, 1>::Zero();
-    // One residual per sample beside the bone.
+    // Add one residual for each sample next to the bone.
     for (const SkinSample& s : skin) {
       const double t = -s.point.z() / length;
       if (t < 0 || t > 1) continue;
 
-      // The section at the sample's place, and the distance to it.
+      // The section at the sample's position along the bone, and the distance from it.
       const Eigen::Vector4d e = (1 - t) * fit.head<4>() + t * fit.tail<4>();
       const double x = (s.point.x() - e[0]) / e[2], y = (s.point.y() - e[1]) / e[3];
       const double slope = std::max(2 * std::hypot(x / e[2], y / e[3]), 1e-6);
@@ -75,8 +76,8 @@ EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, d
   return fit;
 }
 
-/// The palm's skin has gaps at the thumb and the fingers, where a fitted ellipse would slip out. So its sections are
-/// half of the extents across the bone, measured in slices.
+/// Fits the palm's sections to the extents of its skin across the bone, measured in slices. The skin has gaps at the
+/// thumb and the fingers, through which an ellipse fitted to points would grow.
 EllipticTaper fit_extents(const std::vector<SkinSample>& skin, double length) {
   // Measure the slices.
   constexpr int kSlices = 8;
@@ -103,7 +104,7 @@ EllipticTaper fit_extents(const std::vector<SkinSample>& skin, double length) {
   return fit;
 }
 
-/// Round taper about the bone: least squares of the distance from it.
+/// Fits a round taper about the bone: the radii at both ends, by least squares on the samples' distances from the bone.
 std::array<double, 2> fit_round(const std::vector<SkinSample>& skin, double length) {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity() * 1e-15;
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
@@ -118,14 +119,15 @@ std::array<double, 2> fit_round(const std::vector<SkinSample>& skin, double leng
   return {r[0], r[1]};
 }
 
-/// The farthest point of the skin along the bone [m from the proximal end].
+/// Distance along the bone from its proximal end to the farthest point of the skin [m].
 double skin_end(const std::vector<SkinSample>& skin) {
   double end = 0;
   for (const SkinSample& s : skin) end = std::max(end, -s.point.z());
   return end;
 }
 
-/// Distal end of a fingertip: on the line to the tip joint, one radius before the end of the skin.
+/// Distal end of a fingertip: on the line to the tip joint, one distal radius before the end of the skin. Radius and
+/// length depend on each other, so they are found by iteration.
 Eigen::Vector3d tip_centre(const std::vector<SkinSample>& skin, const Eigen::Vector3d& tip_joint) {
   const Eigen::Vector3d along = tip_joint.normalized();
   double length = tip_joint.norm();

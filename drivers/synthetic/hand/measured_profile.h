@@ -5,11 +5,10 @@
 
 namespace barehand::synthetic {
 
-/// The hand profile that a careful person would measure on this mesh at rest. Joint frames are those of the rig, and
-/// bone lengths are distances between joints. Around every bone a tapered skin is fitted to the surface that follows
-/// it, once round about the bone and once elliptic about a centre line of its own. The distal end of a fingertip is
-/// the centre of its cap, so that the skin ends one distal radius beyond it. The joints' axes and ranges are those of
-/// joint_dofs().
+/// Measures the hand profile of a mesh at rest. Joint frames are those of the rig, and bone lengths are the distances
+/// between joints. To the surface around every bone, two tapered skins are fitted: a round one about the bone, and an
+/// elliptic one about a centre line of its own. The distal end of a fingertip is the centre of its cap, so that the
+/// skin ends one distal radius beyond it. The joints' axes and ranges are those of joint_dofs().
 HandProfile measure_profile(const HandMesh& mesh);
 
 }  // namespace barehand::synthetic

@@ -10,12 +10,12 @@ namespace barehand::synthetic {
 /// abduction is positive away from the middle finger (for the middle finger: towards the index; for the thumb: out of
 /// the palm's plane).
 struct FingerAngles {
-  double abduction = 0;             ///< of the knuckle; for the thumb of the CMC joint
+  double abduction = 0;             ///< of the knuckle (MCP); of the thumb: of the CMC joint
   std::array<double, 3> flexion{};  ///< from palm to tip (thumb: CMC, MCP, IP; fingers: MCP, PIP, DIP)
 };
 using HandAngles = std::array<FingerAngles, kFingerCount>;
 
-/// The 26 degrees of freedom: six of the wrist and the joint angles.
+/// The 26 degrees of freedom of the animated hand: six of the wrist, and the joint angles.
 struct SkeletonPose {
   SE3 T_camera_palm;
   HandAngles angles;

@@ -18,11 +18,14 @@ Skinner::Skinner(const HandMesh& mesh) : rest_(mesh.vertices), weights_(mesh.wei
 }
 
 void Skinner::deform(const HandPose& pose, std::vector<Eigen::Vector3f>& vertices) const {
-  std::array<Eigen::Matrix<float, 3, 4>, kSegmentCount> move;  // from rest to pose
+  // Compute the motion of every segment from rest to the pose.
+  std::array<Eigen::Matrix<float, 3, 4>, kSegmentCount> move;
   for (int s = 0; s < kSegmentCount; ++s) {
     const SE3 T = pose[s] * T_segment_hand_[s];
     move[s] << T.R.cast<float>(), T.t.cast<float>();
   }
+
+  // Blend these motions at every vertex.
   vertices.resize(rest_.size());
   for (std::size_t v = 0; v < rest_.size(); ++v) {
     const Eigen::Vector4f p = rest_[v].homogeneous();

@@ -7,12 +7,12 @@
 
 namespace barehand::synthetic {
 
-/// Deforms a hand mesh with its segments by linear blend skinning. It holds everything that does not depend on the
-/// pose.
+/// Deforms a hand mesh with its segments by linear blend skinning. The object holds everything that does not depend on
+/// the pose.
 class Skinner {
  public:
   explicit Skinner(const HandMesh& mesh);
-  /// Vertices in the frame in which `pose` is given, in the order of the mesh.
+  /// Computes the vertices in the frame in which `pose` is given, in the order of the mesh.
   void deform(const HandPose& pose, std::vector<Eigen::Vector3f>& vertices) const;
   /// Segment of every triangle of the mesh.
   const std::vector<std::uint8_t>& triangle_segments() const { return triangle_segments_; }
@@ -21,7 +21,7 @@ class Skinner {
 
  private:
   std::vector<Eigen::Vector3f> rest_;
-  std::vector<SkinWeights> weights_;  // `joint` holds segments here
+  std::vector<SkinWeights> weights_;  // here, `joint` holds the indices of segments
   std::array<SE3, kSegmentCount> T_segment_hand_;
   std::vector<std::uint8_t> triangle_segments_, vertex_segments_;
 };

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Rgb kHair = {58, 44, 36};
-const Vector3d kNeck(0, 0.02, 0.2);  // body frame: where the head turns
+const Vector3d kNeck(0, 0.02, 0.2);  // the point about which the head turns, in the body frame [m]
 
 SmoothTrack make_track(const std::vector<BodyKey>& keys) {
   std::vector<double> times;
@@ -24,11 +24,11 @@ SmoothTrack make_track(const std::vector<BodyKey>& keys) {
   return {std::move(times), std::move(values)};
 }
 
-/// Torso and legs; `neck`: up to the head, otherwise to the shoulders.
+/// Torso, legs and, if `neck`, the neck.
 TriangleMesh make_torso(const BodySize& size, bool neck) {
   const double w = size.shoulder, d = size.depth, h = size.torso;
   std::vector<LoftRing> rings = {
-      {{0, 0, -h - 0.85}, 1e-4, 1e-4},         {{0, 0, -h - 0.85}, 0.7 * w, 0.7 * d},  // legs, as one
+      {{0, 0, -h - 0.85}, 1e-4, 1e-4},         {{0, 0, -h - 0.85}, 0.7 * w, 0.7 * d},  // both legs are one shape
       {{0, 0, -h - 0.05}, 0.92 * w, 0.95 * d}, {{0, 0, -0.9 * h}, 0.95 * w, d},
       {{0, 0, -0.6 * h}, 0.84 * w, 0.92 * d},  {{0, 0, -0.3 * h}, 0.94 * w, d},
       {{0, 0, -0.1 * h}, 0.98 * w, 0.9 * d},   {{0, 0, 0.0}, 0.92 * w, 0.7 * d},
@@ -38,7 +38,8 @@ TriangleMesh make_torso(const BodySize& size, bool neck) {
   return make_loft(rings);
 }
 
-/// The shoulder of an arm in the body frame, and where its elbow tends to be: below, outside, a little behind.
+/// The shoulder of an arm in the body frame, and the direction in which its elbow tends to be: down, outwards and a
+/// little backwards.
 Vector3d shoulder_of(const BodySize& size, int arm) { return {arm == 0 ? -size.shoulder : size.shoulder, 0, -0.03}; }
 Vector3d towards_elbow(int arm) { return {arm == 0 ? -0.5 : 0.5, 0.3, -1}; }
 
@@ -79,7 +80,7 @@ std::vector<SceneObject> Body::objects() const {
   for (const char* name : {"right upper arm", "left upper arm"})
     list.push_back({name, make_limb(arm.upper, arm.shoulder_radius, arm.elbow_radius), {kClothColour}});
 
-  // Forearms, in the order of poses().
+  // The forearms follow, in the order of poses().
   const SceneObject forearm{"forearm", make_limb(arm.forearm, arm.elbow_radius, arm.cuff_radius), {kClothColour}};
   list.insert(list.end(), setting_.right_forearm ? 2 : 1, forearm);
   if (!setting_.head) return list;

@@ -11,27 +11,30 @@
 
 namespace barehand::synthetic {
 
-/// The measures of a clothed body [m].
+/// The dimensions of a clothed body [m].
 struct BodySize {
-  double shoulder = 0.19;  ///< from the middle of the body to a shoulder joint
+  double shoulder = 0.19;  ///< distance from the middle of the body to a shoulder joint
   double depth = 0.12;     ///< half of the chest's thickness
-  double torso = 0.55;     ///< from the shoulders to the hips
+  double torso = 0.55;     ///< distance from the shoulders to the hips
   double head = 1;         ///< factor on the head's size
   ArmSize arm;
 };
-/// The measures of some adult.
+/// The dimensions of a random adult.
 BodySize random_body(KeyedRandom& random);
 
 inline constexpr std::size_t kHeadParts = 6;
-/// A head that looks to -y, about its centre, z up: skull, jaw, nose, ears and hair. All parts share one frame.
+/// A head: skull, jaw, nose, ears and hair. All parts share one frame: origin at the centre of the head, z up, the face
+/// towards -y.
 std::array<SceneObject, kHeadParts> make_head(double size);
 
-/// The posture of a body at one time. The right arm is the first one.
+/// A keyframe of a body: its posture at one time. The right arm is the first one.
 struct BodyKey {
-  double time = 0;
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();  ///< of the body where it stands
-  Eigen::Vector3d head_turn = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, 2> wrists{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< body frame [m]
+  double time = 0;  ///< [s]
+  /// Displacement [m] and rotation vector of the body relative to its place in the scene.
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  Eigen::Vector3d head_turn = Eigen::Vector3d::Zero();  ///< rotation vector of the head relative to the body
+  /// Positions of the wrists in the body frame [m].
+  std::array<Eigen::Vector3d, 2> wrists{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
 /// A person without hands: torso, head and arms that end in sleeves. Body frame: origin midway between the shoulders,
@@ -43,15 +46,16 @@ class Body {
     SE3 T_world_body;
     std::vector<BodyKey> keys;
     bool head = true;
-    bool right_forearm = true;  ///< false: a simulated hand comes with its own
+    bool right_forearm = true;  ///< false: the right forearm is that of a simulated hand
   };
   explicit Body(Setting setting);
 
   /// The parts of the body, each in its own frame.
   std::vector<SceneObject> objects() const;
-  /// T_world_object of each of them at this time. `right_wrist`: that of a simulated hand, in the world frame.
+  /// T_world_object of each of these parts at this time. `right_wrist`: position of a simulated hand's wrist in the
+  /// world frame, to which the right arm leads; none: the keyframes give its position.
   std::vector<SE3> poses(double time, const std::optional<Eigen::Vector3d>& right_wrist = {}) const;
-  /// Where the right elbow is when the right wrist is there. World frame.
+  /// Position of the right elbow if the right wrist is at this position. World frame.
   Eigen::Vector3d right_elbow(double time, const Eigen::Vector3d& right_wrist) const;
 
  private:

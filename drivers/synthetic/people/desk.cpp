@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kThickness = 0.03;  // m, of the desk's top
-constexpr double kApart = 0.17;      // m between the middle of a tall thing and a free line
-constexpr int kTallThings = 6;
+constexpr double kThickness = 0.03;  // thickness of the desk's top [m]
+constexpr double kApart = 0.17;      // minimum distance between the middle of a tall object and a free line [m]
+constexpr int kTallThings = 6;       // tall objects that are tried; those too close to a free line are left out
 
 SE3 standing_at(const Vector3d& place, double heading) { return {exp_so3({0, 0, heading}), place}; }
 
-/// A keyboard or another slab.
+/// A flat box, such as a keyboard.
 SceneObject make_slab(const char* name, const Vector3d& half_sides, const Rgb& colour) {
   return {name, make_box(half_sides), {colour}};
 }
 
-/// A mug, a box or a cylinder on z = 0, and its height.
+/// A mug, a box or a cylinder about its centre, and its height [m].
 std::pair<SceneObject, double> make_tall_thing(KeyedRandom& random) {
   const double kind = random.uniform();
   const auto shade = static_cast<std::uint8_t>(random.uniform(40, 220));
@@ -38,7 +38,7 @@ std::pair<SceneObject, double> make_tall_thing(KeyedRandom& random) {
   return {{"cylinder", make_turned(outline), {{90, shade, 140}}}, 2 * half};
 }
 
-/// Distance of a place from the line between two others [m].
+/// Distance of a point from the line segment between two others [m].
 double distance_from(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, const Eigen::Vector2d& place) {
   const Eigen::Vector2d line = end - begin;
   const double t = std::clamp((place - begin).dot(line) / std::max(line.squaredNorm(), 1e-9), 0.0, 1.0);
@@ -54,7 +54,7 @@ bool is_free(const FreeLines& lines, const Eigen::Vector2d& place) {
 
 std::vector<PlacedObject> make_desk(double near_y, double far_y, const std::optional<FreeLines>& free,
                                     KeyedRandom& random) {
-  // The desk, and flat things that a hand may work above.
+  // The desk, and flat objects above which a hand may work.
   const double half_depth = 0.5 * (far_y - near_y), middle = 0.5 * (near_y + far_y);
   std::vector<PlacedObject> list;
   list.push_back({make_slab("desk", {random.uniform(0.6, 0.9), half_depth, 0.5 * kThickness}, {148, 120, 92}),
@@ -67,7 +67,7 @@ std::vector<PlacedObject> make_desk(double near_y, double far_y, const std::opti
   list.push_back({make_slab("book", {0.075, 0.11, page_height}, {170, 40, 60}),
                   standing_at({random.uniform(-0.35, 0.35), middle, page_height}, random.uniform(-1.5, 1.5))});
 
-  // Tall things, which neither touch the arm nor hide the hand.
+  // Tall objects, which must neither touch the arm nor hide the hand.
   for (int i = 0; i < kTallThings; ++i) {
     auto [object, height] = make_tall_thing(random);
     const Eigen::Vector2d place(random.uniform(-0.45, 0.45), random.uniform(near_y + 0.05, far_y - 0.05));

@@ -15,13 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A foot, in its own frame: the ankle at the origin, the toes towards -y, z up.
+/// A foot. Its frame: the ankle at the origin, the toes towards -y, z up.
 struct Foot {
   double length = 0.26;
   bool bare = true;
 };
 
-/// The foot without its toes: a loft along its length, laid down.
+/// The foot without its toes: a loft along its length. The loft's z axis points towards the toes.
 TriangleMesh make_sole(const Foot& foot) {
   const double l = foot.length, wide = foot.bare ? 1 : 1.12;
   const LoftRing rings[] = {{{0, 0.012, -0.05}, 1e-3, 1e-3},
@@ -36,6 +36,7 @@ TriangleMesh make_sole(const Foot& foot) {
   return make_loft(rings);
 }
 
+/// Adds a foot, its toes if it is bare, and its leg, which leans back by `leg_lean` [rad].
 void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_world_foot, bool left,
               double leg_lean) {
   // The loft's z axis becomes -y, and its y axis -z.
@@ -64,7 +65,7 @@ void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_
 }  // namespace
 
 std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
-  // From above, as one sees one's own, or from the front.
+  // The camera sees the feet from above, as people see their own, or from the front.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(15, 80) * kDegree, random.uniform(0.5, 1.05));
@@ -86,14 +87,14 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_faces(std::uint64_t seed) {
-  // Heads 0.5 to 1 m away.
+  // The camera is 0.5 to 1 m away from the heads.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   const double distance = random.uniform(0.55, 0.8);
   s.T_camera_world = camera_above_table(random.uniform(-15, 25) * kDegree, distance);
   s.things.push_back(make_wall(random.uniform(0.6, 2)));
 
-  // Their bodies stand side by side, with arms that hang.
+  // The bodies stand side by side with hanging arms.
   const int count = 1 + static_cast<int>(random.uniform(0, 3));
   for (int i = 0; i < count; ++i) {
     Body::Setting body{random_body(random), {}, {}, true, true};

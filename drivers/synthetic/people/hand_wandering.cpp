@@ -7,9 +7,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.75;  // s between keys
+constexpr double kStep = 0.75;  // time between two keyframes [s]
 
-/// A finger between spread and fist.
+/// The angles of a finger between an open hand (`curl` 0) and a fist (`curl` 1).
 FingerAngles bent(int finger, double curl) {
   static const HandAngles kOpen = open_spread(), kClosed = fist();
   const auto between = [curl](double open, double closed) { return (1 - curl) * open + curl * closed; };
@@ -18,7 +18,8 @@ FingerAngles bent(int finger, double curl) {
   return angles;
 }
 
-/// All fingers bent alike, some bent and others straight as in counting and pointing, or each by itself.
+/// A random shape of the hand: all fingers bent by similar amounts, some bent and others straight (as in counting and
+/// pointing), or each bent by its own amount.
 HandAngles random_shape(KeyedRandom& random) {
   const double kind = random.uniform(), common = random.uniform();
   HandAngles hand;

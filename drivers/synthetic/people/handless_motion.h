@@ -5,9 +5,10 @@
 
 namespace barehand::synthetic {
 
-inline constexpr double kHandlessDuration = 20, kHandlessStep = 2.5;  ///< s; between the keys of what moves
+inline constexpr double kHandlessDuration = 20,  ///< duration of a scene without a hand [s]
+    kHandlessStep = 2.5;                         ///< time between two keyframes of its motions [s]
 
-/// A scene without a hand before a camera that moves slowly.
+/// An empty scene without a hand, before a camera that moves slowly.
 StagedSequence::Setting handless_setting(std::uint64_t seed, KeyedRandom& random);
 
 }  // namespace barehand::synthetic

@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDuration = 6;   // s
-constexpr double kFloor = -0.72;  // m, height below a desk
+constexpr double kDuration = 6;   // duration of a scene with a hand [s]
+constexpr double kFloor = -0.72;  // height of the floor relative to the desk's top [m]
 
 StagedSequence::Setting setting(std::uint64_t seed) {
   StagedSequence::Setting s;
@@ -26,26 +26,27 @@ StagedSequence::Setting setting(std::uint64_t seed) {
   return s;
 }
 
-/// Where a body stands so that its right shoulder is at this place; `heading` 0: it faces -y.
+/// T_world_body of a body whose right shoulder is at this position; with `heading` 0, it faces -y.
 SE3 standing(const BodySize& size, const Vector3d& right_shoulder, double heading) {
   const Eigen::Matrix3d R = exp_so3({0, 0, heading});
   return {R, right_shoulder + R * Vector3d(size.shoulder, 0, 0)};
 }
 
-/// A left wrist, in the body frame, that the camera does not see well: behind the back, or down beside the body.
+/// Position of a left wrist, in the body frame, that the camera does not see well: behind the back, or hanging down
+/// next to the body.
 Vector3d wrist_at_rest(const BodySize& size, KeyedRandom& random) {
   if (random.uniform() < 0.5) return {0.05, size.depth + 0.06, -0.8 * size.torso};
   return {size.shoulder + 0.06, random.uniform(-0.05, 0.05), -size.arm.reach()};
 }
 
-/// How a scene shows its hand.
+/// How a scene shows its hand. World frame.
 struct HandSetting {
-  Vector3d fingers, palm;  ///< where the fingers of a straight wrist tend to point, and where the palm looks
-  double roll = 0.5;       ///< of the palm about the fingers, to either side [rad]
-  Vector3d range;          ///< of the hand's middle to either side [m]
+  Vector3d fingers, palm;  ///< directions in which the fingers tend to point, and which the palm faces
+  double roll = 0.5;       ///< largest rotation of the palm about the fingers [rad]
+  Vector3d range;          ///< half sides of the box in which the hand's middle moves [m]
 };
 
-/// Adds the hand about `centre`, and the body to whose shoulder its arm leads.
+/// Adds a hand that moves about `centre`, and the body that it belongs to.
 void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_world_body, const Vector3d& centre,
                 const HandSetting& hand, bool head, KeyedRandom& random) {
   // The body, which sways a little.
@@ -59,7 +60,7 @@ void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_w
                          {left_wrist, left_wrist}});
   s.bodies.emplace_back(std::move(body));
 
-  // The fingers go on where the forearm leads, or bend towards where they tend to point.
+  // The fingers point in a direction between that of the forearm and the one in which they tend to point.
   const Vector3d forearm = (centre - s.bodies.front().right_elbow(0, centre)).normalized();
   const double roll = random.uniform(-hand.roll, hand.roll);
   const Eigen::Matrix3d palm = palm_facing(forearm + 0.8 * hand.fingers, hand.palm);
@@ -70,14 +71,14 @@ void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_w
 }  // namespace
 
 std::unique_ptr<Sequence> make_person(std::uint64_t seed) {
-  // The camera before the hand.
+  // The camera, which faces the hand, and a wall.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = setting(seed);
   const double distance = random.uniform(0.5, 0.85), range = 0.11 * distance;
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, distance);
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
 
-  // The body behind the hand, at the end of a bent arm.
+  // The body, behind the hand at the distance of a bent arm.
   const BodySize size = random_body(random);
   const Vector3d centre = random_within({0.12 * distance, 0, 0.05 * distance}, random);
   const Vector3d to_shoulder(random.uniform(-0.4, 0.4), random.uniform(0.6, 1), random.uniform(-0.1, 0.6));
@@ -95,14 +96,14 @@ std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
   StagedSequence::Setting s = setting(seed);
   s.T_camera_world = camera_above_table(random.uniform(30, 65) * kDegree, random.uniform(0.65, 0.85), 0.1);
 
-  // The body beyond the desk.
+  // The body, on the far side of the desk.
   const BodySize size = random_body(random);
   const Vector3d centre(random.uniform(-0.08, 0.08), random.uniform(-0.05, 0.05), random.uniform(0.1, 0.16));
   const Vector3d shoulder =
       centre + Vector3d(random.uniform(-0.15, 0.1), random.uniform(0.32, 0.4), random.uniform(0.2, 0.28));
   const SE3 T_world_body = standing(size, shoulder, random.uniform(-0.3, 0.3));
 
-  // The desk between it and the camera.
+  // The desk, between the body and the camera.
   s.things = make_desk(-0.45, T_world_body.t.y() - size.depth - 0.04,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
   s.things.push_back(make_floor(kFloor));
@@ -118,7 +119,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   s.T_camera_world = camera_above_table(random.uniform(35, 60) * kDegree, random.uniform(0.55, 0.7), 0.06);
   const Vector3d eyes = s.T_camera_world.inverse().t;
 
-  // The body below the eyes leans forward until the hand is within reach.
+  // The body, below the eyes, leans forward until the hand is within reach.
   const BodySize size = random_body(random);
   const Vector3d centre(random.uniform(-0.06, 0.1), random.uniform(-0.04, 0.06), random.uniform(0.09, 0.15));
   Vector3d shoulder = eyes + Vector3d(size.shoulder, -0.03, -random.uniform(0.22, 0.28));
@@ -126,7 +127,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   shoulder += std::max(0.0, beyond.norm() - 0.92 * size.arm.reach()) * beyond.normalized();
   const SE3 T_world_body = standing(size, shoulder, std::numbers::pi);
 
-  // The desk before it.
+  // The desk, before the body.
   s.things = make_desk(T_world_body.t.y() + size.depth + 0.04, 0.55,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
   s.things.push_back(make_floor(kFloor));
@@ -142,7 +143,7 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, random.uniform(0.6, 1.1));
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
 
-  // Each arm is shown as a sleeve, or rests.
+  // Each arm is visible and ends in a sleeve, or it rests.
   Body::Setting body{random_body(random), {}, {}, true, true};
   const bool shown[] = {random.uniform() < 0.6, random.uniform() < 0.6};
   const Vector3d rest = wrist_at_rest(body.size, random);
@@ -160,7 +161,7 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
     body.keys.push_back(key);
   }
 
-  // It stands before the camera, turned a little.
+  // The body stands before the camera, turned a little.
   body.T_world_body = {exp_so3({0, 0, random.uniform(-0.5, 0.5)}),
                        {random.uniform(-0.1, 0.1), random.uniform(0.2, 0.5), random.uniform(0, 0.2)}};
   s.bodies.emplace_back(std::move(body));

@@ -32,11 +32,12 @@ SE3 StagedSequence::world_in_camera(double time) const {
 }
 
 SceneState StagedSequence::at(double time) const {
+  // The objects that stand still.
   const SE3 T_camera = world_in_camera(time);
   SceneState state;
   for (const PlacedObject& thing : setting_.things) state.T_camera_object.push_back(T_camera * thing.T_world_object);
 
-  // The hand and the arm that leads to it.
+  // The hand, and the elbow of its arm.
   std::optional<Eigen::Vector3d> wrist;
   if (hand_) {
     HandState hand{with_tremor(hand_->at(time), time, setting_.seed), {}};
@@ -46,7 +47,7 @@ SceneState StagedSequence::at(double time) const {
     state.hands.push_back(hand);
   }
 
-  // The bodies.
+  // The bodies; the hand belongs to the first one.
   for (const Body& body : setting_.bodies) {
     for (const SE3& T_world_object : body.poses(time, wrist))
       state.T_camera_object.push_back(T_camera * T_world_object);

@@ -8,21 +8,21 @@
 
 namespace barehand::synthetic {
 
-/// An object that stands still. World frame: z up, y away from the camera, x to the right; the camera looks at its
-/// origin or near it.
+/// An object that stands still. World frame: z up, y away from the camera, x to the right; the camera looks at the
+/// origin, or near it.
 struct PlacedObject {
   SceneObject object;
   SE3 T_world_object;
 };
 
-/// A place of the camera at one time: it is turned and shifted from where it stands. World frame.
+/// A keyframe of the camera: its displacement [m] and rotation vector relative to its initial pose. World frame.
 struct CameraKey {
-  double time = 0;
+  double time = 0;  ///< [s]
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
 
-/// Objects that stand still, bodies that move, and a right hand of the first body, if there is one, before a camera
-/// that may move.
+/// A scene before a camera that may move: objects that stand still, bodies that move and, optionally, the right hand of
+/// the first body.
 class StagedSequence : public Sequence {
  public:
   struct Setting {
@@ -32,8 +32,8 @@ class StagedSequence : public Sequence {
     std::vector<CameraKey> camera = {{}};
     std::vector<PlacedObject> things;
     std::vector<Body> bodies;
-    std::vector<HandKey> hand;  ///< world frame; empty: no hand
-    Eigen::Matrix3d R_world_hand = Eigen::Matrix3d::Identity();
+    std::vector<HandKey> hand;                                   ///< keyframes in the world frame; empty: no hand
+    Eigen::Matrix3d R_world_hand = Eigen::Matrix3d::Identity();  ///< base orientation of these keyframes
   };
   explicit StagedSequence(Setting setting);
   double duration() const override { return setting_.duration; }

@@ -13,7 +13,8 @@ constexpr int kColumns = 32;
 constexpr int kCapRings = 8;
 constexpr double kQuarter = std::numbers::pi / 2;
 
-/// The rings of a spherical cap; `side` -1 opens upwards from its pole, +1 closes towards it.
+/// Adds the rings of a hemisphere with its equator at `z`: for `side` -1 the lower one, from its pole to the equator;
+/// for +1 the upper one, from the equator to its pole.
 void add_cap(std::vector<LoftRing>& rings, double z, double radius, int side) {
   for (int i = 0; i <= kCapRings; ++i) {
     const double angle = kQuarter * (side < 0 ? kCapRings - i : i) / kCapRings;
@@ -39,7 +40,7 @@ TriangleMesh make_loft(std::span<const LoftRing> rings) {
 TriangleMesh make_ellipsoid(const Vector3d& half_axes) {
   std::vector<LoftRing> rings;
   add_cap(rings, 0, 1, -1);
-  rings.pop_back();  // both caps have the equator
+  rings.pop_back();  // the equator belongs to both hemispheres
   add_cap(rings, 0, 1, 1);
   for (LoftRing& ring : rings)
     ring = {half_axes.cwiseProduct(ring.centre), half_axes.x() * ring.half_x, half_axes.y() * ring.half_y};

@@ -12,13 +12,14 @@ struct LoftRing {
   double half_x = 0, half_y = 0;
 };
 
-/// A smooth closed surface through rings of rising z.
+/// A smooth surface through rings that are ordered by increasing z. It is closed if the first and the last ring are
+/// points.
 TriangleMesh make_loft(std::span<const LoftRing> rings);
 /// An ellipsoid about the origin.
 TriangleMesh make_ellipsoid(const Eigen::Vector3d& half_axes);
 /// A limb with round ends: the hull of a sphere about the origin and one about (0, 0, length).
 TriangleMesh make_limb(double length, double radius, double end_radius);
-/// The pose of a limb that begins at one point and leads towards another.
+/// The pose of a limb that begins at one point and points towards another.
 SE3 limb_between(const Eigen::Vector3d& begin, const Eigen::Vector3d& end);
 
 }  // namespace barehand::synthetic

@@ -7,20 +7,20 @@
 namespace barehand::synthetic {
 namespace {
 
-constexpr float kEdge = 0.02f;  // m, step of depth that counts as an edge
+constexpr float kEdge = 0.02f;  // a larger difference in depth between pixels counts as an edge [m]
 
 float luma(Rgb c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; }
 
 }  // namespace
 
 void lit_by_projector(const Intrinsics& camera, double baseline, const float* depth, std::vector<bool>& lit) {
-  // The projector's column of a pixel is its own shifted by the disparity.
+  // A pixel's column in the projector is its own column, shifted by the disparity.
   const auto shift = static_cast<float>(camera.fx * baseline);
   const int reach = static_cast<int>(shift / 0.2f) + 1;  // the largest disparity considered: a distance of 0.2 m
   std::vector<float> nearest(camera.width + reach, std::numeric_limits<float>::max());
   const auto column = [&](int u) { return static_cast<float>(u) - shift / depth[u] + static_cast<float>(reach); };
 
-  // The nearest surface along each column of the projector.
+  // Find the nearest surface in each column of the projector.
   for (int u = 0; u + 1 < camera.width; ++u) {
     if (depth[u] <= 0 || depth[u + 1] <= 0 || std::abs(depth[u + 1] - depth[u]) > kEdge) continue;
     const float from = std::min(column(u), column(u + 1)), to = std::max(column(u), column(u + 1));
@@ -28,7 +28,7 @@ void lit_by_projector(const Intrinsics& camera, double baseline, const float* de
       nearest[p] = std::min(nearest[p], std::max(depth[u], depth[u + 1]));
   }
 
-  // A pixel is lit if nothing nearer is in its column.
+  // A pixel is lit if there is nothing nearer in its column.
   lit.assign(camera.width, true);
   for (int u = 0; u < camera.width; ++u) {
     if (depth[u] <= 0) continue;

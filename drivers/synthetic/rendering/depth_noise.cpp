@@ -19,7 +19,7 @@ Block draw(std::uint64_t seed, std::uint32_t frame, std::uint32_t u, std::uint32
   return Philox::block(seed, {u, v, frame, static_cast<std::uint32_t>(purpose)});
 }
 
-/// Depth between pixels: bilinear on a surface, that of the nearest pixel across an edge.
+/// Depth at a position between pixels: bilinear on a surface, that of the nearest pixel at an edge.
 float sample(const Image<float>& depth, float u, float v) {
   const int u0 = std::clamp(static_cast<int>(std::floor(u)), 0, depth.width() - 2);
   const int v0 = std::clamp(static_cast<int>(std::floor(v)), 0, depth.height() - 2);
@@ -31,13 +31,14 @@ float sample(const Image<float>& depth, float u, float v) {
   return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * low[0] + a * low[1]);
 }
 
-/// Lateral sigma [px], which grows with the angle between ray and normal (Nguyen et al. 2012, Eq. 1).
+/// Lateral sigma [px], which grows with the angle between the line of sight and the surface normal (Nguyen et al. 2012,
+/// Eq. 1).
 float lateral_sigma(const KinectNoise& noise, float cosine) {
   const float angle = std::min(std::acos(cosine), 1.45f);
   return static_cast<float>(noise.lateral) + 0.035f * angle / (static_cast<float>(std::numbers::pi / 2) - angle);
 }
 
-/// Random numbers in [0, 1), one for each patch of 6 x 6 pixels.
+/// Random numbers in [0, 1), one for each patch of 6 x 6 pixels: pixels are lost patch by patch.
 class Patches {
  public:
   Patches(int width, int height, std::uint64_t seed, std::uint32_t frame)
@@ -48,7 +49,7 @@ class Patches {
         numbers_.at(u, v) = static_cast<float>(Philox::uniform(bits[0]));
       }
   }
-  /// The number of the patch at a place, which may lie some pixels outside the image.
+  /// The random number of the patch at a position, which may lie some pixels outside the image.
   float at(float u, float v) const {
     return numbers_.at(kBorder + static_cast<int>(std::floor(u / kSize)),
                        kBorder + static_cast<int>(std::floor(v / kSize)));
@@ -95,7 +96,7 @@ Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& vi
   const Patches patches(view.depth.width(), view.depth.height(), seed, frame);
   std::vector<bool> lit;
 
-  // Pixels in the projector's shadow stay without depth, row by row.
+  // Row by row; pixels in the projector's shadow have no depth.
   for (int v = 0; v < view.depth.height(); ++v) {
     lit_by_projector(camera, noise.baseline, view.depth.row(v), lit);
     for (int u = 0; u < view.depth.width(); ++u) {
@@ -106,12 +107,12 @@ Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& vi
 
       // Pixels are lost at depth edges.
       if (Philox::uniform(bits[2]) < edge_loss(view.depth, u, v)) continue;
-      // Patches are lost on difficult surfaces. Jittering the place makes the patches ragged.
+      // Patches are lost on difficult surfaces. Jitter of the position gives them ragged outlines.
       const float u_patch = static_cast<float>(u) + 1.5f * normal(bits[1] >> 16);
       const float v_patch = static_cast<float>(v) + 1.5f * normal(bits[3]);
       if (patches.at(u_patch, v_patch) < surface_loss(view, materials, u, v)) continue;
 
-      // All others get lateral and axial noise.
+      // All other pixels get lateral and axial noise.
       const float lateral = lateral_sigma(noise, view.cosine.at(u, v));
       const float z = sample(view.depth, static_cast<float>(u) + lateral * n0, static_cast<float>(v) + lateral * n1);
       if (z > 0) spoilt.at(u, v) = z + static_cast<float>(kinect_axial_sigma(noise, z)) * n2;
@@ -131,16 +132,15 @@ Image<float> DepthNoise::tof(const RenderedView& view, const TofNoise& noise, st
       const Block bits =
           draw(seed, frame, static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), Draw::depth_noise);
 
-      // On a depth edge, some pixels float between both surfaces.
+      // At a depth edge, some pixels lie between both surfaces ("flying pixels").
       const auto [lo, hi] = depth_range(view.depth, u, v);
       const bool flies = hi - lo > 0.015f && Philox::uniform(bits[1]) < noise.flying;
       if (flies) z = lo + static_cast<float>(Philox::uniform(bits[2])) * (hi - lo);
 
-      // The noise grows as less light returns.
+      // The less light returns, the larger the noise. Infrared reflectance roughly follows the colour. The returned
+      // light is 1 for a white surface at 0.5 m that faces the camera.
       const Rgb c = view.colour.at(u, v);
-      const float albedo =
-          std::max(0.05f, static_cast<float>(c.r + c.g + c.b) / 765.0f);  // infrared reflectance roughly follows colour
-      // 1 for a white surface at 0.5 m that faces the camera
+      const float albedo = std::max(0.05f, static_cast<float>(c.r + c.g + c.b) / 765.0f);
       const float returned = albedo * view.cosine.at(u, v) / (4 * z * z);
       if (returned < 0.004f) continue;  // too little light returns
       spoilt.at(u, v) = z + static_cast<float>(noise.axial) / std::sqrt(returned) * normal(bits[0]);

@@ -25,7 +25,7 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
                       std::uint32_t first) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t index = first + static_cast<std::uint32_t>(i);
-    // Writes one row of pixels.
+    // Fills one row of pixels.
     const auto fill = [&](int v, int begin, int end, double inverse_z, double step) {
       float* nearest = buffer_.inverse_z.row(v);
       std::uint32_t* front = buffer_.triangle.row(v);
@@ -38,7 +38,7 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
       }
     };
 
-    // Clip the triangle and fill what remains.
+    // Clip the triangle, and fill what remains.
     project_clipped(camera_, corners_of(vertices, triangles[i]),
                     [&](const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
                       scan_triangle(camera_.width, camera_.height, a, b, c, fill);

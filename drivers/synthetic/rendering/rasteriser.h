@@ -13,16 +13,16 @@ namespace barehand::synthetic {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-/// The front-most triangle at every pixel and its distance. 1/z is linear in the image, which is exact for
-/// perspective.
+/// The front-most triangle at every pixel, and its distance as 1 / z. On a plane, 1 / z is linear in the image under
+/// perspective projection, so that its interpolation is exact.
 struct VisibilityBuffer {
-  Image<float> inverse_z;         ///< 1 / z of the front-most surface [1/m]; 0 = nothing there
-  Image<std::uint32_t> triangle;  ///< its index; kNoTriangle = nothing there
+  Image<float> inverse_z;         ///< 1 / z of the front-most triangle [1/m]; 0: there is none
+  Image<std::uint32_t> triangle;  ///< index of the front-most triangle; kNoTriangle: there is none
 };
 
-/// Rasterises triangles in the camera frame with a z-buffer, from both sides. A pixel belongs to a triangle if its
-/// centre lies inside; triangles that share an edge leave neither a gap nor an overlap. Parts nearer than `kNearPlane`
-/// are clipped.
+/// Rasterises triangles in the camera frame with a z-buffer; both of their sides are visible. A pixel belongs to a
+/// triangle if its centre lies inside; triangles that share an edge leave neither a gap nor an overlap. Parts nearer
+/// than kNearPlane are clipped.
 class Rasteriser {
  public:
   static constexpr double kNearPlane = 0.02;  ///< [m]
@@ -30,7 +30,7 @@ class Rasteriser {
   explicit Rasteriser(const Intrinsics& camera);
   /// Empties the buffer.
   void clear();
-  /// Draws triangles, whose indices in the buffer are first, first + 1, ...
+  /// Draws triangles. Their indices in the buffer are first, first + 1, ...
   void draw(std::span<const Eigen::Vector3f> vertices, std::span<const Triangle> triangles, std::uint32_t first);
   const VisibilityBuffer& buffer() const { return buffer_; }
   const Intrinsics& camera() const { return camera_; }
@@ -40,8 +40,8 @@ class Rasteriser {
   VisibilityBuffer buffer_;
 };
 
-/// Counts for every class of triangles (at most 16) the pixels that its outer side covers when nothing else is drawn;
-/// seen from outside, triangles are counter-clockwise. The image is enlarged by `margin` pixels on all sides, so that
+/// Counts for every class of triangles (at most 16) the pixels that its outer sides cover when nothing else is drawn.
+/// Seen from outside, triangles are counter-clockwise. The image is enlarged by `margin` pixels on all sides, so that
 /// parts just outside the view count as well.
 std::vector<int> covered_pixels(const Intrinsics& camera, int margin, std::span<const Eigen::Vector3f> vertices,
                                 std::span<const Triangle> triangles, std::span<const std::uint8_t> classes);

@@ -8,12 +8,12 @@
 
 namespace barehand::synthetic {
 
-/// A vertex in the image: pixel coordinates and 1 / z [1/m].
+/// A vertex in the image: its pixel coordinates, and its 1 / z [1/m].
 struct ScreenPoint {
   double u, v, inverse_z;
 };
 
-/// Clips a triangle at the near plane and passes the rest to `emit(a, b, c)` as triangles in the image.
+/// Clips a triangle (camera frame) at the near plane, and passes the rest to `emit(a, b, c)` as triangles in the image.
 template <typename Emit>
 void project_clipped(const Intrinsics& camera, const std::array<Eigen::Vector3d, 3>& corners, Emit&& emit) {
   std::array<ScreenPoint, 4> polygon;
@@ -35,8 +35,8 @@ void project_clipped(const Intrinsics& camera, const std::array<Eigen::Vector3d,
   for (int i = 2; i < n; ++i) emit(polygon[0], polygon[i - 1], polygon[i]);
 }
 
-/// u at which the edge crosses row v. The result is the same for both directions of an edge, so that neighbours fit
-/// exactly.
+/// The u at which the edge p q crosses row v. The result is the same for both directions of an edge, so that
+/// neighbouring triangles fit exactly.
 inline double edge_at(const ScreenPoint& p, const ScreenPoint& q, double v) {
   const bool swap = q.v < p.v || (q.v == p.v && q.u < p.u);
   const ScreenPoint &top = swap ? q : p, &bottom = swap ? p : q;
@@ -54,7 +54,7 @@ void scan_triangle(int width, int height, ScreenPoint a, ScreenPoint b, ScreenPo
   const double area = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
   if (area == 0) return;
 
-  // The gradient of 1 / z.
+  // Compute the gradient of 1 / z.
   const double du = ((b.inverse_z - a.inverse_z) * (c.v - a.v) - (c.inverse_z - a.inverse_z) * (b.v - a.v)) / area;
   const double dv = ((c.inverse_z - a.inverse_z) * (b.u - a.u) - (b.inverse_z - a.inverse_z) * (c.u - a.u)) / area;
 

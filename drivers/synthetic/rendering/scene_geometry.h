@@ -10,22 +10,22 @@ namespace barehand::synthetic {
 /// The appearance of a surface.
 struct Material {
   Rgb colour;
-  double gloss = 0;  ///< [0, 1]; range cameras lose glossy surfaces that face them
+  double gloss = 0;  ///< in [0, 1]; structured-light cameras lose pixels of glossy surfaces that face them
 };
 
 inline constexpr Rgb kSkinColour = {214, 162, 134}, kClothColour = {42, 66, 138};
 
-/// All triangles of one frame in the camera frame, and the surface that each of them belongs to.
+/// All triangles of one image in the camera frame, and the surface that each of them belongs to.
 struct SceneGeometry {
   std::vector<Eigen::Vector3f> vertices, normals;
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> surface;  ///< of every triangle: index of its material
+  std::vector<std::uint8_t> surface;  ///< of every triangle: its surface, which is the index of its material
 
   /// Appends a mesh, all of whose triangles get the surface `surface_index`.
   void add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index);
   /// Appends another scene with its surfaces.
   void add(const SceneGeometry& other);
-  /// Mirrors everything in the plane x = 0, which turns the scene into one of the other hand.
+  /// Mirrors everything in the plane x = 0, which turns a right hand into a left one.
   void mirror();
 };
 

@@ -10,23 +10,23 @@
 namespace barehand::synthetic {
 namespace {
 
-const Eigen::Vector3f kLamp(-0.35f, -0.8f, -0.1f);  // m, camera frame
-constexpr Rgb kNothing = {22, 22, 26};
-constexpr float kAmbient = 0.42f, kDiffuse = 0.62f;
+const Eigen::Vector3f kLamp(-0.35f, -0.8f, -0.1f);   // position of the lamp in the camera frame [m]
+constexpr Rgb kNothing = {22, 22, 26};               // colour of pixels without a surface
+constexpr float kAmbient = 0.42f, kDiffuse = 0.62f;  // weights of the ambient and the diffuse light
 
-/// A quantity that is linear on a triangle, as a function of the point in space.
+/// A quantity that varies linearly on a triangle, as a function of the point in the camera frame.
 struct Linear {
   Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
   float offset = 0;
   float at(const Eigen::Vector3f& p) const { return gradient.dot(p) + offset; }
 };
 
-/// Light and cosine of the viewing angle on a triangle.
+/// The light on a triangle, and the cosine of the viewing angle.
 struct TriangleShade {
   Linear light, cosine;
 };
 
-/// Interpolates values at the corners of a triangle.
+/// Interpolates values that are given at the corners of a triangle.
 class TriangleFrame {
  public:
   TriangleFrame(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) : a_(a) {
@@ -50,7 +50,7 @@ class TriangleFrame {
   float facing_ = 1;
 };
 
-/// Light and viewing angle at the corners of a triangle, interpolated between them.
+/// Computes light and viewing angle at the corners of a triangle, to be interpolated between them.
 TriangleShade shade_triangle(const SceneGeometry& scene, const Triangle& t) {
   const TriangleFrame frame(scene.vertices[t[0]], scene.vertices[t[1]], scene.vertices[t[2]]);
   std::array<float, 3> light{}, cosine{};
@@ -69,7 +69,7 @@ Rgb lit(Rgb colour, float light, float noise) {
   return {level(colour.r * light + noise), level(colour.g * light + noise), level(colour.b * light + noise)};
 }
 
-/// Grain of the colour sensor: one byte per pixel, 16 pixels per random block.
+/// Fills one row with the grain of the colour sensor: one random byte per pixel, 16 pixels per random block.
 void fill_grain(std::uint64_t seed, std::uint32_t frame, std::uint32_t row, std::vector<std::uint8_t>& grain) {
   for (std::size_t u = 0; u < grain.size(); u += 16) {
     const auto block =
@@ -107,7 +107,7 @@ RenderedView shade(const Intrinsics& camera, const VisibilityBuffer& visible, co
         continue;
       }
 
-      // The visible point and its appearance.
+      // Compute the visible point and its appearance.
       const float z = 1 / visible.inverse_z.at(u, v);
       const Eigen::Vector3f p(z * (static_cast<float>(u) - static_cast<float>(camera.cx)) * inverse_fx, z * y, z);
       view.depth.at(u, v) = z;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Transports a frame along a path without twisting it; columns: normal, binormal.
+/// Transports a frame along a path without twisting it. The columns are the normal and the binormal at each point.
 std::vector<Eigen::Matrix<double, 3, 2>> carried_frames(std::span<const Vector3d> path) {
   std::vector<Eigen::Matrix<double, 3, 2>> frames(path.size());
   Vector3d normal = (path[1] - path[0]).unitOrthogonal();
@@ -31,13 +31,13 @@ TriangleMesh make_patch(int columns, int rows, const std::function<Vector3d(doub
                         bool closed_v) {
   TriangleMesh mesh;
 
-  // Vertices; a closed direction has one row less.
+  // Compute the vertices; a closed direction has one row less.
   const int nu = closed_u ? columns : columns + 1, nv = closed_v ? rows : rows + 1;
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i)
       mesh.vertices.push_back(point(static_cast<double>(i) / columns, static_cast<double>(j) / rows).cast<float>());
 
-  // Two triangles per quadrilateral.
+  // Make two triangles per quadrilateral.
   const auto index = [&](int i, int j) { return static_cast<std::uint32_t>((j % nv) * nu + i % nu); };
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {

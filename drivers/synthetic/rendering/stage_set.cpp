@@ -34,7 +34,7 @@ FreeSequence::FreeSequence(Setting setting) : setting_(std::move(setting)), trac
 
 SceneState FreeSequence::at(double time) const {
   const SkeletonPose skeleton = with_tremor(track_.at(time), time, setting_.seed);
-  // The elbow follows the wrist, but not all the way.
+  // The elbow moves 0.9 times as far as the wrist.
   const Eigen::Vector3d start = setting_.keys.front().position;
   const Eigen::Vector3d elbow = start + setting_.wrist_to_elbow + 0.9 * (skeleton.T_camera_palm.t - start);
   return {{{skeleton, elbow}}, setting_.T_camera_object};

@@ -6,24 +6,24 @@
 namespace barehand::synthetic {
 
 /// T_camera_world of a scene on a table. World frame: origin on the table, z up, y away from the camera, x to the
-/// right. The camera looks at the point `height` above the origin from the distance `distance` [m], `tilt` below the
-/// horizon [rad]; pi / 2 is straight down.
+/// right. The camera looks at the point `height` [m] above the origin from the distance `distance` [m]; it looks `tilt`
+/// [rad] below the horizon (pi / 2: straight down).
 SE3 camera_above_table(double tilt, double distance, double height = 0);
 
 /// A large table top around the world's origin.
 SceneObject make_table();
 
-/// Orientation of a right hand that shows its palm to the camera, with the fingers up.
+/// Orientation, in the camera frame, of a right hand that shows its palm to the camera, with the fingers up.
 Eigen::Matrix3d palm_to_camera();
 
-/// A sequence of a hand that moves in the air on a track, in the camera frame, while objects stand still.
+/// A sequence of a hand that moves freely in the air, in the camera frame, while objects stand still.
 class FreeSequence : public Sequence {
  public:
   struct Setting {
     double duration = 0;
     std::vector<HandKey> keys;
     Eigen::Matrix3d base = palm_to_camera();
-    Eigen::Vector3d wrist_to_elbow = Eigen::Vector3d(0.05, 0.25, 0.05);  ///< at the first key [m]
+    Eigen::Vector3d wrist_to_elbow = Eigen::Vector3d(0.05, 0.25, 0.05);  ///< from wrist to elbow at the first key [m]
     std::vector<SceneObject> objects;
     std::vector<SE3> T_camera_object;
     std::uint64_t seed = 0;
@@ -38,7 +38,7 @@ class FreeSequence : public Sequence {
   HandTrack track_;
 };
 
-/// One hand in the air; see sequence_list() for what each of these sequences shows.
+/// Sequences of one hand in the air; sequence_list() describes what each of them shows.
 std::unique_ptr<Sequence> make_fist(std::uint64_t seed);
 std::unique_ptr<Sequence> make_open(std::uint64_t seed);
 std::unique_ptr<Sequence> make_scan(std::uint64_t seed);
@@ -46,11 +46,11 @@ std::unique_ptr<Sequence> make_wave(std::uint64_t seed);
 std::unique_ptr<Sequence> make_returns(std::uint64_t seed);
 /// A right and a left hand that do not touch.
 std::unique_ptr<Sequence> make_two_hands(std::uint64_t seed);
-/// `degree` 0 to 6: the occluder hides degree / 6 of the fingers.
+/// A hand behind a plate that hides `degree` / 6 of the fingers; `degree` is 0 to 6.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed);
-/// What a grasp sequence grasps.
+/// The object of a grasp sequence.
 enum class GraspedThing { mug, ball, pliers };
-/// A hand that grasps, lifts, turns and releases a thing on a table.
+/// A hand that grasps, lifts, turns and releases an object on a table.
 std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedThing thing, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

@@ -18,7 +18,7 @@ FreeSequence::Setting setting(double duration, std::vector<HandKey> keys, std::u
 
 }  // namespace
 
-/// The paper's Fig. 6a: two fists, the first made from joined and the second from spread fingers.
+/// The motion of the paper's Fig. 6a: two fists, the first made from joined and the second from spread fingers.
 std::unique_ptr<Sequence> make_fist(std::uint64_t seed) {
   const Vector3d here(0.0, 0.08, 0.58), forward(0.01, 0.075, 0.57), aside(-0.015, 0.085, 0.585);
   const Vector3d still(0.12, 0, 0.03), leaning(0.2, 0.15, -0.06), turned(0.05, -0.14, 0.08);
@@ -51,11 +51,11 @@ std::unique_ptr<Sequence> make_open(std::uint64_t seed) {
                                                 seed));
 }
 
-/// A hand shown for `barehand calibrate`: from all sides; then the thumb circles, and every joint bends separately
-/// from its neighbours (the tendon glides of hand therapy: hook, table top, straight fist and full fist), with palm
-/// and back towards the camera.
+/// A hand as `barehand calibrate` needs it: it is shown from all sides; then the thumb circles and every joint bends
+/// separately from its neighbours (the tendon glides of hand therapy: hook, table top, straight fist and full fist),
+/// first with the palm and then with the back towards the camera.
 std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
-  // The shapes of the hand.
+  // Define the shapes of the hand.
   const Vector3d here(0.0, 0.08, 0.55), palm(0, 0, 0), back(0, 2.9, 0);
   const HandAngles open = open_spread();
   const auto with_thumb = [](const HandAngles& hand, const FingerAngles& thumb) {
@@ -102,7 +102,7 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
     show(1.0, side, open);
   };
 
-  // First the hand is shown from all sides, then it bends, seen from the palm and from the back.
+  // Show the hand from all sides; then bend it, seen from the palm and from the back.
   show(0.6, palm, open);
   show(1.2, palm, open);
   show(1.8, {0, 1.1, 0}, open);
@@ -136,15 +136,14 @@ std::unique_ptr<Sequence> make_wave(std::uint64_t seed) {
                                                 seed));
 }
 
-/// A hand leaves the view and comes back more than ten times, each time at another place, another distance and another
-/// orientation.
+/// A hand that leaves the view and comes back ten times, each time at another position, distance and orientation.
 std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
   struct Visit {
     Vector3d from, here, turn;
     HandAngles angles;
   };
 
-  // Where the hand goes, and what it looks like there.
+  // Where the hand enters from, and its position, orientation and shape in the view.
   const Vector3d left(-0.75, 0.1, 0.6), right(0.75, 0.1, 0.6), below(0.05, 0.65, 0.6);
 
   const Visit visits[] = {{right, {0.0, 0.08, 0.6}, {0, 0, 0}, open_spread()},
@@ -160,7 +159,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
                           {left, {0.0, 0.08, 0.55}, {0, 0, 0.2}, open_relaxed()}};
 
   // Each visit: enter, turn a little, leave.
-  constexpr double kVisit = 3.5;  // s, of which 1.4 out of view
+  constexpr double kVisit = 3.5;  // time from one visit to the next [s]; the last 1.4 s are out of view
   std::vector<HandKey> keys;
   for (const Visit& visit : visits) {
     const double start = kVisit * static_cast<double>(keys.size()) / 4;

@@ -6,10 +6,10 @@
 namespace barehand::synthetic {
 namespace {
 
-constexpr double kContact = 0.0005;  // m; skin closer than this touches
-constexpr int kSteps = 300;
+constexpr double kContact = 0.0005;  // skin that is closer to the object than this touches it [m]
+constexpr int kSteps = 300;          // number of steps from the open to the closed hand
 
-/// Sets the angle of joint k between open (t = 0) and closed (t = 1).
+/// Sets the angles of joint k of a finger between open (t = 0) and closed (t = 1).
 void set_joint(FingerAngles& finger, const FingerAngles& open, const FingerAngles& closed, int k, double t) {
   finger.flexion[k] = (1 - t) * open.flexion[k] + t * closed.flexion[k];
   if (k == 0) finger.abduction = (1 - t) * open.abduction + t * closed.abduction;
@@ -36,7 +36,7 @@ std::array<double, kSegmentCount> GraspPlanner::clearance(const HandAngles& angl
 SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& direction, const SignedDistance& thing,
                                 const HandAngles& angles) const {
   SE3 T = T_palm_thing;
-  for (int i = 0; i < 60; ++i) {  // the distance is never overestimated, so the steps do not pass the contact
+  for (int i = 0; i < 60; ++i) {  // distances are never overestimated, so that no step goes beyond the contact
     const auto gap = clearance(angles, T, thing);
     const double missing = kContact - *std::min_element(gap.begin(), gap.end());
     if (std::abs(missing) < 1e-5) break;
@@ -48,14 +48,14 @@ SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& 
 HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed, const SE3& T_palm_thing,
                                const SignedDistance& thing) const {
   HandAngles angles = open;
-  std::array<int, kFingerCount> first_free{};  // joints before this one have stopped
+  std::array<int, kFingerCount> first_free{};  // of each finger; the joints before this one have stopped
   for (int step = 1; step <= kSteps; ++step) {
-    // Move all joints that are free.
+    // Close all free joints by one step.
     for (int finger = 0; finger < kFingerCount; ++finger)
       for (int k = first_free[finger]; k < 3; ++k)
         set_joint(angles[finger], open[finger], closed[finger], k, static_cast<double>(step) / kSteps);
 
-    // Stop the joints of phalanges that touch.
+    // Stop the joints of phalanges that touch the object.
     const auto gap = clearance(angles, T_palm_thing, thing);
     for (int finger = 0; finger < kFingerCount; ++finger)
       for (int k = 0; k < 3; ++k)

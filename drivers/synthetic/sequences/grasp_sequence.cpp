@@ -1,4 +1,4 @@
-// Sequences in which a hand grasps a thing: a mug, a ball or pliers.
+// Sequences in which a hand grasps an object (the "thing"): a mug, a ball or pliers.
 #include <cmath>
 
 #include "drivers/synthetic/random_keys.h"
@@ -13,15 +13,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A thing and the way in which a right hand grasps it.
+/// An object and the way in which a right hand grasps it.
 struct GraspPlan {
-  std::vector<SceneObject> objects;  ///< the thing first, then what it stands on
-  std::vector<SE3> T_world_stand;    ///< of the objects that it stands on
-  SignedDistance distance;
-  HandAngles open, closed;
-  SE3 T_palm_thing;           ///< start of the motion to the palm
-  Vector3d towards_palm_out;  ///< direction in which the thing may be moved (palm frame)
-  SE3 T_world_thing;          ///< the thing at rest
+  std::vector<SceneObject> objects;  ///< the grasped object first, then the objects that it stands on
+  std::vector<SE3> T_world_stand;    ///< poses of the objects that it stands on
+  SignedDistance distance;           ///< distance from the grasped object's surface
+  HandAngles open, closed;           ///< the hand before the grasp, and closed as far as possible
+  SE3 T_palm_thing;                  ///< start of the search for the pose at which the object touches the palm
+  Vector3d towards_palm_out;  ///< direction along which this search moves the object, away from the palm (palm frame)
+  SE3 T_world_thing;          ///< pose of the object at rest
 };
 
 /// The rotation matrix with these x and y axes.
@@ -41,16 +41,16 @@ HandAngles preshape(double thumb_abduction, double knuckle, double middle, doubl
   return angles;
 }
 
-/// The hand as closed as it may become; degrees.
+/// The hand closed as far as possible; angles in degrees.
 HandAngles closed_shape(double thumb_abduction) {
   HandAngles angles = preshape(thumb_abduction, 88, 102, 60);
   angles[0] = {thumb_abduction * kDegree, {28 * kDegree, 45 * kDegree, 55 * kDegree}};
   return angles;
 }
 
-/// Grasp of a vertical cylinder: the mug's axis lies across the palm, the thumb is on top.
+/// Grasp of a vertical cylinder: the mug's axis lies across the palm, and the thumb is on top.
 GraspPlan plan_mug() {
-  // How the palm approaches the mug.
+  // The orientation of the palm.
   const MugSize size;
   GraspPlan plan;
   const double heading = 128 * kDegree;  // direction of the fingers on the table
@@ -62,7 +62,7 @@ GraspPlan plan_mug() {
   const Vector3d handle = (0.86 * -y_palm - 0.5 * fingers).normalized();
   const Eigen::Matrix3d R_world_thing = axes(handle, up.cross(handle));
 
-  // What is in the scene, and how the hand closes.
+  // The objects of the scene, and the shapes of the hand.
   plan.objects = {{"mug", make_mug(size), {{182, 48, 40}, 0.6}}};
   plan.distance = cylinder_distance(size.radius, size.height / 2);
   plan.T_world_thing = {R_world_thing, {0.02, 0.03, size.height / 2}};
@@ -75,7 +75,7 @@ GraspPlan plan_mug() {
 
 /// Power grasp of a 65 mm ball on a post, from above and from the side.
 GraspPlan plan_ball() {
-  // How the palm approaches the ball.
+  // The orientation of the palm.
   constexpr double kRadius = 0.0325, kPost = 0.07;
   GraspPlan plan;
   const Vector3d fingers = Vector3d(-0.82, 0.12, -0.42).normalized();
@@ -83,13 +83,13 @@ GraspPlan plan_ball() {
   const Vector3d x_palm = (across - across.dot(fingers) * fingers).normalized();
   const Eigen::Matrix3d R_world_palm = axes(x_palm, (-fingers).cross(x_palm));
 
-  // What is in the scene.
+  // The objects of the scene.
   const Eigen::Vector2d outline[] = {{1e-6, 0}, {0.022, 0}, {0.022, 0.004}, {0.007, 0.006}, {0.005, kPost}};
   plan.objects = {{"ball", make_sphere(kRadius), {{176, 190, 38}}}, {"post", make_turned(outline), {{52, 52, 58}}}};
   plan.T_world_thing = {Eigen::Matrix3d::Identity(), {0, 0.02, kPost + kRadius - 0.001}};
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {0, 0.02, 0}}};
 
-  // How the hand closes.
+  // The start of the grasp, and the shapes of the hand.
   plan.distance = sphere_distance(kRadius);
   plan.T_palm_thing = {R_world_palm.transpose(), {-0.010, -0.10, -0.090}};
   plan.towards_palm_out = -Vector3d::UnitY();
@@ -100,7 +100,7 @@ GraspPlan plan_ball() {
 
 /// Grasp of pliers that lie in a rack with one handle above the other; the hand closes around both handles.
 GraspPlan plan_pliers() {
-  // How the palm approaches the pliers.
+  // The orientation of the palm.
   const PliersSize size;
   constexpr double kHeight = 0.11;
   GraspPlan plan;
@@ -114,14 +114,14 @@ GraspPlan plan_pliers() {
   std::vector<Vector3d> lower = upper;
   for (Vector3d& p : lower) p.y() = -p.y();
 
-  // What is in the scene.
+  // The objects of the scene.
   plan.objects = {{"pliers", make_pliers(size), {{196, 60, 32}, 0.3}},
                   {"rack", make_box({0.012, 0.02, 0.045}), {{92, 74, 56}}}};
   plan.T_world_thing = {R_world_palm, {0.0, 0.03, kHeight}};
   const Vector3d jaws = plan.T_world_thing * Vector3d(-0.45 * size.length, 0, 0);
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {jaws.x(), jaws.y(), 0.045}}};
 
-  // How the hand closes.
+  // The start of the grasp, and the shapes of the hand.
   plan.distance = union_of({tube_distance(upper, size.handle_radius), tube_distance(lower, size.handle_radius)});
   plan.T_palm_thing = {Eigen::Matrix3d::Identity(), {0.006, -0.08, -0.082}};
   plan.towards_palm_out = -Vector3d::UnitY();
@@ -143,7 +143,7 @@ class GraspSequence : public Sequence {
         objects_(std::move(plan.objects)),
         T_world_stand_(plan.T_world_stand),
         T_world_thing_(plan.T_world_thing) {
-    // Plan the grasp once; the contact stays the same while the thing is held.
+    // Plan the grasp once; the contact stays the same while the object is held.
     const GraspPlanner planner(rig);
     T_palm_thing_ = planner.place_at_palm(plan.T_palm_thing, plan.towards_palm_out, plan.distance, plan.open);
     T_world_grasp_ = T_world_thing_ * T_palm_thing_.inverse();
@@ -156,19 +156,19 @@ class GraspSequence : public Sequence {
   const std::vector<SceneObject>& objects() const override { return objects_; }
 
   SceneState at(double time) const override {
-    // The palm on its track.
+    // The palm moves along its track.
     HandState hand{track_->at(time)};
-    const SE3 T_world_palm = hand.skeleton.T_camera_palm;  // the track is given in the world
+    const SE3 T_world_palm = hand.skeleton.T_camera_palm;  // the track is given in the world frame
     hand.skeleton.T_camera_palm = T_camera_world_ * T_world_palm;
 
-    // The thing moves with the palm while it is held.
+    // The object moves with the palm while it is held.
     SceneState state;
     const bool in_hand = time > kGrasped && time < kReleasing;
     state.T_camera_object.push_back(T_camera_world_ * (in_hand ? T_world_palm * T_palm_thing_ : T_world_thing_));
     for (const SE3& T : T_world_stand_) state.T_camera_object.push_back(T_camera_world_ * T);
     state.T_camera_object.push_back(T_camera_world_);  // the table
 
-    // The elbow follows the wrist by a part.
+    // The elbow moves 0.8 times as far as the wrist.
     const Vector3d elbow_at_grasp = T_world_grasp_ * Vector3d(0, 0.03, 0.38);
     hand.elbow = T_camera_world_ * Vector3d(elbow_at_grasp + 0.8 * (T_world_palm.t - T_world_grasp_.t));
     state.hands = {hand};
@@ -176,6 +176,7 @@ class GraspSequence : public Sequence {
   }
 
  private:
+  // The object is held between these times [s].
   static constexpr double kGrasped = 2.7, kReleasing = 5.3;
 
   std::vector<HandKey> keys(const HandAngles& open, std::uint64_t seed) const {
@@ -185,7 +186,7 @@ class GraspSequence : public Sequence {
       return Vector3d(random.uniform(-size, size), random.uniform(-size, size), 0);
     };
 
-    // Places on the way, relative to the grasp.
+    // Positions and orientations on the way, relative to the grasp.
     const Vector3d grasp = T_world_grasp_.t, outwards = T_world_grasp_.R.col(1), back = T_world_grasp_.R.col(2);
     const Vector3d before = grasp + 0.055 * outwards + 0.035 * back;
     const Vector3d start = grasp + 0.08 * outwards + 0.07 * back + Vector3d(0.04, -0.02, 0.0) + vary(0.01);
@@ -193,7 +194,7 @@ class GraspSequence : public Sequence {
     const Vector3d none = Vector3d::Zero(), turn_a(0.15 + random.uniform(-0.08, 0.08), 0.2, 0.25),
                    turn_b(-0.2, -0.15 + random.uniform(-0.08, 0.08), -0.2);
 
-    // The keys in time.
+    // The keyframes.
     return {{0.0, start, none, open_relaxed()}, {0.5, start, none, open_relaxed()},
             {1.5, before, none, open},          {2.1, grasp, none, open},
             {kGrasped, grasp, none, held_},     {2.9, grasp, none, held_},

@@ -11,7 +11,8 @@
 namespace barehand::synthetic {
 namespace {
 
-/// Slope at a key between two secants: their weighted harmonic mean, or 0 at an extremum.
+/// Slope of the curve at a key: the weighted harmonic mean of the slopes `before` and `after` of the two secants at the
+/// key, or 0 at an extremum. `h_before`, `h_after`: the times between the keys [s].
 double slope(double before, double after, double h_before, double h_after) {
   if (before * after <= 0) return 0;
   const double w1 = 2 * h_after + h_before, w2 = h_after + 2 * h_before;
@@ -68,6 +69,8 @@ SmoothTrack::SmoothTrack(std::vector<double> times, std::vector<std::vector<doub
 std::vector<double> SmoothTrack::at(double time) const {
   if (time <= times_.front()) return values_.front();
   if (time >= times_.back()) return values_.back();
+
+  // Cubic Hermite interpolation between the keys k and k + 1.
   const auto k = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
   const double h = times_[k + 1] - times_[k], s = (time - times_[k]) / h;
   const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s), h01 = s * s * (3 - 2 * s),

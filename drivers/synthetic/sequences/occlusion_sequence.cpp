@@ -10,13 +10,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOccluderDepth = 0.45;  // m; the hand is at 0.58 m
+constexpr double kOccluderDepth = 0.45;  // distance of the plate [m]; that of the hand is 0.58 m
 
-/// y / z of a point in the camera frame: its row in the image.
+/// y / z of a point in the camera frame, which determines its row in the image.
 double slope_of(const Vector3d& p) { return p.y() / p.z(); }
 
-/// The rows in the image (as y / z) between which the joined fingers 2 to 5 lie: from the highest skin to the lowest
-/// knuckle.
+/// The rows in the image (as y / z) between which the joined fingers (index to little) lie: from the topmost skin to
+/// the lowest knuckle.
 std::pair<double, double> finger_extent(const HandRig& rig, const SkeletonPose& skeleton) {
   const HandPose pose = pose_segments(rig.profile, skeleton);
   const Skinner skinner(rig.mesh);
@@ -31,8 +31,8 @@ std::pair<double, double> finger_extent(const HandRig& rig, const SkeletonPose& 
 
 }  // namespace
 
-/// The paper's Fig. 6b, c: the fingers spread and rejoin behind a plate that covers the upper part of the image, down
-/// to a fraction of the fingers' length.
+/// The motion of the paper's Fig. 6b, c: the fingers spread and rejoin behind a plate that covers the upper part of the
+/// image, down to a fraction of the fingers' length.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed) {
   // The motion of the hand.
   const Vector3d here(0.0, 0.09, 0.58), still(0.1, 0, 0);
@@ -44,9 +44,10 @@ std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::ui
             {0.9, here, still, open_spread()},
             {1.7, here, still, open_joined()}};
 
-  // The plate's lower edge for this degree of occlusion.
+  // The plate's lower edge for this degree of occlusion (y / z). With the margin, degree 0 leaves the hand fully
+  // visible, and degree 6 covers the fingers fully.
   const auto [top, bottom] = finger_extent(rig, HandTrack(s.base, s.keys).at(0));
-  const double margin = 0.02;  // keeps the uncovered hand clear of the plate and the covered one behind it
+  const double margin = 0.02;
   const double edge = (top - margin) + degree / 6.0 * (bottom - top + 2 * margin);
 
   SceneObject plate{"occluder", make_plate({-0.17, -0.25, 0}, {0.34, 0, 0}, {0, 0.25, 0}), {{62, 118, 88}}};

@@ -17,7 +17,7 @@ struct HandRig {
   HandProfile profile;  ///< measured on the mesh
 };
 
-/// An object beside the hand, with its surface in its own frame.
+/// An object of the scene other than the hands, with its surface in its own frame.
 struct SceneObject {
   std::string name;
   TriangleMesh mesh;
@@ -27,10 +27,10 @@ struct SceneObject {
 /// The state of one hand at one time, as a right hand in the camera frame; a left hand is its mirror image in x = 0.
 struct HandState {
   SkeletonPose skeleton;
-  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< the elbow, to which the forearm leads [m]
+  Eigen::Vector3d elbow = Eigen::Vector3d::Zero();  ///< position of the elbow, where the forearm ends [m]
 };
 
-/// The state of the whole scene at one time. Camera frame.
+/// The state of the whole scene at one time, in the camera frame.
 struct SceneState {
   std::vector<HandState> hands;      ///< as many as SequenceInfo states; of two hands the right one comes first
   std::vector<SE3> T_camera_object;  ///< one for each object of the sequence
@@ -45,7 +45,7 @@ class Sequence {
   virtual SceneState at(double time) const = 0;
 };
 
-/// The hands that a sequence shows: one of either side, or a right and a left one.
+/// The hands that a sequence shows: none, one that may be a right or a left hand, or both a right and a left hand.
 enum class ShownHands { none, one, both };
 
 /// Description of a sequence that a user can select.
@@ -55,14 +55,14 @@ struct SequenceInfo {
   double fps = 30;
   ShownHands shows = ShownHands::one;
 };
-// All sequences.
+/// All sequences that a user can select.
 const std::vector<SequenceInfo>& sequence_list();
 
 /// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
-/// Creates a sequence. `rig` is used for one-handed sequences, which need it, and only during the call. Errors: as for
-/// sequence_info().
+/// Creates a sequence. `rig`: needed by sequences with one hand, and used during the call only; null for the others.
+/// Errors: as for sequence_info().
 Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

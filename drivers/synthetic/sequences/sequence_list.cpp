@@ -32,7 +32,7 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30,
                   ShownHands::both});
 
-  // People and what surrounds them.
+  // Scenes with people, and what else is seen around them.
   list.push_back({"person", "a person before the camera, one of whose hands moves and bends", 180, 30});
   list.push_back({"desk", "a hand works above a desk with clutter; its owner sits at the far side", 180, 30});
   list.push_back({"egocentric", "the same as its owner sees it, from the eyes", 180, 30});

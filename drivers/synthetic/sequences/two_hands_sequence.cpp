@@ -23,12 +23,12 @@ class TwoHandsSequence : public Sequence {
   FreeSequence right_, left_;
 };
 
-const Vector3d kElbow(-0.03, 0.25, 0.05);  // from the wrist, for a person who faces the camera
-const Vector3d kOut(-0.62, 0.1, 0.6);      // outside the view
+const Vector3d kElbow(-0.03, 0.25, 0.05);  // elbow relative to the wrist, of a person who faces the camera [m]
+const Vector3d kOut(-0.62, 0.1, 0.6);      // a wrist position outside the view [m]
 
-// Both tracks are those of right hands, at x < 0, since the left hand is mirrored. The hands pass each other twice (at
-// 4.2 s with the right one in front, at 6.5 s with the left one), stand side by side as fists from 8.0 to 8.9 s, and
-// leave the view one after the other.
+// Both tracks are given as those of right hands, at x < 0, since the left hand is mirrored. The hands pass each other
+// twice (at 4.2 s with the right one in front, at 6.5 s with the left one), are fists side by side from 8.0 to 8.9 s,
+// and leave the view one after the other.
 
 std::vector<HandKey> right_keys() {
   return {{0.0, {-0.14, 0.09, 0.60}, {0, 0, 0}, fist()},

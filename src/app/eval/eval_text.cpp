@@ -42,7 +42,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
 
 /// Prints the frames in which a hand was reported although there was none, and how long it took to track a returning
 /// hand.
-void print_returns(std::string& out, const Evaluation& e) {
+void print_phantoms_and_returns(std::string& out, const Evaluation& e) {
   if (!e.phantoms.empty()) out += "  frames with a hand although there is none: " + frame_list(e.phantoms) + "\n";
   if (e.returns.empty()) return;
   out += formatted("  %zu returns into view (frame: frames until tracked):", e.returns.size());
@@ -63,7 +63,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
 
   // Print the frames that were lost.
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
-  print_returns(out, e);
+  print_phantoms_and_returns(out, e);
 
   // Print the distributions of the errors.
   print_head(out, "error [mm]");

@@ -93,9 +93,9 @@ void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
 }
 
 void WatchedSource::say(const std::string& kind, const std::string& what, const std::string& remedy) {
-  const auto kept_back = filter_.admit(kind);
-  if (!kept_back) return;
-  const std::string more = *kept_back > 0 ? " (and " + std::to_string(*kept_back) + " more like this)" : "";
+  const auto suppressed = filter_.admit(kind);
+  if (!suppressed.has_value()) return;
+  const std::string more = *suppressed > 0 ? " (and " + std::to_string(*suppressed) + " more like this)" : "";
   to_come_.push_back(SourceNotice{{what + more, name(), remedy}});
 }
 

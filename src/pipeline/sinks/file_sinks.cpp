@@ -63,7 +63,7 @@ Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, doubl
 Result<void> OverlaySink::finish() {
   auto finished = writer_.finish();
   std::error_code ignored;
-  if (seen_ == 0 && !made_.empty()) std::filesystem::remove(made_, ignored);  // only where it is empty
+  if (seen_ == 0 && !made_.empty()) std::filesystem::remove(made_, ignored);  // fails unless it is empty
   return finished;
 }
 

@@ -11,16 +11,16 @@
 
 namespace barehand {
 
-/// --result: the table of formats.md, one a hand.
+/// --result: writes one table per hand, in the format of docs/formats.md.
 class ResultTableSink : public Sink {
  public:
-  /// `profiles`: of the hands.
+  /// `profiles`: one per hand; path_of_hand() names the file of each.
   static Result<std::unique_ptr<Sink>> create(const std::string& path,
                                               const std::vector<std::shared_ptr<const HandProfile>>& profiles,
                                               bool overwrite);
   std::string name() const override { return "result table"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// Without a frame there is no table.
+  /// Writes no table if there was no frame.
   Result<void> finish() override;
 
  private:
@@ -29,13 +29,13 @@ class ResultTableSink : public Sink {
   std::int64_t frames_ = 0;
 };
 
-/// --log-decisions: what the tracker decided in every frame, and by what.
+/// --log-decisions: writes a table of what the tracker decided in every frame, with the scores compared.
 class DecisionSink : public Sink {
  public:
   static Result<std::unique_ptr<Sink>> create(const std::string& path, bool overwrite);
   std::string name() const override { return "decisions"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// Without a frame there is no table.
+  /// Writes no table if there was no frame.
   Result<void> finish() override;
 
  private:
@@ -44,7 +44,7 @@ class DecisionSink : public Sink {
   std::int64_t frames_ = 0;
 };
 
-/// --overlay: the tracked hands drawn over the images, on the first and then on each `every`-th frame.
+/// --overlay: draws the tracked hands over the images of the first and then of each `every`-th frame.
 class OverlaySink : public Sink {
  public:
   static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every, bool overwrite);
@@ -53,7 +53,7 @@ class OverlaySink : public Sink {
     if (seen_++ % every_ != 0) return {};
     return writer_.write(*tracked.frame, tracked.estimates);
   }
-  /// A folder that was made for nothing is removed.
+  /// Removes the folder again if this sink made it and there was no frame.
   Result<void> finish() override;
 
  private:
@@ -61,11 +61,11 @@ class OverlaySink : public Sink {
       : writer_(std::move(writer)), every_(every), made_(std::move(made)) {}
   OverlayWriter writer_;
   const std::int64_t every_;
-  const std::string made_;  // the folder, if it was not there
+  const std::string made_;  // the folder if this sink made it, otherwise empty
   std::int64_t seen_ = 0;
 };
 
-/// --save-hand: the hands that were tracked with in the end, as fitted to the person.
+/// --save-hand: saves the profiles of the tracked hands at the end of the run, as fitted to the person by then.
 class SaveHandSink : public Sink {
  public:
   static Result<std::unique_ptr<Sink>> create(const std::string& path,
@@ -78,7 +78,7 @@ class SaveHandSink : public Sink {
   explicit SaveHandSink(std::string path) : path_(std::move(path)) {}
 
   const std::string path_;
-  std::vector<std::shared_ptr<const HandProfile>> profiles_;  // null: of a hand that was not tracked
+  std::vector<std::shared_ptr<const HandProfile>> profiles_;  // one per hand; null: that hand was not tracked
 };
 
 }  // namespace barehand

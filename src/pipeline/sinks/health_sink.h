@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// --health: a line on the state of the pipeline every period.
+/// --health: prints a line about the state of the pipeline once per period.
 class HealthSink : public Sink {
  public:
   HealthSink(std::ostream& out, std::function<PipelineHealth()> health, std::int64_t period_us, const Clock& clock)
@@ -25,7 +25,7 @@ class HealthSink : public Sink {
   Result<void> idle() override {
     if (clock_.steady_us() < due_us_) return {};
     due_us_ = clock_.steady_us() + period_us_;
-    out_.clear();  // whoever reads may have been gone for a while
+    out_.clear();  // an earlier write may have failed while nobody read the stream
     out_ << health_line(health_()) << std::endl;
     return {};
   }

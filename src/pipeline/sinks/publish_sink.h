@@ -15,10 +15,10 @@
 
 namespace barehand {
 
-/// Sends the states of every hand, one after the other on the same channels: their ids tell them apart.
+/// Sends the states of all hands, one after the other, on the same channels. Receivers distinguish the hands by id.
 class StatePublisher {
  public:
-  /// `pending` (may be null; looked at before every frame) outlives it.
+  /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
   StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
       : params_(params), publisher_(std::move(publisher)), pending_(pending) {}
   Result<void> send(const HandEstimates& estimates);
@@ -26,27 +26,27 @@ class StatePublisher {
 
  private:
   PublishParams params_;
-  std::vector<HandMessageMaker> makers_;  // one a hand
+  std::vector<HandMessageMaker> makers_;  // one per hand
   Publisher publisher_;
   Slot<PublishParams>* pending_;
 };
 
-/// Sends the states of every frame, and the health now and then, to the bus.
+/// Sends the states of every frame to the bus, and the pipeline's health once per period.
 class BusSink : public Sink {
  public:
   struct Health {
-    std::function<PipelineHealth()> take;  ///< since the last call
+    std::function<PipelineHealth()> take;  ///< returns the health since its last call
     std::int64_t period_us = 1'000'000;
     std::string source;
   };
-  /// `bus`, `clock` and `pending` (may be null; looked at before every frame) outlive the sink. Errors: a channel
-  /// prefix that is too long.
+  /// `bus`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
+  /// Errors: a channel prefix that is too long.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
                                               Health health, const Clock& clock,
                                               Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "publish"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// The health goes on without frames: silence means that the program is gone.
+  /// Sends the health without frames, too, so that silence means that the program is not running.
   Result<void> idle() override { return send_health_when_due(); }
 
  private:
@@ -59,16 +59,16 @@ class BusSink : public Sink {
   std::int64_t next_health_us_;
 };
 
-/// --states-log: the states alone, so that equal runs write equal bytes.
+/// --states-log: writes the states to an LCM log, and no health, so that equal runs write equal bytes.
 class StatesLogSink : public Sink {
  public:
-  /// `pending` as above.
+  /// `pending` as for BusSink::create(). Errors: `path` cannot be written; a channel prefix that is too long.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix,
                                               const std::string& path, bool overwrite,
                                               Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "states log"; }
   Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
-  /// Without a state there is no log.
+  /// Writes no log if there was no state.
   Result<void> finish() override { return log_->events() > 0 ? log_->finish() : Result<void>(); }
 
  private:

@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 constexpr std::int64_t kStatusPeriodUs = 1'000'000;
-constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this long without a frame the status says so
+constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this time without a frame, the status line reports it
 }  // namespace
 
 ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()> pulse,
@@ -16,7 +16,7 @@ ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()>
       health_(std::move(health)),
       clock_(clock),
       frame_us_(clock.steady_us()),
-      told_us_(clock.steady_us()) {}
+      status_us_(clock.steady_us()) {}
 
 Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
   hands_ = tracked.estimates;
@@ -25,12 +25,12 @@ Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
 }
 
 Result<void> ServiceSink::idle() {
-  feed();
-  if (clock_.steady_us() - told_us_ >= kStatusPeriodUs) tell();
+  feed_watchdog();
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs) update_status();
   return {};
 }
 
-void ServiceSink::feed() {
+void ServiceSink::feed_watchdog() {
   const PipelinePulse now = pulse_();
   const bool worked = now.inside > 0 ? now.finished > fed_at_.finished : now.answers > fed_at_.answers;
   if (!worked) return;
@@ -38,19 +38,19 @@ void ServiceSink::feed() {
   manager_.alive();
 }
 
-void ServiceSink::tell() {
+void ServiceSink::update_status() {
   const std::int64_t now_us = clock_.steady_us();
   const PipelineHealth health = health_();
   std::string text = "hand: " + (hands_.empty() ? "searching" : status_list(hands_));
   if (now_us - frame_us_ >= kNoFramesUs)
     text = formatted("no frames for %lld s", static_cast<long long>((now_us - frame_us_) / 1'000'000));
   const double rate =
-      static_cast<double>(health.published - told_published_) * 1e6 / static_cast<double>(now_us - told_us_);
+      static_cast<double>(health.published - status_published_) * 1e6 / static_cast<double>(now_us - status_us_);
   manager_.status(text + formatted("; %.1f frames/s; %lld published, %lld dropped, %lld failed, %lld unreadable", rate,
                                    static_cast<long long>(health.published), static_cast<long long>(health.dropped),
                                    static_cast<long long>(health.failed), static_cast<long long>(health.skipped)));
-  told_us_ = now_us;
-  told_published_ = health.published;
+  status_us_ = now_us;
+  status_published_ = health.published;
 }
 
 }  // namespace barehand

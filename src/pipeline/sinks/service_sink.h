@@ -8,12 +8,12 @@
 
 namespace barehand {
 
-/// Feeds systemd's watchdog while the pipeline works, and keeps the status line. Fed by progress alone: frames that
-/// were inside have left, or there are none inside and the source answers that there are none. A source, a stage or a
-/// sink that hangs starves it.
+/// Feeds systemd's watchdog while the pipeline makes progress, and updates the service's status line. Progress means:
+/// a frame has left the pipeline or, if none is inside, the source has returned from a call. A source, stage or sink
+/// that hangs therefore ends the feeding, and systemd restarts the service.
 class ServiceSink : public Sink {
  public:
-  /// `manager` and `clock` outlive the sink.
+  /// `manager` and `clock` must outlive the sink.
   ServiceSink(ServiceManager& manager, std::function<PipelinePulse()> pulse, std::function<PipelineHealth()> health,
               const Clock& clock);
 
@@ -22,16 +22,18 @@ class ServiceSink : public Sink {
   Result<void> idle() override;
 
  private:
-  void feed();
-  void tell();
+  void feed_watchdog();
+  void update_status();
 
   ServiceManager& manager_;
   const std::function<PipelinePulse()> pulse_;
   const std::function<PipelineHealth()> health_;
   const Clock& clock_;
-  PipelinePulse fed_at_;
-  HandEstimates hands_;                                   // of the last frame
-  std::int64_t frame_us_, told_us_, told_published_ = 0;  // of the last frame, of the last status line
+  PipelinePulse fed_at_;      // counters when the watchdog was fed last
+  HandEstimates hands_;       // of the last frame
+  std::int64_t frame_us_,     // time of the last frame; steady clock
+      status_us_,             // time of the last status line; steady clock
+      status_published_ = 0;  // frames published by then
 };
 
 }  // namespace barehand

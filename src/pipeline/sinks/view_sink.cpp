@@ -59,7 +59,7 @@ Result<void> ViewSink::finish() {
 }
 
 /// Whoever pressed the button is not to wait for the next period.
-bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != told_recording_; }
+bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
 std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
   while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
@@ -97,7 +97,7 @@ void ViewSink::show_status() {
   status_us_ = clock_.steady_us();
   ViewState state{input_.source, input_.live, "", server_.clients(), {}, {}, input_.T_world_camera, {}};
   state.record = input_.recorder ? input_.recorder->state() : RecorderState{};
-  told_recording_ = state.record->recording;
+  shown_recording_ = state.record->recording;
   if (!server_.has_clients()) return server_.show_status(status_json(state));
 
   state.health = input_.health();

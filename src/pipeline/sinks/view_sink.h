@@ -15,8 +15,8 @@
 
 namespace barehand {
 
-/// --view: hands every frame, with the messages that the bus gets, to the live page, while somebody looks, and to the
-/// recorder, while it records.
+/// --view: passes every frame, with the messages that go to the bus, to the server of the live page while the page is
+/// open in a browser, and to the recorder while it records.
 class ViewSink : public Sink {
  public:
   struct Input {
@@ -27,13 +27,13 @@ class ViewSink : public Sink {
     std::string prefix;                 ///< of the channels in recordings
     LogRecorder* recorder = nullptr;    ///< null: nothing can be recorded. Outlives the sink
   };
-  /// `server`, `clock` and `pending` (may be null; looked at before every frame) outlive the sink.
+  /// `server`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
            Slot<PublishParams>* pending = nullptr);
 
   std::string name() const override { return "view"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// The status goes on without frames.
+  /// Sends the status without frames, too.
   Result<void> idle() override;
   /// A recording is whole when it returns.
   Result<void> finish() override;
@@ -50,11 +50,11 @@ class ViewSink : public Sink {
   const Input input_;
   const Clock& clock_;
   Slot<PublishParams>* pending_;
-  std::vector<HandMessageMaker> makers_;       // one a hand
-  std::array<ViewSkinPtr, 2> skins_;           // by Handedness, of the last profiles
-  std::int64_t frame_us_ = 0, status_us_ = 0;  // of the last frame, of the last status; steady clock
+  std::vector<HandMessageMaker> makers_;       // one per hand
+  std::array<ViewSkinPtr, 2> skins_;           // skins of the last profiles, indexed by Handedness
+  std::int64_t frame_us_ = 0, status_us_ = 0;  // times of the last frame and of the last status; steady clock
   bool any_frame_ = false;
-  bool told_recording_ = false;  // by the last status
+  bool shown_recording_ = false;  // whether the last status said that it records
 };
 
 }  // namespace barehand

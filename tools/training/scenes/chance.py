@@ -1,4 +1,4 @@
-"""Seeded random numbers on the device that makes the data."""
+"""Seeded random numbers on the device on which the data is made."""
 import math
 from typing import Sequence
 
@@ -7,7 +7,7 @@ from torch import Tensor
 
 
 class Chance:
-    """Draws batches of B samples. The same seed on the same kind of device gives the same data."""
+    """A source of random numbers. The same seed on the same kind of device gives the same numbers."""
 
     def __init__(self, seed: int, device: str = "cpu") -> None:
         self.device = torch.device(device)
@@ -24,20 +24,20 @@ class Chance:
         return deviation * torch.randn(*shape, generator=self.generator, device=self.device)
 
     def flag(self, probability: float, *shape: int) -> Tensor:
-        """True with this probability."""
+        """Booleans that are true with this probability."""
         return self.uniform(0, 1, *shape) < probability
 
     def choice(self, weights: Sequence[float], count: int) -> Tensor:
-        """[count] indices into `weights`, which need not sum up to 1."""
+        """Indices [count] into `weights`, drawn in proportion to these, which need not sum to 1."""
         share = torch.tensor(weights, dtype=torch.float32, device=self.device)
         return torch.multinomial(share, count, replacement=True, generator=self.generator)
 
     def direction(self, count: int) -> Tensor:
-        """[count, 3] unit vectors, uniform on the sphere."""
+        """Unit vectors [count, 3], uniform on the sphere."""
         return torch.nn.functional.normalize(self.normal(1, count, 3), dim=1)
 
     def rotation(self, count: int) -> Tensor:
-        """[count, 3, 3] rotations, uniform over all."""
+        """Rotation matrices [count, 3, 3], uniform over all rotations."""
         w, x, y, z = torch.nn.functional.normalize(self.normal(1, count, 4), dim=1).T
         rows = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
                 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),

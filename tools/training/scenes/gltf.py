@@ -17,8 +17,9 @@ _FILLERS = {"xr", "hand", "joint", "ext", "finger", "phalanx", "left", "right", 
 
 @dataclass
 class RiggedMesh:
-    """In the wrist's frame [m]: `vertices` [V, 3], `triangles` [T, 3], `weights` [V, 25] of the JOINTS, and `joints`
-    [25, 4, 4], their frames at rest (-z towards the fingertips, +y out of the back of the hand)."""
+    """A rigged hand at rest. `vertices` [V, 3] in the wrist's frame [m]; `triangles` [T, 3]; `weights` [V, 25] of the
+    JOINTS; `joints` [25, 4, 4]: joint coordinate frames of the rest pose, in the wrist's frame (-z towards the
+    fingertips, +y out of the back of the hand)."""
     vertices: np.ndarray
     triangles: np.ndarray
     weights: np.ndarray
@@ -26,12 +27,14 @@ class RiggedMesh:
 
 
 def plain_name(name: str) -> str:
-    """"index-finger-phalanx-proximal" and "XR_HAND_JOINT_INDEX_PROXIMAL_EXT" are "index_proximal"."""
+    """The name of a joint as in JOINTS: "index-finger-phalanx-proximal" (WebXR) and "XR_HAND_JOINT_INDEX_PROXIMAL_EXT"
+    (OpenXR) become "index_proximal"."""
     words = "".join(c.lower() if c.isalnum() else " " for c in name).split()
     return "_".join("little" if word == "pinky" else word for word in words if word not in _FILLERS)
 
 
 def _chunks(path: Path) -> tuple[dict, bytes]:
+    """The two chunks of a binary glTF file: the JSON document and the binary data."""
     data = path.read_bytes()
     if data[:4] != b"glTF":
         raise ValueError(f"{path}: is no binary glTF file; fetch the hands with deploy/fetch_hand_mesh.sh")
@@ -40,6 +43,7 @@ def _chunks(path: Path) -> tuple[dict, bytes]:
 
 
 def _array(document: dict, binary: bytes, accessor: int) -> np.ndarray:
+    """The data of an accessor, one row per element."""
     entry = document["accessors"][accessor]
     view = document["bufferViews"][entry["bufferView"]]
     kind, width = _TYPES[entry["componentType"]], _WIDTH[entry["type"]]
@@ -51,26 +55,26 @@ def _array(document: dict, binary: bytes, accessor: int) -> np.ndarray:
 
 
 def read_hand(path: Path) -> RiggedMesh:
-    """Raises ValueError if the file is no rigged hand."""
+    """Reads a hand. Raises ValueError if the file is not a rigged hand."""
     document, binary = _chunks(path)
     skin, primitive = document["skins"][0], document["meshes"][0]["primitives"][0]
     attributes = primitive["attributes"]
 
-    # The skin's joints in our order.
+    # Find the skin's joints in the order of JOINTS.
     names = [plain_name(document["nodes"][node]["name"]) for node in skin["joints"]]
     missing = [name for name in JOINTS if name not in names]
     if missing:
         raise ValueError(f"{path}: has no joint {missing[0]}; name the joints as WebXR or OpenXR do")
     order = [names.index(name) for name in JOINTS]
 
-    # Frames at rest, seen from the wrist. glTF stores matrices by columns.
+    # Joint coordinate frames of the rest pose, in the wrist's frame. glTF stores matrices column by column.
     inverse = _array(document, binary, skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
     joints = np.linalg.inv(inverse.astype(np.float64))[order]
     joints[:, :3, :3] /= np.linalg.norm(joints[:, :3, :3], axis=1, keepdims=True)
     to_wrist = np.linalg.inv(joints[0])
     vertices = _array(document, binary, attributes["POSITION"]).astype(np.float64) @ to_wrist[:3, :3].T + to_wrist[:3, 3]
 
-    # Weights, summed where a joint is named twice.
+    # Weights; a vertex may name the same joint several times, so they are summed.
     index, value = (_array(document, binary, attributes[name]) for name in ("JOINTS_0", "WEIGHTS_0"))
     weights = np.zeros((len(vertices), len(names)))
     for k in range(4):

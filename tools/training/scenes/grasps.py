@@ -1,4 +1,4 @@
-"""Grasps: an object in the hand, and fingers that close until their skin touches it. Hand frame, metres."""
+"""Grasps: an object is placed in the hand, and the fingers close until their skin touches it. Hand frame, metres."""
 from dataclasses import dataclass
 
 import torch
@@ -10,8 +10,10 @@ from .rotations import about, frame_along, unit
 from .shapes import BOX, CAPSULE, ELLIPSOID, distance_to_solid
 from .skeleton import KNUCKLES, TIPS, forward_kinematics, landmarks, limits
 
-_STEPS = 10  # of a finger's closing that are tried at once
-# What closes, one after the other (indices of the 21 angles): whole fingers, then their outer joints, then the last.
+_STEPS = 10  # number of steps of a finger's closing, which are all tried at once
+# The stages of closing, one after the other: whole fingers, then their outer joints, then the last joints. Of each
+# stage: (index of one of the 21 angles, its change [rad]) for the thumb (0) and for the index finger (1); the other
+# fingers are like the index finger.
 _STAGES = [
     {0: [(1, 0.5), (2, 0.5)], 1: [(5, 1.3), (7, 1.3), (8, 0.7)]},
     {0: [(2, 0.6), (4, 0.9)], 1: [(7, 1.0), (8, 0.5)]},
@@ -21,7 +23,8 @@ _STAGES = [
 
 @dataclass
 class Solids:
-    """One object for each of B hands: `kind` [B] (see shapes.py), `centre` [B, 3], `rotation` [B, 3, 3], `half` [B, 3]."""
+    """One object for each of B hands: `kind` [B] (see shapes.py), `centre` [B, 3], `rotation` [B, 3, 3], `half` [B,
+    3]."""
     kind: Tensor
     centre: Tensor
     rotation: Tensor
@@ -35,7 +38,7 @@ class Solids:
 
 
 def objects(chance: Chance, count: int) -> Solids:
-    """Boxes, ellipsoids and bars of 1.4 to 13 cm thickness, some of them long, before they have a place."""
+    """Boxes, ellipsoids, balls and bars, about 1.4 to 13 cm thick and some of them long, at the origin."""
     thick = chance.log_uniform(0.007, 0.065, count, 1)
     half = thick * chance.uniform(0.8, 1.25, count, 3)
     half[:, 0] *= torch.where(chance.flag(0.5, count), chance.uniform(1, 6, count), torch.ones(count, device=chance.device))
@@ -49,25 +52,25 @@ def objects(chance: Chance, count: int) -> Solids:
 
 
 def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) -> Tensor:
-    """Puts the objects against the palm or between the fingertips; [B] true: against the palm."""
+    """Places the objects against the palm or between thumb and fingertips. Returns [B] whether against the palm."""
     count = len(open_angles)
     joints = landmarks(hands.bones, forward_kinematics(hands.bones, open_angles))
     knuckles, thumb = joints[:, KNUCKLES], joints[:, 3]
     against_palm = chance.flag(0.65, count)
 
-    # The long axis lies across the palm or anyhow.
+    # The long axis lies across the palm, or in any direction.
     across = unit(knuckles[:, 3] - knuckles[:, 0])
     wobble = unit(across + chance.normal(0.35, count, 3))
     solids.rotation = frame_along(torch.where(chance.flag(0.8, count)[:, None], wobble, chance.direction(count)))
     solids.rotation = solids.rotation @ about("x", chance.uniform(0, 6.3, count))
 
-    # Below the knuckles, or where thumb and fingers meet.
+    # The position: below the knuckles, or where thumb and fingers meet.
     share = chance.uniform(0.1, 0.75, count, 1)
     on_palm = knuckles[:, 1] * (1 - 0.5 * share) + 0.15 * (knuckles[:, 3] - knuckles[:, 0]) * chance.normal(1, count, 1)
     ahead = 0.5 * (thumb + joints[:, [7, 11]].mean(1)) + chance.normal(0.008, count, 3)
     spot = torch.where(against_palm[:, None], on_palm, ahead)
 
-    # Out of the palm's flesh: along its normal until they touch.
+    # Move the object along the palm's normal until it touches the palm's skin from outside.
     away = torch.tensor([0.0, -1.0, 0.0], device=chance.device)
     flesh = torch.where(against_palm, 1.25 * hands.flesh[:, 9], 0.5 * hands.flesh[:, 7])
     solids.centre = spot + 0.5 * away * solids.half.amin(1, keepdim=True)
@@ -78,7 +81,7 @@ def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) ->
 
 
 def _touching(bones, flesh: Tensor, angles: Tensor, solids: Solids) -> Tensor:
-    """[B, 5] whether a finger's bones reach into the object deeper than flesh gives."""
+    """Whether a finger's flesh reaches more than 2 mm into the object [B, 5]."""
     joints = landmarks(bones, forward_kinematics(bones, angles))
     hit = []
     for finger in range(5):
@@ -91,7 +94,7 @@ def _touching(bones, flesh: Tensor, angles: Tensor, solids: Solids) -> Tensor:
 
 
 def _close(hands: Hands, angles: Tensor, solids: Solids, stage: dict[int, list[tuple[int, float]]]) -> Tensor:
-    """The angles after each finger has moved as far through the stage as it can without sinking into the object."""
+    """The angles after each finger has moved through the stage until it touches the object."""
     count, device = len(angles), angles.device
     share = torch.linspace(0, 1, _STEPS, device=device)
     motion = torch.zeros(5, 21, device=device)
@@ -99,7 +102,7 @@ def _close(hands: Hands, angles: Tensor, solids: Solids, stage: dict[int, list[t
         for index, amount in stage[min(finger, 1)]:
             motion[finger, index + 4 * max(finger - 1, 0)] = amount
 
-    # All steps of all hands at once.
+    # Try all steps of all hands at once.
     tried = angles[:, None] + share[:, None] * motion.sum(0)
     tried = torch.minimum(tried, limits(device)[:, 1]).reshape(-1, 21)
     many = hands.bones.repeated(_STEPS)
@@ -110,7 +113,8 @@ def _close(hands: Hands, angles: Tensor, solids: Solids, stage: dict[int, list[t
 
 
 def grasps(chance: Chance, hands: Hands) -> tuple[Tensor, Solids, Tensor]:
-    """Angles [B, 21] of hands that hold objects, the objects, and [B, 5] how far each fingertip's skin is from them [m]."""
+    """Angles [B, 21] of hands that hold objects, the objects, and the distance of each fingertip's skin from its hand's
+    object [B, 5, m]."""
     count = len(hands.flesh)
     solids = objects(chance, count)
     angles = torch.zeros(count, 21, device=chance.device)
@@ -120,7 +124,7 @@ def grasps(chance: Chance, hands: Hands) -> tuple[Tensor, Solids, Tensor]:
     against_palm = _place(chance, hands, angles, solids)
     angles[:, 5::4] -= 0.25 * against_palm[:, None]
 
-    # Some fingers stay away from the object, as little fingers and pointing ones do.
+    # Close the fingers. Some of them stay away from the object, as little fingers and pointing ones do.
     closed = angles
     for stage in _STAGES:
         closed = _close(hands, closed, solids, stage)

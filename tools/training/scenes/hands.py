@@ -1,4 +1,4 @@
-"""Batches of different people's right hands: a skeleton each, and points on the skin that follow it."""
+"""Batches of right hands of different people: each has a skeleton, and points on the skin that follow it."""
 from dataclasses import dataclass
 
 import torch
@@ -11,8 +11,9 @@ from .skeleton import Bones, forward_kinematics, landmarks
 class Hands:
     """B hands with P skin points each. A point follows two segments.
 
-    `segment` [B, P, 2]: which; `weight` [B, P, 2]: how much, sums up to 1; `local` [B, P, 2, 3]: where the point is in
-    the frame of each [m]; `flesh` [B, 21]: radius of the hand around each landmark [m].
+    `segment` [B, P, 2]: the segments that a point follows; `weight` [B, P, 2]: its weights, which sum to 1; `local`
+    [B, P, 2, 3]: the position of the point in the frame of each segment [m]; `flesh` [B, 21]: radius of the hand around
+    each landmark [m].
     """
     bones: Bones
     segment: Tensor
@@ -21,7 +22,7 @@ class Hands:
     flesh: Tensor
 
     def posed(self, angles: Tensor) -> tuple[Tensor, Tensor]:
-        """Skin points [B, P, 3] and landmarks [B, 21, 3] in the hand's frame [m] at joint angles [B, 21, rad]."""
+        """Skin points [B, P, 3] and landmarks [B, 21, 3] in the hand's frame [m] for joint angles [B, 21, rad]."""
         poses = forward_kinematics(self.bones, angles)
         count, points = self.segment.shape[:2]
         skin = torch.zeros(count, points, 3, device=angles.device)
@@ -34,7 +35,7 @@ class Hands:
 
 
 def joined(parts: list[Hands]) -> Hands:
-    """One batch out of several."""
+    """Joins several batches to one."""
     def cat(name: str) -> Tensor:
         return torch.cat([getattr(part, name) for part in parts])
     bones = Bones(*(torch.cat([getattr(part.bones, name) for part in parts]) for name in ("turn", "joint", "tip")))

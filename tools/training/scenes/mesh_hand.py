@@ -1,4 +1,5 @@
-"""People made from one rigged mesh: bones of other lengths, other thickness, other proportions."""
+"""Hands of different people, made from one rigged mesh by changing the bones' lengths, the thickness and the
+proportions."""
 from pathlib import Path
 
 import numpy as np
@@ -17,24 +18,24 @@ _TIP_JOINTS = [i for i, name in enumerate(JOINTS) if name.endswith("_tip")]
 
 
 def _bend(turn: np.ndarray) -> np.ndarray:
-    """The flexion that a joint's rotation at rest contains, as a rotation about x that takes it out."""
+    """A rotation about x that removes the flexion that a joint's rotation at rest, `turn`, contains."""
     flexion = np.arctan2(turn[1, 2], turn[1, 1])
     c, s = np.cos(flexion), np.sin(flexion)
     return np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
 
 
 class MeshRig:
-    """A rigged hand that can be given any number of shapes."""
+    """A rigged hand mesh from which hands of any number of people can be made."""
 
     def __init__(self, path: Path, points: int, device: torch.device) -> None:
-        """`points`: how many are spread over the skin."""
+        """Reads the mesh. `points`: number of points that are spread over the skin."""
         mesh = read_hand(path)
         frames = mesh.joints[_JOINT_OF_SEGMENT]
         inverse = np.linalg.inv(frames)
         relative = [np.eye(4)] + [inverse[PARENT[s]] @ frames[s] for s in range(1, SEGMENTS)]
 
-        # Zero angles are a straight finger, whatever the mesh's rest pose is; only the thumb's root keeps its own. A
-        # knuckle's flexion counts from its metacarpal, which is part of the palm here.
+        # At zero angles the fingers are straight, whatever the mesh's rest pose is; only the thumb's root keeps its
+        # rotation at rest. A knuckle's flexion is measured from its metacarpal, which is part of the palm here.
         turns = [frame[:3, :3] for frame in relative]
         for s in range(2, SEGMENTS):
             bone = np.linalg.inv(mesh.joints[_JOINT_OF_SEGMENT[s] - 1]) @ frames[s]
@@ -44,7 +45,7 @@ class MeshRig:
             vertex_weights[:, segment] += mesh.weights[:, joint]
         places, weights = _spread(mesh, vertex_weights, points)
 
-        # The two segments that move a point most.
+        # Each point follows the two segments with the largest weights.
         best = np.argsort(-weights, axis=1, kind="stable")[:, :2]
         share = np.take_along_axis(weights, best, 1)
         ahead = np.concatenate([places, np.ones((points, 1))], 1)
@@ -81,7 +82,7 @@ def _tensor(values: np.ndarray, device: torch.device) -> Tensor:
 
 
 def _spread(mesh: RiggedMesh, weights: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Points [count, 3] that cover the skin evenly, and their weights [count, 16]."""
+    """Points [count, 3], random and uniform on the skin, and their weights [count, 16]."""
     corners = mesh.vertices[mesh.triangles]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     random = np.random.default_rng(0)
@@ -94,7 +95,7 @@ def _spread(mesh: RiggedMesh, weights: np.ndarray, count: int) -> tuple[np.ndarr
 
 
 def _tip(mesh: RiggedMesh, weights: np.ndarray, finger: int, inverse: np.ndarray) -> np.ndarray:
-    """Centre of a fingertip's end cap in its last segment: one radius before the end of the skin."""
+    """Centre of a fingertip's round end in the frame of its segment [m]: one radius before the end of the skin."""
     segment = 3 * finger + 3
     frame = inverse[segment]
     skin = mesh.vertices[weights.argmax(1) == segment] @ frame[:3, :3].T + frame[:3, 3]

@@ -1,5 +1,5 @@
-"""People made from the parametric mean hand: configs/hands/adult_right.json changed by the 51 numbers of
-src/hand/hand_shape.h. The skin is made of elliptic tubes, a simpler form of src/hand/implicit_hand.h."""
+"""Hands of different people, made from the mean hand configs/hands/adult_right.json by the 51 shape parameters of
+src/hand/hand_shape.h. The skin consists of elliptic tubes, a simpler form of src/hand/implicit_hand.h."""
 import json
 from pathlib import Path
 
@@ -13,19 +13,19 @@ from .skeleton import PARENT, SEGMENTS, Bones
 
 PROFILE = Path(__file__).resolve().parents[3] / "configs/hands/adult_right.json"
 
-# Standard deviations between people of the components of a HandShape; a test compares them with hand_shape.cpp.
+# Standard deviations of the components of a HandShape between people; a test compares them with hand_shape.cpp.
 DEVIATIONS = {"size": 0.08, "palm_width": 0.06, "palm_length": 0.06, "palm_thickness": 0.15, "finger_length": 0.05,
               "bone_length": 0.05, "fingers_thickness": 0.12, "flatness": 0.08, "finger_thickness": 0.06,
               "knuckle_thickness": 0.2, "thenar_thickness": 0.15, "tip_length": 0.2, "finger_flesh": 0.1,
               "palm_flesh": 0.1, "thumb_knuckle": 0.004, "knuckle": 0.002}
-_PALM_TUBES, _TUBES = 4, 20  # metacarpals, then 15 phalanges, then the fold between thumb and palm
+_PALM_TUBES, _TUBES = 4, 20  # first 4 metacarpals, then the 15 bones of the digits, then the fold of the thumb
 
 
 class ParametricRig:
-    """The mean hand, and any number of people around it."""
+    """The mean hand, from which hands of any number of people can be made."""
 
     def __init__(self, points: int, device: torch.device, profile: Path = PROFILE) -> None:
-        """`points`: how many are spread over the skin."""
+        """Reads the mean hand. `points`: number of points that are spread over the skin."""
         segments = json.loads(profile.read_text())["segments"]
         self.device = device
         rest = np.array([s["rest_transform"] for s in segments])
@@ -36,7 +36,8 @@ class ParametricRig:
         self.half = self._tensor([[s["half_width"], s["half_thickness"]] for s in segments])  # [16, x or y, end]
         self.offset = self._tensor([[s["flesh_offset_x"], s["flesh_offset_y"]] for s in segments])
 
-        # Which tube each point is on, where along it (0 to 1, caps beyond) and at which angle around it.
+        # The tube of each point, its position along the tube (0 to 1; beyond that on the caps), and its angle around
+        # it.
         random = np.random.default_rng(0)
         area = np.array([26.0] * 4 + [14, 12, 9] + [14, 8, 6] * 4 + [8])
         self.tube = torch.tensor(random.choice(_TUBES, points, p=area / area.sum()), device=device)
@@ -52,7 +53,7 @@ class ParametricRig:
         draw = lambda name, *shape: chance.normal(dev[name], count, *shape)
         size, fold = draw("size"), 3
 
-        # Lengths.
+        # Change the lengths of the bones.
         longer = torch.exp(size[:, None] + draw("finger_length", 5).repeat_interleave(fold, 1) + draw("bone_length", 15))
         palm = torch.exp(size[:, None] + torch.stack([draw("palm_width"), torch.zeros_like(size), draw("palm_length")], 1))
         length = self.length * torch.cat([palm[:, 2:], longer], 1)
@@ -63,7 +64,7 @@ class ParametricRig:
         joint[:, outer] = joint[:, outer] * longer[:, [PARENT[s] - 1 for s in outer], None]
         joint[:, roots] = joint[:, roots] * palm[:, None] + shift
 
-        # Sections: width and thickness at both ends.
+        # Change the sections: width and thickness at both ends of each segment.
         wider = size[:, None] + draw("fingers_thickness", 1) + draw("finger_thickness", 5).repeat_interleave(fold, 1)
         wider[:, 0] += draw("thenar_thickness")
         flat = torch.stack([wider, wider + draw("flatness", 1)], -1)
@@ -83,10 +84,11 @@ class ParametricRig:
         return self._skin(bones, length, half, offset, radius)
 
     def _skin(self, bones: Bones, length: Tensor, half: Tensor, offset: Tensor, tip_radius: Tensor) -> Hands:
+        """The hands with their skin points. `length` [B, 16]; `half`, `offset` [B, 16, {x, y}, end]; all in metres."""
         count, points = len(length), len(self.tube)
         start, end, sections, cap = self._tubes(bones, length, half, offset, tip_radius)
 
-        # A point's section, rounded off beyond the ends of the tube.
+        # The section of the tube at each point; beyond the ends of the tube it is rounded off.
         pick = lambda values: values[:, self.tube]
         inside = self.along.clamp(0, 1)
         bone = pick(end - start)
@@ -102,7 +104,7 @@ class ParametricRig:
         local = local + (reach * beyond)[..., None] * torch.nn.functional.normalize(bone, dim=-1)
         local = torch.cat([local[..., :2] + across, local[..., 2:]], -1)
 
-        # Each tube follows its segment; the fold follows thumb and palm.
+        # Each tube follows its segment; the fold follows the thumb and the palm.
         own = (self.tube - _PALM_TUBES + 1).clamp_min(0)
         fold = self.tube == _TUBES - 1
         own = torch.where(fold, torch.zeros_like(own), own)
@@ -118,13 +120,16 @@ class ParametricRig:
 
     def _tubes(self, bones: Bones, length: Tensor, half: Tensor, offset: Tensor,
                tip_radius: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        """Of the 20 tubes: start and end [B, 20, 3], sections [B, 20, {half, offset}, {x, y}, 3] and caps [B, 20, 2]."""
+        """Start and end [B, 20, 3], sections [B, 20, {half, offset}, {x, y}, 3] and caps [B, 20, 2] of the 20 tubes, in
+        the frames of their segments [m]. Sections are given at the start, the middle and the end; caps are the lengths
+        of the round ends."""
         count = len(length)
         start, end = torch.zeros(2, count, _TUBES, 3, device=self.device)
         sections = torch.zeros(count, _TUBES, 2, 2, 3, device=self.device)
         cap = torch.full((count, _TUBES, 2), 0.004, device=self.device)
 
-        # Metacarpals: from a slot of the wrist's section to a knuckle, reaching to the neighbours.
+        # Metacarpals: each leads from its part of the wrist's section to its knuckle, and is as wide as the gaps to its
+        # neighbours require.
         knuckles = bones.joint[:, [4, 7, 10, 13]]
         across = torch.tensor([-1.0, -1 / 3, 1 / 3, 1.0], device=self.device)
         start[:, :4, 0] = (0.19 * across - 0.04) * half[:, :1, 0, 0]
@@ -142,7 +147,7 @@ class ParametricRig:
         sections[:, :4, 1, 1] = torch.stack([0.18 * low.expand(-1, 4), 0.75 * low.expand(-1, 4),
                                              0.86 * offset[:, [4, 7, 10, 13], 1, 0]], -1)
 
-        # Phalanges and the thumb's metacarpal.
+        # The phalanges, and the thumb's metacarpal.
         end[:, 4:19, 2] = -length[:, 1:]
         for k, values in enumerate((half, offset)):
             ends = values[:, 1:]

@@ -1,4 +1,5 @@
-"""Arms with and without sleeves, trunks and heads, as depths in a view. Camera frame (x right, y down, z ahead), metres."""
+"""Depths of arms with and without sleeves, of trunks and of heads. Camera frame (x right, y down, z forward),
+metres."""
 from dataclasses import dataclass
 
 import torch
@@ -11,20 +12,22 @@ from .shapes import FAR, hit_capsule, hit_ellipsoid, only
 
 @dataclass
 class Stance:
-    """How B hands are held: `rotation` [B, 3, 3], hand to camera, and whether the view is the person's own [B]."""
+    """How B hands are held: `rotation` [B, 3, 3] from the hand's to the camera's frame; `egocentric` [B]: whether the
+    camera sees what the hand's owner sees."""
     rotation: Tensor
     egocentric: Tensor
 
 
 def stances(chance: Chance, count: int) -> Stance:
-    """Hands before a camera, fingers mostly up; hands of the person who wears the camera; hands held anyhow."""
+    """Hands of three kinds: before a camera, mostly with the fingers up; of the person who wears the camera; held in
+    any orientation."""
     device = chance.device
     upright = torch.tensor([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]], device=device)
     turn = torch.where(chance.flag(0.5, count), torch.full((count,), torch.pi, device=device), torch.zeros(count, device=device))
     facing = about("z", chance.normal(1, count)) @ about("x", chance.normal(0.5, count))
     facing = facing @ about("y", turn + chance.normal(0.6, count)) @ upright
 
-    # From the person's own eyes: the forearm leads from below and behind to the hand.
+    # Seen by the person: the forearm comes from below and from behind the camera.
     back = unit(torch.stack([chance.normal(0.4, count), 0.45 + chance.normal(0.25, count), -chance.uniform(0.3, 1, count)], 1))
     own = frame_along(back)[:, :, [1, 2, 0]] @ about("z", chance.uniform(0, 6.3, count)) @ about("x", chance.normal(0.35, count))
 
@@ -34,13 +37,14 @@ def stances(chance: Chance, count: int) -> Stance:
 
 
 def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tensor) -> tuple[Tensor, Tensor]:
-    """Depth of forearm, upper arm and sleeve, and the shoulder [B, 3]. `wrist` [B, 3]; `size` [B]: the hand's, 1 a mean one."""
+    """Depth of forearm, upper arm and sleeve, and the position of the shoulder [B, 3]. `wrist` [B, 3]: its position;
+    `size` [B]: the hand's size relative to a mean hand."""
     count = len(wrist)
     bend = about("x", chance.normal(0.45, count).clamp(-1.1, 1.1)) @ about("y", chance.normal(0.25, count).clamp(-0.5, 0.5))
     back = (stance.rotation @ bend)[:, :, 2]
     elbow = wrist + back * (size * chance.uniform(0.21, 0.29, count))[:, None]
 
-    # The shoulder is behind the hand, or near the camera if it is the person's own.
+    # The shoulder is farther away than the elbow or, if the person wears the camera, nearer.
     away = unit(back + chance.normal(0.9, count, 3))
     depth = torch.where(stance.egocentric, -away[:, 2].abs(), away[:, 2].abs())
     shoulder = elbow + torch.stack([away[:, 0], away[:, 1], depth], 1) * (size * chance.uniform(0.2, 0.32, count))[:, None]
@@ -49,7 +53,7 @@ def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tens
     arm = hit_capsule(rays, wrist + 0.012 * back, elbow, thin, thick)
     arm = torch.minimum(arm, hit_capsule(rays, elbow, shoulder, 0.95 * thick, 0.055 * size * chance.uniform(0.9, 1.3, count)))
 
-    # A sleeve begins anywhere between the hand's heel and the elbow; wide ones hang.
+    # A sleeve begins anywhere between the heel of the hand and the elbow; wide sleeves hang down.
     begin = wrist + back * (chance.uniform(-0.03, 0.2, count) * size)[:, None]
     wide = chance.uniform(1.1, 1.9, count)
     hang = torch.stack([torch.zeros_like(wide), 0.02 * (wide - 1), torch.zeros_like(wide)], 1)
@@ -57,13 +61,14 @@ def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tens
     sleeve = torch.minimum(sleeve, hit_capsule(rays, elbow, shoulder, thick * wide, 0.065 * size * wide.clamp_max(1.4)))
     arm = torch.minimum(arm, only(chance.flag(0.5, count), sleeve))
 
-    # Arms that lead through the camera are left out, unless it is the person's own; dark cloth is not seen at all.
+    # Arms that would pass through the camera are left out unless the person wears it. Some arms are not seen at all,
+    # like dark cloth.
     through = (elbow[:, 2] < 0.12) & ~stance.egocentric
     return only(~through & ~chance.flag(0.05, count), arm), shoulder
 
 
 def bodies(chance: Chance, rays: Tensor, shoulder: Tensor) -> Tensor:
-    """Depth of trunk, shoulders, neck and head of people whose one shoulder is at `shoulder` [B, 3]."""
+    """Depth of trunk, shoulders, neck and head of people who have one of their shoulders at `shoulder` [B, 3]."""
     count, device = len(shoulder), shoulder.device
     side = torch.where(chance.flag(0.5, count), torch.ones(count, device=device), -torch.ones(count, device=device))
     tilt = about("y", chance.normal(0.4, count)) @ about("z", chance.normal(0.1, count)) @ about("x", chance.normal(0.12, count))
@@ -79,7 +84,7 @@ def bodies(chance: Chance, rays: Tensor, shoulder: Tensor) -> Tensor:
     body = hit_ellipsoid(rays, at(centre, 0.22, 0.02), tilt, half)
     body = torch.minimum(body, hit_capsule(rays, shoulder, other, *[chance.uniform(0.06, 0.09, count)] * 2))
 
-    # A head with a face: the ball of the skull, chin and nose.
+    # The neck, and a head with skull, chin and nose.
     face = tilt @ about("y", chance.normal(0.5, count)) @ about("x", chance.normal(0.25, count))
     skull = at(centre, -0.26, -0.02)
     on_face = lambda y, z: skull + apply(face, torch.tensor([0.0, y, z], device=device).expand(count, 3))
@@ -92,5 +97,5 @@ def bodies(chance: Chance, rays: Tensor, shoulder: Tensor) -> Tensor:
 
 
 def nobody(rays: Tensor) -> Tensor:
-    """The depth of nothing."""
+    """The depth of an empty scene [B, H, W]."""
     return torch.full(rays.shape[:3], FAR, device=rays.device)

@@ -1,21 +1,21 @@
-"""Poses of a free hand whose joint angles go together as they do in people."""
+"""Poses of hands that hold nothing, with joint angles that are correlated as in people."""
 import torch
 from torch import Tensor
 
 from .chance import Chance
 from .skeleton import ANGLES, FINGER_ANGLES, limits
 
-# How often a pose is of each kind.
+# Probabilities of the kinds of poses.
 KINDS = {"free": 0.12, "synergy": 0.38, "counting": 0.22, "relaxed": 0.12, "pinch": 0.16}
-_FAN = (0.12, 0.0, -0.09, -0.18)  # rad: abduction of index, middle, ring, little finger in a spread hand
-_BEND = (1.5, 1.75, 1.15)  # rad: knuckle, middle and last joint of a finger that is closed
+_FAN = (0.12, 0.0, -0.09, -0.18)  # abduction of index, middle, ring and little finger in a spread hand [rad]
+_BEND = (1.5, 1.75, 1.15)  # flexion of knuckle, middle joint and last joint of a closed finger [rad]
 
 
 def _closure(chance: Chance, kind: Tensor) -> Tensor:
-    """[B, 4] how far the four fingers are closed, 0 to 1."""
+    """How far each of the four fingers is closed [B, 4]: 0 open, 1 closed."""
     count = len(kind)
 
-    # Neighbours move together: ring and little finger most, the index finger least.
+    # Neighbouring fingers move together: ring and little finger most, index and middle finger least.
     step = chance.normal(1, count, 4) * torch.tensor([0.22, 0.15, 0.10, 0.10], device=chance.device)
     walk = torch.flip(torch.cumsum(torch.flip(step, [1]), 1), [1])
     synergy = chance.uniform(-0.1, 1.1, count, 1) + walk
@@ -30,7 +30,8 @@ def _closure(chance: Chance, kind: Tensor) -> Tensor:
 
 
 def _fingers(chance: Chance, closure: Tensor) -> Tensor:
-    """[B, 16] angles of the four fingers. Hooks bend the outer joints alone, tables the knuckles alone."""
+    """Angles [B, 16] of the four fingers. In some hands mostly the outer joints bend (hook), in some mostly the
+    knuckles (table top)."""
     count, styles = len(closure), chance.choice([0.7, 0.15, 0.15], len(closure))[:, None]
     at_knuckle = torch.where(styles == 1, 0.15, torch.where(styles == 2, 1.0, 0.9))
     at_middle = torch.where(styles == 2, 0.2, 1.0)
@@ -46,7 +47,7 @@ def _fingers(chance: Chance, closure: Tensor) -> Tensor:
 
 
 def _thumb(chance: Chance, closure: Tensor) -> Tensor:
-    """[B, 5] angles of the thumb: opposed and bent more where the fingers are closed."""
+    """Angles [B, 5] of the thumb, which is opposed and bent more if the fingers are closed."""
     count = len(closure)
     opposed = (chance.uniform(0, 1, count) * 0.7 + 0.3 * closure.mean(1) * chance.uniform(0, 1.5, count)).clamp(0, 1)
     bent = (chance.normal(0.25, count) + 0.5 * closure.mean(1)).clamp(-0.1, 1)
@@ -56,17 +57,18 @@ def _thumb(chance: Chance, closure: Tensor) -> Tensor:
 
 
 def free_poses(chance: Chance, count: int) -> Tensor:
-    """[count, 21] joint angles [rad] within the limits."""
+    """Joint angles [count, 21, rad] within the limits."""
     low, high = limits(chance.device).T
     kind = chance.choice(list(KINDS.values()), count)
     closure = _closure(chance, kind)
     angles = torch.cat([_thumb(chance, closure), _fingers(chance, closure)], 1)
 
-    # The index finger and the thumb meet in front of the palm.
+    # In a pinch, the index finger and the thumb meet in front of the palm.
     meeting = torch.tensor([0.45, 0.3, 0.25, 0.0, 0.35, 0.75, 0.0, 0.85, 0.45], device=chance.device)
     pinch = meeting + chance.normal(0.12, count, 9)
     angles[:, :9] = torch.where((kind == 4)[:, None], pinch, angles[:, :9])
 
+    # Free poses have independent, uniform angles.
     anything = low + (high - low) * chance.uniform(0, 1, count, ANGLES)
     return torch.minimum(torch.maximum(torch.where((kind == 0)[:, None], anything, angles), low), high)
 

@@ -4,7 +4,7 @@ from torch import Tensor
 
 
 def about(axis: str, angle: Tensor) -> Tensor:
-    """[..., 3, 3] rotations by `angle` [..., rad] about x, y or z."""
+    """Rotation matrices [..., 3, 3] by `angle` [..., rad] about the axis "x", "y" or "z"."""
     c, s, one, zero = torch.cos(angle), torch.sin(angle), torch.ones_like(angle), torch.zeros_like(angle)
     entries = {"x": [one, zero, zero, zero, c, -s, zero, s, c],
                "y": [c, zero, s, zero, one, zero, -s, zero, c],
@@ -13,14 +13,14 @@ def about(axis: str, angle: Tensor) -> Tensor:
 
 
 def apply(rotation: Tensor, vector: Tensor) -> Tensor:
-    """[B, 3, 3] times [B, 3], or times each of [B, N, 3]."""
+    """The product of matrices [B, 3, 3] and vectors [B, 3] or [B, N, 3]."""
     if vector.dim() == 2:
         return torch.einsum("bij,bj->bi", rotation, vector)
     return torch.einsum("bij,bnj->bni", rotation, vector)
 
 
 def frame_along(axis: Tensor) -> Tensor:
-    """[B, 3, 3] rotations whose first column is the unit vector `axis` [B, 3]."""
+    """Rotation matrices [B, 3, 3] whose first column is the unit vector `axis` [B, 3]."""
     helper = torch.zeros_like(axis)
     helper.scatter_(1, axis.abs().argmin(1, keepdim=True), 1.0)
     second = torch.nn.functional.normalize(torch.cross(axis, helper, dim=1), dim=1)
@@ -28,5 +28,5 @@ def frame_along(axis: Tensor) -> Tensor:
 
 
 def unit(vector: Tensor) -> Tensor:
-    """`vector` [..., 3] at length 1."""
+    """`vector` [..., 3] scaled to length 1."""
     return torch.nn.functional.normalize(vector, dim=-1)

@@ -1,4 +1,4 @@
-"""Whole scenes with their truth: the examples from which both networks learn."""
+"""Depth images of whole scenes with their truth, from which both networks learn."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,16 +20,16 @@ from .surroundings import clutter, occluders, planes
 from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
 
 BACKGROUND, HAND, ARM, OBJECT = range(4)
-_MEAN_PALM = 0.095  # m from wrist to middle knuckle of a mean hand
+_MEAN_PALM = 0.095  # distance from wrist to middle knuckle of a mean hand [m]
 
 
 @dataclass
 class Scenes:
-    """B depth images with their truth. Of two hands (index 0: the one in question, 1: another one):
+    """B depth images with their truth about two hands: hand 0 is the one in question, hand 1 is another one.
 
-    `depth` [B, H, W, m; 0: nothing]; `label` [B, H, W]; `joints` [B, 2, 21, 3, m, camera frame]; `uv` [B, 2, 21, 2,
-    pixels]; `pixels` [B, 2]: how many show each hand, 0 if it is not there; `right` [B, 2]; `grasp` [B]: hand 0 holds
-    something; `sensor` [B] (sensors.KINDS).
+    `depth` [B, H, W, m; 0: no depth]; `label` [B, H, W]; `joints` [B, 2, 21, 3, m, camera frame]; `uv` [B, 2, 21, 2,
+    pixels]; `pixels` [B, 2]: number of pixels that show each hand, 0 if there is no such hand; `right` [B, 2]: whether
+    it is a right hand; `grasp` [B]: whether hand 0 holds an object; `sensor` [B]: index into sensors.KINDS.
     """
     view: View
     depth: Tensor
@@ -40,15 +40,15 @@ class Scenes:
     right: Tensor
     grasp: Tensor
     sensor: Tensor
-    middle: Tensor  # [B, 3]: what a window is centred on; of a whole frame the first palm
+    middle: Tensor  # [B, 3]: the point at the centre of a window; in a whole frame, the palm of hand 0
 
     def palms(self) -> Tensor:
-        """[B, 2, 3] centres of the palms, between wrist and middle knuckle."""
+        """Centres of the palms [B, 2, 3], midway between wrist and middle knuckle."""
         return 0.5 * (self.joints[:, :, WRIST] + self.joints[:, :, MIDDLE_KNUCKLE])
 
 
 class Generator:
-    """Makes scenes; `mesh` is the simulator's right hand (right.glb), None: the parametric hand alone."""
+    """Makes scenes. `mesh`: the simulator's right hand (right.glb); None: only the parametric hand is used."""
 
     def __init__(self, chance: Chance, mesh: Path | None, points: int = 12000) -> None:
         self.chance = chance
@@ -57,12 +57,12 @@ class Generator:
             self.rigs.append(MeshRig(mesh, points, chance.device))
 
     def people(self, count: int) -> Hands:
-        """The rigs take turns."""
+        """Hands of `count` people, in equal parts from each rig."""
         shares = [(count + i) // len(self.rigs) for i in range(len(self.rigs))]
         return joined([rig.people(self.chance, share) for rig, share in zip(self.rigs, shares) if share])
 
     def frames(self, count: int) -> Scenes:
-        """Whole frames: hands 0.18 to 1.6 m away, 16 % without any."""
+        """Whole frames with hands 0.18 to 1.6 m away; 16 % show no hand."""
         chance = self.chance
         view = full_view(chance.uniform(0.8, 1.15, count))
         rows, columns = view.size
@@ -72,7 +72,7 @@ class Generator:
         return self._make(view, place, place, chance.flag(0.84, count), True)
 
     def windows(self, count: int) -> Scenes:
-        """Windows around palms, up to 5 cm off, 8 % around something else."""
+        """Windows around palms, up to 4.5 cm off centre along each axis; 8 % show no hand."""
         chance = self.chance
         z = chance.log_uniform(0.18, 1.6, count)
         place = torch.stack([chance.uniform(-0.5, 0.5, count) * z, chance.uniform(-0.4, 0.4, count) * z, z], 1)
@@ -81,11 +81,12 @@ class Generator:
         return self._make(view, place, middle, chance.flag(0.92, count), False)
 
     def _make(self, view: View, place: Tensor, middle: Tensor, present: Tensor, whole: bool) -> Scenes:
-        """`place` [B, 3]: the first palm's; `present` [B]: whether there are hands at all."""
+        """`place` [B, 3]: position of hand 0's palm; `middle` [B, 3]: see Scenes; `present` [B]: whether there are
+        hands at all; `whole`: whether these are whole frames."""
         chance, count = self.chance, len(place)
         rays = view.rays()
 
-        # The hand in question, which holds something in two of five scenes, and another hand beside it.
+        # The hand in question, which holds an object in two of five scenes, and another hand near it.
         hands, stance = self.people(count), stances(chance, count)
         holding, solids, _ = grasps(chance, hands)
         grasp = chance.flag(0.4, count)
@@ -100,7 +101,7 @@ class Generator:
         other_skin, other_joints, _ = _put(other_hands, free_poses(chance, count), other_right, other_stance, beside)
         both = present & chance.flag(0.3, count) & (beside[:, 2] > 0.15)
 
-        # The surfaces. A window is about one hand: another one is background there.
+        # The surfaces. A window is about one hand: the other hand counts as background there.
         size = (joints[:, MIDDLE_KNUCKLE] - joints[:, WRIST]).norm(dim=1) / _MEAN_PALM
         arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
         other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)
@@ -116,7 +117,7 @@ class Generator:
         layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
                   (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
 
-        # What is in front, and what a sensor makes of it.
+        # Find the nearest surface at every pixel, and simulate a sensor.
         depth, winner = torch.stack([layer for layer, _ in layers], 1).min(1)
         label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
         label = torch.where(depth < FAR, label, torch.zeros_like(label))
@@ -129,24 +130,25 @@ class Generator:
 
 
 def only_joints(mask: Tensor, joints: Tensor, otherwise: Tensor) -> Tensor:
-    """`joints` [B, 21, 3] where `mask` [B], `otherwise` elsewhere."""
+    """`joints` [B, 21, 3] for those samples for which `mask` [B] is true, `otherwise` for the others."""
     return torch.where(mask[:, None, None], joints, otherwise)
 
 
 def _flip(right: Tensor) -> Tensor:
-    """[B, 3] factors that mirror a left hand's x."""
+    """Factors [B, 3] that mirror the x coordinates of left hands."""
     sign = torch.where(right, 1.0, -1.0)
     return torch.stack([sign, torch.ones_like(sign), torch.ones_like(sign)], 1)
 
 
 def _mirrored(rotation: Tensor) -> Tensor:
-    """The other hand held symmetrically: mirrored in the camera's and in the hand's x."""
+    """The rotation of the other hand when both are held symmetrically: mirrored in the camera's and in the hand's x."""
     flip = torch.tensor([-1.0, 1.0, 1.0], device=rotation.device)
     return flip[:, None] * rotation * flip
 
 
 def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-    """Skin and joints in the camera's frame with the palm's centre at `place` [B, 3], and the hand frame's origin there."""
+    """Places the hands with their palms' centres at `place` [B, 3]. Returns skin, joints and the origins of the hands'
+    frames, all in the camera's frame [m]."""
     skin, joints = hands.posed(angles)
     flip = _flip(right)[:, None]
     skin, joints = apply(stance.rotation, flip * skin), apply(stance.rotation, flip * joints)
@@ -155,7 +157,7 @@ def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Ten
 
 
 def _beside(chance: Chance, place: Tensor) -> Tensor:
-    """[B, 3] from one palm to the other: 7 to 50 cm, mostly across the view."""
+    """The vector [B, 3] from one palm to the other: 7 to 50 cm long, mostly across the view."""
     count = len(place)
     turn = chance.uniform(0, 6.3, count)
     way = torch.stack([torch.cos(turn), 0.6 * torch.sin(turn), chance.normal(0.35, count)], 1)

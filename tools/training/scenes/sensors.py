@@ -1,4 +1,4 @@
-"""What structured light, time-of-flight and stereo sensors make of exact depth."""
+"""Simulates how structured-light, time-of-flight and stereo sensors measure exact depth."""
 import torch
 from torch import Tensor
 from torch.nn.functional import avg_pool2d, max_pool2d
@@ -8,24 +8,26 @@ from .shapes import FAR
 from .views import View
 
 KINDS = ("structured light", "time of flight", "stereo", "clean")
-_SHARES = (0.33, 0.3, 0.27, 0.1)
+_SHARES = (0.33, 0.3, 0.27, 0.1)  # probabilities of the KINDS
 
 
 def _smooth(image: Tensor, size: int) -> Tensor:
-    """Moving mean over size x size pixels."""
+    """The mean over size x size pixels around every pixel."""
     return avg_pool2d(image[:, None], size, 1, size // 2, count_include_pad=False)[:, 0]
 
 
 def _edges(depth: Tensor, least: float = 0.03) -> tuple[Tensor, Tensor, Tensor]:
-    """Pixels beside a step in depth of more than `least` [m], and the nearest and farthest depth around each pixel."""
+    """Whether a pixel is next to a step in depth of more than `least` [m], and the nearest and the farthest depth
+    around it."""
     highest, lowest = max_pool2d(depth[:, None], 3, 1, 1)[:, 0], -max_pool2d(-depth[:, None], 3, 1, 1)[:, 0]
     return highest - lowest > least, lowest, highest
 
 
 def _structured_light(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor, Tensor]:
-    """Depth in steps of disparity, and where there is none: in the projector's shadow and at ragged edges."""
+    """The depth, quantised in steps of disparity, and the pixels without depth: in the projector's shadow and at ragged
+    edges."""
     count = len(depth)
-    base = chance.uniform(0.03, 0.09, count)[:, None, None] * view.focal[:, None, None]  # pixels times metres
+    base = chance.uniform(0.03, 0.09, count)[:, None, None] * view.focal[:, None, None]  # baseline * focal [m px]
     disparity = base / depth
     reach = min(24, depth.shape[2] // 4)
     shadow = torch.zeros_like(depth, dtype=torch.bool)
@@ -33,7 +35,7 @@ def _structured_light(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor
         nearer = torch.roll(disparity, shift, 2) - disparity > shift
         nearer[:, :, :shift] = False
         shadow |= nearer
-    step = chance.log_uniform(0.0003, 0.003, count)[:, None, None]  # m at 1 m
+    step = chance.log_uniform(0.0003, 0.003, count)[:, None, None]  # step of depth at a distance of 1 m [m]
     noise = step * depth ** 2
     jagged = _edges(depth)[0] & chance.flag(0.4, *depth.shape)
     measured = depth + noise * (_smooth(chance.normal(1, *depth.shape), 3) * 2 + chance.normal(0.4, *depth.shape))
@@ -42,7 +44,8 @@ def _structured_light(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor
 
 
 def _time_of_flight(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
-    """Flying pixels between the two sides of an edge, a smooth error by multiple reflections, noise that grows."""
+    """The depth, and the pixels without depth. There are flying pixels between the two sides of an edge, a smooth error
+    by multiple reflections, and noise that grows with the distance."""
     count = len(depth)
     edge, lowest, highest = _edges(depth)
     flying = edge & (chance.uniform(0, 1, *depth.shape) < chance.uniform(0, 0.6, count)[:, None, None])
@@ -54,7 +57,8 @@ def _time_of_flight(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def _stereo(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
-    """Foreground that grows over its edges, surfaces that wobble like blobs, holes of any size."""
+    """The depth, and the pixels without depth. The foreground extends beyond its edges, surfaces have smooth bumps, and
+    there are holes of any size."""
     count = len(depth)
     fat = -max_pool2d(-depth[:, None], 3, 1, 1)[:, 0]
     grown = torch.where((chance.uniform(0, 1, count) < 0.6)[:, None, None] & chance.flag(0.8, *depth.shape), fat, depth)
@@ -66,7 +70,8 @@ def _stereo(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def _coarse(chance: Chance, depth: Tensor) -> Tensor:
-    """Pixels that several pixels of the view look at, as those of a coarse sensor or of a far hand."""
+    """Lowers the resolution of some images: blocks of 2 x 2 or 3 x 3 pixels get the same depth, as from a coarse sensor
+    or of a distant hand."""
     rows, columns = depth.shape[1:]
     kept = depth
     kind = chance.choice([0.6, 0.25, 0.15], len(depth))
@@ -78,7 +83,8 @@ def _coarse(chance: Chance, depth: Tensor) -> Tensor:
 
 
 def measure(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor, Tensor]:
-    """What the sensors say [B, H, W, m; 0: nothing] of exact `depth` (FAR: nothing), and their kinds [B] (see KINDS)."""
+    """The depth that the sensors measure [B, H, W, m; 0: no depth], given the exact `depth` (FAR: no surface), and the
+    kinds of the sensors [B] (indices into KINDS)."""
     count = len(depth)
     kind = chance.choice(_SHARES, count)
     flat = depth.clamp_max(8.0)
@@ -87,7 +93,7 @@ def measure(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor, Tensor]:
         mine = (kind == index)[:, None, None]
         measured, missing = torch.where(mine, own, measured), torch.where(mine, lost, missing)
 
-    # Range, units of a millimetre or of a tenth, and a sensor's resolution.
+    # Apply the sensor's range, its unit (1 or 0.1 mm) and its resolution.
     farthest = chance.uniform(1.2, 6, count)[:, None, None]
     nearest = torch.where(chance.flag(0.3, count), chance.uniform(0.1, 0.25, count), torch.zeros(count, device=depth.device))
     missing |= (depth >= FAR) | (measured > farthest) | (measured < nearest[:, None, None].clamp_min(0.02))

@@ -1,15 +1,15 @@
-"""Solids as rays see them, and signed distances to them. Camera frame unless said otherwise, metres.
+"""Intersections of rays with solids, and signed distances from solids. Camera frame, metres.
 
 `rays` [B, H, W, 3] start at the origin and have z = 1. Each `hit_` function gives the depth z [B, H, W] of the nearest
-surface in front of the camera, FAR where there is none.
+surface in front of the camera, or FAR if the ray hits nothing.
 """
 import torch
 from torch import Tensor
 
 from .rotations import apply
 
-FAR = 1e3  # m: nothing there
-NEAR = 0.05  # m: nothing is seen that is nearer
+FAR = 1e3  # depth of a ray that hits nothing [m]
+NEAR = 0.05  # surfaces that are nearer are not seen [m]
 
 
 def _seen(hit: Tensor, t: Tensor) -> Tensor:
@@ -17,12 +17,12 @@ def _seen(hit: Tensor, t: Tensor) -> Tensor:
 
 
 def only(mask: Tensor, depth: Tensor) -> Tensor:
-    """The depth of those samples of the batch for which `mask` [B] is true; nothing of the others."""
+    """`depth` for those samples of the batch for which `mask` [B] is true, FAR for the others."""
     return torch.where(mask[:, None, None], depth, torch.full_like(depth, FAR))
 
 
 def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, end_radius: Tensor) -> Tensor:
-    """Round bone from `start` to `end` [B, 3] whose radius [B] changes linearly between them."""
+    """A capsule from `start` to `end` [B, 3] whose radius [B] changes linearly between them."""
     along = (end - start)[:, None, None]
     start, start_radius, end_radius = start[:, None, None], start_radius[:, None, None], end_radius[:, None, None]
 
@@ -30,19 +30,22 @@ def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, 
     rs, sa = (rays * start).sum(-1), (start * along).sum(-1)
 
     def ball(share: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Where the rays enter the ball around this place on the bone: middle and squared half length of the chord."""
+        """Intersects the rays with the ball around the point at the fraction `share` of the axis. Returns, in units of
+        the ray: the middle of the chord, its squared half length (negative: a miss), and the point where the ray
+        enters."""
         centre = start + share[..., None] * along
         radius = start_radius + share.clamp(0, 1) * (end_radius - start_radius)
         middle = (rays * centre).sum(-1) / rr
         chord = (radius * radius - (centre * centre).sum(-1)) / rr + middle * middle
         return middle, chord, middle - torch.sqrt(chord.clamp_min(0))
 
-    # The ball at the place that is nearest to the ray says whether it hits.
+    # A ray hits if it hits the ball around the point of the axis that is nearest to the ray.
     nearest = (ra * rs - rr * sa) / (rr * aa - ra * ra).clamp_min(1e-9)
     _, chord, t = ball(nearest.clamp(0, 1))
     hit = chord > 0
 
-    # A slanting ray enters the mantle earlier, or the ball at the end that it comes from.
+    # A slanting ray enters earlier: through the lateral surface, or through the ball at an end. Two steps of a
+    # fixed-point iteration find where.
     middle, chord, _ = ball(nearest)
     slant = (1 - ra * ra / (rr * aa)).clamp_min(1e-3)
     entry = middle - torch.sqrt(chord.clamp_min(0) / slant)
@@ -54,7 +57,7 @@ def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, 
 
 
 def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """Box with half edges `half` [B, 3] along the columns of `rotation` [B, 3, 3]."""
+    """A box with half edges `half` [B, 3] along the columns of `rotation` [B, 3, 3]."""
     origin = -apply(rotation.transpose(1, 2), centre)[:, None, None]
     slope = torch.einsum("bji,bhwj->bhwi", rotation, rays)
     inverse = 1 / torch.where(slope.abs() < 1e-6, torch.full_like(slope, 1e-6), slope)
@@ -65,7 +68,7 @@ def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Ten
 
 
 def hit_ellipsoid(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """Ellipsoid with half axes `half` [B, 3] along the columns of `rotation`."""
+    """An ellipsoid with half axes `half` [B, 3] along the columns of `rotation`."""
     origin = (-apply(rotation.transpose(1, 2), centre) / half)[:, None, None]
     slope = torch.einsum("bji,bhwj->bhwi", rotation, rays) / half[:, None, None]
     a, b, c = (slope * slope).sum(-1), (slope * origin).sum(-1), (origin * origin).sum(-1) - 1
@@ -74,7 +77,7 @@ def hit_ellipsoid(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) 
 
 
 def hit_plane(rays: Tensor, point: Tensor, normal: Tensor) -> Tensor:
-    """Plane through `point` [B, 3], seen from the side that `normal` [B, 3] points to."""
+    """A plane through `point` [B, 3], visible only from the side to which `normal` [B, 3] points."""
     slope = (rays * normal[:, None, None]).sum(-1)
     return _seen(slope < -1e-3, (point * normal).sum(1)[:, None, None] / slope.clamp_max(-1e-3))
 
@@ -83,7 +86,7 @@ BOX, ELLIPSOID, CAPSULE = 0, 1, 2
 
 
 def hit_solid(rays: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """One solid a sample, of `kind` [B]: box, ellipsoid or capsule (along the first axis, of radius half[:, 1])."""
+    """One solid per sample, of `kind` [B]: box, ellipsoid or capsule (along the first axis, with radius half[:, 1])."""
     end = rotation[:, :, 0] * (half[:, :1] - half[:, 1:2]).clamp_min(1e-3)
     depth = hit_box(rays, centre, rotation, half)
     depth = torch.where((kind == ELLIPSOID)[:, None, None], hit_ellipsoid(rays, centre, rotation, half), depth)
@@ -92,7 +95,8 @@ def hit_solid(rays: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half
 
 
 def distance_to_solid(points: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """Signed distances [B, N] of `points` [B, N, 3] to the same solids; that of an ellipsoid is of first order."""
+    """Signed distances [B, N] of `points` [B, N, 3] from the same solids; the distance from an ellipsoid is a
+    first-order approximation."""
     local = torch.einsum("bji,bnj->bni", rotation, points - centre[:, None])
     half = half[:, None]
 

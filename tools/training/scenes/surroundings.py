@@ -1,4 +1,4 @@
-"""What else a sensor sees: a desk or a wall, things that stand around, things in front of the hand."""
+"""Depths of the hand's surroundings: a desk or a wall, objects near the hand, and objects in front of it."""
 import torch
 from torch import Tensor
 
@@ -8,7 +8,8 @@ from .shapes import hit_ellipsoid, hit_plane, hit_solid, only
 
 
 def planes(chance: Chance, rays: Tensor, joints: Tensor) -> Tensor:
-    """Depth of desks below and walls behind the hands' joints [B, N, 3], from touching to 2 m away."""
+    """Depth of desks below and walls behind the hands' joints [B, N, 3]: between 1 cm and 2 m away from the nearest
+    joint."""
     count, device = len(joints), joints.device
     pitch = chance.uniform(0.1, 1.5, count)
     desk = torch.stack([chance.normal(0.15, count), -torch.cos(pitch), -torch.sin(pitch)], 1)
@@ -24,7 +25,7 @@ def planes(chance: Chance, rays: Tensor, joints: Tensor) -> Tensor:
 
 
 def clutter(chance: Chance, rays: Tensor, centre: Tensor, things: int = 3) -> Tensor:
-    """Depth of boxes, balls and bars that do not touch the hand at `centre` [B, 3]."""
+    """Depth of boxes, ellipsoids and bars that do not touch the hand at `centre` [B, 3]."""
     count, device = len(centre), centre.device
     depth = None
     for _ in range(things):
@@ -40,7 +41,7 @@ def clutter(chance: Chance, rays: Tensor, centre: Tensor, things: int = 3) -> Te
 
 
 def occluders(chance: Chance, rays: Tensor, centre: Tensor) -> Tensor:
-    """Depth of something that hides a part of the hand at `centre` [B, 3] now and then."""
+    """Depth of an object that hides a part of the hand at `centre` [B, 3] in a tenth of the scenes."""
     count = len(centre)
     place = centre * chance.uniform(0.7, 0.92, count, 1)
     place = torch.cat([place[:, :2] + chance.normal(0.07, count, 2), place[:, 2:]], 1)

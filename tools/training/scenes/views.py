@@ -1,4 +1,4 @@
-"""The virtual pinhole cameras through which the networks look (docs/nets.md), and hands drawn in them."""
+"""The virtual pinhole cameras whose images the networks get (docs/nets.md), and how hands are drawn in these images."""
 import warnings
 from dataclasses import dataclass
 
@@ -7,25 +7,26 @@ from torch import Tensor
 
 from .shapes import FAR
 
-# PyTorch 1.13 calls scatter_reduce beta; it has not changed since.
+# PyTorch 1.13 warns that scatter_reduce is in beta; it has not changed since.
 warnings.filterwarnings("ignore", message="scatter_reduce")
 
 FULL_SIZE = (120, 160)  # rows, columns
 FULL_FOCAL = 131.25  # pixels
 CROP_SIZE = (96, 96)
-CROP_ACROSS = 0.34  # m at the palm's depth
+CROP_ACROSS = 0.34  # width of a window at the palm's depth [m]
 
 
 @dataclass
 class View:
-    """B cameras of `size` (rows, columns); `focal`, `cx`, `cy` [B] in pixels, whose centres have integer coordinates."""
+    """B pinhole cameras of `size` (rows, columns). `focal`, `cx`, `cy` [B] in pixels; the centres of pixels have
+    integer coordinates."""
     size: tuple[int, int]
     focal: Tensor
     cx: Tensor
     cy: Tensor
 
     def rays(self) -> Tensor:
-        """[B, H, W, 3] with z = 1."""
+        """The rays of all pixels [B, H, W, 3] with z = 1."""
         rows, columns = self.size
         device = self.focal.device
         v, u = torch.meshgrid(torch.arange(rows, device=device), torch.arange(columns, device=device), indexing="ij")
@@ -34,20 +35,20 @@ class View:
         return torch.stack([x, y, torch.ones_like(x)], -1)
 
     def project(self, points: Tensor) -> Tensor:
-        """Pixels [B, N, 2] of points [B, N, 3] in the camera's frame [m]."""
+        """Pixel coordinates [B, N, 2] of points [B, N, 3] in the camera's frame [m]."""
         z = points[..., 2].clamp_min(1e-3)
         centre = torch.stack([self.cx, self.cy], -1)[:, None]
         return self.focal[:, None, None] * points[..., :2] / z[..., None] + centre
 
 
 def draw_points(view: View, points: Tensor) -> Tensor:
-    """Depth [B, H, W] of the skin that `points` [B, P, 3] are on; FAR where there is none."""
+    """Depth [B, H, W] of the skin on which `points` [B, P, 3] lie; FAR where there is no skin."""
     rows, columns = view.size
     count = len(points)
     uv, z = view.project(points), points[..., 2]
     buffer = torch.full((count, rows * columns + 1), FAR, device=points.device)
 
-    # Near hands have fewer points than pixels: there each point covers four pixels.
+    # A near hand covers more pixels than it has points, so each of its points covers four pixels.
     pitch = z.mean(1) / view.focal
     for shift_u, shift_v in ((0, 0), (1, 0), (0, 1), (1, 1)):
         if shift_u + shift_v == 0:
@@ -64,7 +65,8 @@ def draw_points(view: View, points: Tensor) -> Tensor:
 
 
 def _closed(depth: Tensor) -> Tensor:
-    """Fills pixels that most of their neighbours surround, and hides back sides that show through between points."""
+    """Fills pixels with hand in most of the neighbouring pixels, and hides the back of the hand where it shows through
+    between points."""
     padded = torch.nn.functional.pad(depth[:, None], (1, 1, 1, 1), value=FAR)
     filled = (padded < FAR).float()
     pool = lambda image: 9 * torch.nn.functional.avg_pool2d(image, 3, 1)[:, 0]
@@ -77,13 +79,13 @@ def _closed(depth: Tensor) -> Tensor:
 
 
 def full_view(rough_focal: Tensor) -> View:
-    """Whole frames; `rough_focal` [B]: focal lengths relative to FULL_FOCAL."""
+    """Cameras of whole frames. `rough_focal` [B]: their focal lengths relative to FULL_FOCAL."""
     middle = torch.ones_like(rough_focal)
     return View(FULL_SIZE, FULL_FOCAL * rough_focal, middle * (FULL_SIZE[1] - 1) / 2, middle * (FULL_SIZE[0] - 1) / 2)
 
 
 def crop_view(middle: Tensor, across: Tensor) -> View:
-    """Windows `across` [B, m] wide around `middle` [B, 3] at its depth."""
+    """Cameras of windows around `middle` [B, 3] that are `across` [B, m] wide at its depth."""
     focal = CROP_SIZE[1] * middle[:, 2] / across
     half = (CROP_SIZE[1] - 1) / 2
     return View(CROP_SIZE, focal, half - focal * middle[:, 0] / middle[:, 2], half - focal * middle[:, 1] / middle[:, 2])
