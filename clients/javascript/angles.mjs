@@ -6,6 +6,7 @@ import dgram from "node:dgram";
 import {decodeGloveState, kSideNames, kStatusNames} from "../../web/lcm.js";
 
 const kShortMessage = 0x4c433032;  // LC02; hand states are never larger than one datagram
+const kGloveState = 0x5e477470f8db147en;  // fingerprint of the type, the first 8 bytes of its messages
 const kUnobservable = 2;           // glove_state_t.UNOBSERVABLE
 const kIndexFinger = [4, 5, 6];    // channels INDEX_MPJ, INDEX_PIJ, INDEX_DIJ
 const [, group, port] = (process.env.LCM_DEFAULT_URL || "udpm://239.255.76.67:7667").match(/^udpm:\/\/([\d.]+):(\d+)/);
@@ -25,11 +26,12 @@ function receive(datagram) {
   if (lines <= 0 || datagram.length < 8 || datagram.readUInt32BE(0) !== kShortMessage) return;
   const end = datagram.indexOf(0, 8);
   if (datagram.toString("latin1", 8, end) !== "GLOVE_STATE") return;
-  const data = datagram.subarray(end + 1);
+  const data = new DataView(datagram.buffer, datagram.byteOffset + end + 1, datagram.length - end - 1);
   try {
-    print(decodeGloveState(new DataView(data.buffer, data.byteOffset, data.length)));
+    if (data.getBigUint64(0) !== kGloveState) throw new TypeError("it is no glove_state_t of this version");
+    print(decodeGloveState(data));
   } catch (error) {
-    console.error(`left out a damaged message: ${error.message}`);
+    console.error(`left out a message on GLOVE_STATE: ${error.message}`);
   }
 }
 

@@ -33,10 +33,8 @@ class Logs(Folder):
 
     def test_every_event_of_a_whole_log_is_read(self):
         self.assertEqual(self.read(), ([0, 1, 2, 3, 4], Counts(messages=3 * FRAMES)))
-        with open(self.path, "rb") as file:
-            whole = file.read()
-        self.assertEqual([e[0] for e in log.events(self.path, Counts())], [frame for frame in range(FRAMES) for _ in range(3)])
-        self.assertEqual(whole[:4], b"\xED\xA1\xDA\x01")
+        stamps = [stamp for stamp, _, _ in log.events(self.path, Counts())]
+        self.assertEqual(stamps, [frame for frame in range(FRAMES) for _ in range(3)])
 
     def test_a_log_cut_short_anywhere_gives_what_is_whole(self):
         whole = self.path.read_bytes()

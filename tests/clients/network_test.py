@@ -19,14 +19,16 @@ from barehand.network import Network, parse_url
 from support import URL, Folder, messages_of
 
 BAREHAND = sys.argv.pop(1)
-LONG = 60  # seconds; never waited for when all is well
+LONG = 250  # seconds; never waited for when all is well
+START = 1_700_000_000_000_000  # microseconds
 CAMERA = (260.0, 260.0, 159.5, 119.5)
 
 
 def image(number):
     """Depth and colour that no other number has, so large that LCM cuts them into fragments: a slanted wall."""
-    depth = 500 + np.add.outer(np.arange(240), np.arange(320)) // 4 + np.random.default_rng(number).integers(0, 2, (240, 320))
-    return depth.astype(np.uint16), np.random.default_rng(number).integers(0, 255, (240, 320, 3), np.uint8)
+    chance = np.random.default_rng(number)
+    depth = 500 + np.add.outer(np.arange(240), np.arange(320)) // 4 + chance.integers(0, 2, (240, 320))
+    return depth.astype(np.uint16), chance.integers(0, 255, (240, 320, 3), np.uint8)
 
 
 class Live(Folder):
@@ -52,7 +54,7 @@ class Live(Folder):
         self.addCleanup(record.kill)
         number = 0
         while record.poll() is None and number < 1000:  # it may have to start yet
-            barehand.publish_rgbd(*image(number), CAMERA, utime=1_700_000_000_000_000 + 33_333 * number, url=URL, sensor="test")
+            barehand.publish_rgbd(*image(number), CAMERA, utime=START + 33_333 * number, url=URL, sensor="test")
             number += 1
             try:
                 record.wait(0.03)
@@ -62,7 +64,7 @@ class Live(Folder):
         got = [decode(barehand.rgbd_frame_t, data) for _, _, data in log.events(path, Counts())]
         self.assertEqual(len(got), 3)
         for frame in got:
-            depth, colour = image((frame.utime - 1_700_000_000_000_000) // 33_333)
+            depth, colour = image((frame.utime - START) // 33_333)
             self.assertEqual((frame.width, frame.height, frame.fx, frame.sensor, frame.depth_unit),
                              (320, 240, 260.0, "test", 0.001))
             self.assertEqual(zlib.decompress(frame.depth), depth.tobytes())

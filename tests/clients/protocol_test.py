@@ -20,7 +20,8 @@ class Protocol(unittest.TestCase):
 
     def test_messages_of_every_size_come_out_as_they_went_in(self):
         limit = 65507 - 8 - 2
-        for number, size in enumerate([0, 1, limit, limit + 1, 65487, 2 * 65487 - 2, 2 * 65487 - 1, 1 << 20, LARGEST_MESSAGE]):
+        sizes = [0, 1, limit, limit + 1, 65487, 2 * 65487 - 2, 2 * 65487 - 1, 1 << 20, LARGEST_MESSAGE]
+        for number, size in enumerate(sizes):
             data = random.Random(size).randbytes(size)
             datagrams = encode(b"A", data, number)
             self.assertLessEqual(max(map(len, datagrams)), 65507)
@@ -71,9 +72,11 @@ class Protocol(unittest.TestCase):
 
     def test_datagrams_that_are_none_of_lcm_are_counted(self):
         first, second, *_ = encode(b"A", LARGE, 0)
-        bad = [b"", b"LC02", b"GET / HTTP/1.1\r\n", b"LC02\0\0\0\0no end of the channel", b"LC02\0\0\0\0" + b"c" * 64 + b"\0",
-               first[:19], first[:18] + b"\0\0" + first[20:], first[:8] + b"\xff" * 4 + first[12:],
-               first[:8] + b"\0" * 4 + first[12:], first[:20] + b"c" * 64 + first[22:], second[:12] + b"\xff" * 4 + second[16:]]
+        long_name, huge = b"c" * 64, b"\xff" * 4
+        bad = [b"", b"LC02", b"GET / HTTP/1.1\r\n", b"LC02\0\0\0\0no end of the channel",
+               b"LC02\0\0\0\0" + long_name + b"\0", first[:19], first[:18] + b"\0\0" + first[20:],
+               first[:8] + huge + first[12:], first[:8] + b"\0" * 4 + first[12:], first[:20] + long_name + first[22:],
+               second[:12] + huge + second[16:]]
         self.assertEqual(self.add(bad), [])
         self.assertEqual(self.counts.damaged, len(bad))
 

@@ -65,10 +65,12 @@ class Messages(unittest.TestCase):
 
     def test_what_the_tracker_would_not_take_is_refused(self):
         for words, arguments in [("shape", (DEPTH[0], None, CAMERA)), ("shape", (np.zeros((0, 4)), None, CAMERA)),
-                                 ("type", (DEPTH > 3, None, CAMERA)), ("counts from -5", (DEPTH.astype(int) - 5, None, CAMERA)),
+                                 ("type", (DEPTH > 3, None, CAMERA)),
+                                 ("counts from -5", (DEPTH.astype(int) - 5, None, CAMERA)),
                                  ("65536", (DEPTH.astype(int) + 65525, None, CAMERA)),
                                  ("depth unit", (DEPTH, None, CAMERA, 1000)),
-                                 ("no camera", (DEPTH, None, (0, 525, 1, 1))), ("no camera", (DEPTH, None, (525, np.nan, 1, 1))),
+                                 ("no camera", (DEPTH, None, (0, 525, 1, 1))),
+                                 ("no camera", (DEPTH, None, (525, np.nan, 1, 1))),
                                  ("uint8", (DEPTH, COLOUR[:2], CAMERA)), ("float64", (DEPTH, COLOUR / 255, CAMERA)),
                                  ("no JPEG", (DEPTH, b"GIF89a", CAMERA))]:
             with self.assertRaisesRegex(barehand.Error, words):

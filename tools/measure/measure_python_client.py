@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Does the Python client hear every frame? lcm-logplayer sends the frames of a log of hand states by UDP, again and again
-at a given rate; a client takes every outlet of every hand. Prints what was sent, heard and lost, and the client's processor time.
+at a given rate; a client takes every outlet of every hand. Prints what was sent, heard and lost, and the client's
+processor time.
   measure_python_client.py STATES.lcmlog [RATE] [SECONDS]      a log of `barehand track --states-log`; 60 Hz, 60 s
 Needs the Python package (PYTHONPATH=build/release/clients/python), lcm-logplayer and a multicast route."""
 import os
