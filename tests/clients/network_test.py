@@ -8,11 +8,13 @@ import threading
 import unittest
 import warnings
 import zlib
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
 import barehand
-from barehand import log
+from barehand import log, stream
 from barehand.counts import Counts
 from barehand.messages import decode
 from barehand.network import Network, parse_url
@@ -118,6 +120,20 @@ class Trouble(unittest.TestCase):
         done.set()
         sender.join()
         network.close()
+
+    def test_the_time_that_a_consumer_takes_is_no_silence(self):
+        clock = [0.0]
+        with mock.patch.object(stream, "time", SimpleNamespace(monotonic=lambda: clock[0])):
+            sender = Network(URL)
+            self.addCleanup(sender.close)
+            with barehand.hands(URL, timeout=LONG) as live:
+                for frame in range(3):
+                    sender.send("HEALTH", b"data")
+                    for channel, data in messages_of(frame):
+                        sender.send(channel.decode(), data)
+                for frame in range(3):
+                    self.assertEqual(next(live).frame_number, frame)
+                    clock[0] += 2 * LONG
 
     def test_foreign_lost_and_damaged_messages_are_counted_with_a_warning(self):
         sender = Network(URL)

@@ -83,6 +83,8 @@ class HandStream:
                 self.counts.superseded += len(newer)
                 done = newer[-1:] or done
             yield from done
+            if done:
+                heard = time.monotonic()  # the time that the consumer took is no silence
 
     def _logged(self, events):
         for _, channel, data in events:
