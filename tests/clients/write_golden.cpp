@@ -15,7 +15,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000, kFrame_us = 16'667;
+constexpr std::int64_t kStart = 1'700'000'000'000'000, kFrameInterval = 16'667;  // microseconds
 
 /// Rows "frame,outlet,index,value,...", every digit of each value.
 class Table {
@@ -113,7 +113,7 @@ int write(const std::string& folder) {
     for (const Handedness side : {Handedness::right, Handedness::left}) {
       const auto profile = test::adult_hand(side);
       const bool lost = frame == 4;
-      HandEstimate estimate = estimate_of(*profile, bent(frame), kStart + frame * kFrame_us,
+      HandEstimate estimate = estimate_of(*profile, bent(frame), kStart + frame * kFrameInterval,
                                           lost ? TrackStatus::lost : TrackStatus::tracking);
       estimate.number = frame;
       estimate.hand_id = side == Handedness::right ? 1 : 2;
