@@ -1,5 +1,6 @@
 # What `cmake --install` puts where, and the Debian packages made of it: cpack --preset package. The component `video` is a
-# package of its own, barehand-video, because libav's hundred packages are for those alone who want videos.
+# package of its own, barehand-video, because libav's hundred packages are for those alone who want videos, and so is the
+# component `python`, python3-barehand, which a machine without the tracker can have.
 include(GNUInstallDirs)
 set(data share/barehand)  # src/io/data_files.cpp looks beside the program
 barehand_more_instruction_sets()
@@ -16,6 +17,8 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTER
                                                                           PATTERN "*.png")
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}-video COMPONENT video)
+set(python_docs ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-barehand)
+install(FILES deploy/debian/copyright DESTINATION ${python_docs} COMPONENT python)
 
 # Debian wants these two compressed.
 find_program(GZIP gzip REQUIRED)
@@ -28,6 +31,7 @@ endfunction()
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/packaging)
 install_compressed(deploy/debian/changelog changelog ${CMAKE_INSTALL_DOCDIR})
 install_compressed(deploy/debian/changelog changelog ${CMAKE_INSTALL_DOCDIR}-video COMPONENT video)
+install_compressed(deploy/debian/changelog changelog ${python_docs} COMPONENT python)
 install_compressed(deploy/debian/barehand.1 barehand.1 ${CMAKE_INSTALL_MANDIR}/man1)
 
 set(CPACK_GENERATOR DEB)
@@ -44,7 +48,8 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME barehand)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "libjs-three")  # of the live page; the libraries are added
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "barehand-video, liblcm-bin, libegl1, npm, parallel")  # the last two for its scripts
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS
+    "barehand-video, liblcm-bin, libegl1, npm, parallel, python3-barehand")  # npm and parallel for its scripts
 set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "tracks a bare hand and publishes glove-like states on LCM
 Barehand is a daemon beside a depth sensor. It watches a bare hand that holds
 and moves things and says on LCM, frame by frame, what an instrumented glove
@@ -55,6 +60,17 @@ set(CPACK_DEBIAN_VIDEO_PACKAGE_DEPENDS "barehand (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_VIDEO_DESCRIPTION "lets barehand write videos of tracked hands
 This module writes what `barehand track --overlay` draws to videos, through
 FFmpeg's libraries. Without it barehand writes single pictures.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-barehand)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_SOURCE_DIR}/deploy/debian/python3-barehand/postinst;${PROJECT_SOURCE_DIR}/deploy/debian/python3-barehand/prerm")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "hands tracked by barehand, in Python
+This module reads hand states from LCM, live and from logs, and hands them out
+in the conventions of OpenXR, WebXR, MANO and instrumented gloves. It sends the
+images of depth cameras to barehand. It needs neither barehand nor LCM here.")
 if(BAREHAND_ARCH MATCHES "^x86-64-v")
   string(APPEND CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "\n.\nThis build needs an ${BAREHAND_ARCH} processor or better.")
 endif()

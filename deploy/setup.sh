@@ -30,5 +30,5 @@ if [ "${1:-}" = --tests ]; then
   ctest --preset release
 else
   cmake --preset release -DBAREHAND_TESTS=OFF -DBAREHAND_WERROR=OFF
-  cmake --build --preset release --target barehand
+  cmake --build --preset release --target barehand barehand_python
 fi

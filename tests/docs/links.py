@@ -10,7 +10,7 @@ import tempfile
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)(?:\s+\"[^\"]*\")?\)")
 CODE = re.compile(r"`([^`\n]+)`")
-FOLDERS = "src|stages|drivers|tests|docs|deploy|configs|lcmtypes|cmake|tools"
+FOLDERS = "src|stages|drivers|tests|docs|deploy|configs|lcmtypes|clients|web|cmake|tools"
 NAMED_FILE = re.compile(rf"(?:{FOLDERS})/[\w./-]*\w")  # wildcards do not match as a whole
 PLACEHOLDER = re.compile(r"\bNAME\b")
 

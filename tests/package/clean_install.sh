@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs the packages into a fresh, minimal Debian 12 tree, runs them there as an ordinary user, and removes them again.
 #   tests/package/clean_install.sh barehand_VERSION.deb [MIRROR]    as root; needs mmdebstrap and a Debian mirror
-# barehand-video_VERSION.deb lies beside it.
+# barehand-video_VERSION.deb and python3-barehand_VERSION.deb lie beside it.
 # The simulator's hands are those of deploy/fetch_hand_mesh.sh, or in the folder BAREHAND_HANDS.
 set -euo pipefail
 
 package=$(realpath "$1") mirror=${2:-http://deb.debian.org/debian}
 video=${package%/*}/barehand-video_${package##*/barehand_}
+python=$(echo "${package%/*}"/python3-barehand_*_all.deb)
 hands=${BAREHAND_HANDS:-${XDG_CACHE_HOME:-$HOME/.cache}/barehand/hands}
 for hand in left right; do
   [ -f "$hands/$hand.glb" ] || { echo "$hands/$hand.glb is not there: run deploy/fetch_hand_mesh.sh" >&2; exit 2; }
@@ -29,11 +30,12 @@ inside() {
 
 say "a minimal Debian 12 with $(basename "$package")"
 mmdebstrap --quiet --variant=minbase --aptopt='APT::Install-Recommends "false"' \
-  --customize-hook="copy-in '$package' '$video' /opt" \
+  --customize-hook="copy-in '$package' '$video' '$python' /opt" \
   --customize-hook="chroot \"\$1\" dpkg-query -W -f='\${Package}\n' | sort >'$work/before'" \
   --customize-hook="chroot \"\$1\" apt-get install --yes /opt/$(basename "$package")" \
   --customize-hook="chroot \"\$1\" dpkg-query -W -f='\${Package}\n' | sort >'$work/after'" \
   --customize-hook="chroot \"\$1\" apt-get install --yes --download-only /opt/$(basename "$video")" \
+  --customize-hook="chroot \"\$1\" apt-get install --yes --download-only /opt/$(basename "$python")" \
   --skip=cleanup/apt \
   bookworm "$root" "$mirror" >"$work/log" 2>&1 || { tail -30 "$work/log" >&2; die "it does not install"; }
 say "$(comm -13 "$work/before" "$work/after" | wc -l) packages came with it"
@@ -72,15 +74,26 @@ video_of_fist() { inside barehand track --source sim:fist,frames=10 --no-publish
 video_of_fist >"$work/video" 2>&1 && die "it writes a video without its module"
 grep -q 'install the package barehand-video' "$work/video" || die "it does not say what a video needs"
 # apt takes no package from a file without downloading, so dpkg does, and apt adds what it depends on.
-{ chroot "$root" dpkg --unpack "/opt/$(basename "$video")" &&
-  chroot "$root" apt-get install --fix-broken --yes --no-download; } >"$work/log" 2>&1 ||
-  { tail -30 "$work/log" >&2; die "barehand-video does not install"; }
+add() {
+  { chroot "$root" dpkg --unpack "/opt/$(basename "$1")" &&
+    chroot "$root" apt-get install --fix-broken --yes --no-download; } >"$work/log" 2>&1 ||
+    { tail -30 "$work/log" >&2; die "$(basename "$1") does not install"; }
+}
+add "$video"
 video_of_fist >"$work/video" 2>&1 || { cat "$work/video" >&2; die "it writes no video"; }
 [ -s "$root/tmp/fist.mp4" ] || die "there is no video"
 
+say "Python"
+add "$python"
+angles=/usr/share/barehand/clients/python/examples/angles.py
+inside "$angles" 10 /tmp/fist.lcmlog | tee "$work/angles"
+grep -qE '^frame 9 right tracking( -?[0-9.]+){3}$' "$work/angles" || die "it does not read the log"
+inside sh -c "barehand track --source sim:fist,frames=200 >/dev/null 2>&1 & $angles 3" | tee "$work/angles"
+[ "$(grep -c tracking "$work/angles")" = 3 ] || die "it does not hear the tracker"
+
 for file in share/barehand/lcmtypes/hand_state_t.lcm share/barehand/configs/hands/adult_right.json \
             share/doc/barehand/copyright share/doc/barehand/docs/lcm.md lib/udev/rules.d/60-barehand-sensors.rules \
-            share/barehand/deploy/batch/one_log.sh; do
+            share/barehand/deploy/batch/one_log.sh share/barehand/clients/javascript/angles.mjs; do
   [ -f "$root/usr/$file" ] || die "/usr/$file is not installed"
 done
 
@@ -90,7 +103,7 @@ inside /usr/share/barehand/deploy/batch/one_log.sh /tmp/a.lcmlog /tmp/out || die
 [ -s "$root/tmp/out/a/result.csv" ] || die "one_log.sh makes nothing"
 
 say "removed again"
-chroot "$root" dpkg --purge barehand-video barehand >/dev/null
+chroot "$root" dpkg --purge python3-barehand barehand-video barehand >/dev/null
 left=$(find "$root/usr" "$root/etc" "$root/lib" -iname '*barehand*')
 [ -z "$left" ] || die "left behind: $left"
 echo "passed"

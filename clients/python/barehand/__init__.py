@@ -1,0 +1,20 @@
+"""Barehand in Python: what the tracker says of the hands, and images for it.
+
+    import barehand
+    for hands in barehand.hands():                    # live over LCM; barehand.hands("take.lcmlog") reads a log
+        for hand in hands:                            # those that have a pose; hands.without_pose has the others
+            print(hand.handedness, hand.status, hand.joint_angles()["index_pip_flex"])
+
+    barehand.publish_rgbd(depth, colour, (fx, fy, cx, cy))   # for barehand track --source lcm
+
+Metres, seconds and radians. The camera frame has x right, y down, z forward. Nothing that is not known is ever 0: it is NaN.
+"""
+from .counts import Counts
+from .error import Error
+from .hand import STATUS, Hand, Hands
+from .messages import (command_t, glove_state_t, hand_joints_t, hand_state_t, health_t, queue_health_t, rgbd_frame_t,
+                       segment_state_t, stage_health_t)
+from .outlets import (GLOVE_CHANNELS, LANDMARKS_21, OPENXR_JOINTS, OPERATOR2MANO, SEGMENTS, T_XR_CAMERA, WEBXR_JOINTS,
+                      Joints)
+from .rgbd import RgbdPublisher, publish_rgbd
+from .stream import HandStream, hands

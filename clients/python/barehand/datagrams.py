@@ -1,0 +1,122 @@
+"""LCM's protocol over UDP: how messages become datagrams and come out of them again.
+
+All numbers are big endian. A small message is one datagram: the magic number LC02, the sender's message number, the
+channel with a final zero byte, and the data. A large one is several: the magic number LC03, the message number, the size
+of the data, the offset of this fragment in it, the number of the fragment and of all fragments; the first one has the
+channel, too (https://lcm-proj.github.io/lcm/content/udp-multicast-protocol.html).
+"""
+import struct
+from collections import OrderedDict
+
+SHORT, FRAGMENT = 0x4C433032, 0x4C433033
+LONGEST_CHANNEL = 63        # bytes
+LARGEST_MESSAGE = 4 << 20   # bytes; above it LCM over UDP is unreliable, and Barehand sends nothing larger
+_SHORT_HEADER = struct.Struct(">II")
+_FRAGMENT_HEADER = struct.Struct(">IIIIHH")
+_LARGEST_DATAGRAM = 65507   # of UDP over IPv4
+_MOST_SENDERS = 64
+
+
+def encode(channel, data, number):
+    """The datagrams of the message `number` (of this sender) on `channel`, bytes both."""
+    name = channel + b"\0"
+    if _SHORT_HEADER.size + len(name) + len(data) <= _LARGEST_DATAGRAM:
+        return [_SHORT_HEADER.pack(SHORT, number) + name + data]
+    room = _LARGEST_DATAGRAM - _FRAGMENT_HEADER.size
+    cuts = [0, *range(room - len(name), len(data), room), len(data)]
+    return [_FRAGMENT_HEADER.pack(FRAGMENT, number, len(data), start, i, len(cuts) - 1) +
+            (b"" if i else name) + data[start:end] for i, (start, end) in enumerate(zip(cuts, cuts[1:]))]
+
+
+class _Partial:
+    """A large message of which some fragments came."""
+
+    def __init__(self, number, size, count):
+        self.number, self.count = number, count
+        self.channel, self.data, self.seen, self.filled = None, bytearray(size), set(), 0
+
+
+class _Sender:
+    """What is known of one sender, which is an address and a port."""
+
+    def __init__(self):
+        self.last = None     # number of its newest message
+        self.partial = None  # _Partial
+        self.whole = None    # number of the last large message that is complete
+
+
+class Assembler:
+    """Makes messages of datagrams. Keeps one unfinished message a sender, as liblcm does, and counts what is lost."""
+
+    def __init__(self, counts):
+        self._counts, self._senders = counts, OrderedDict()
+
+    def add(self, datagram, address):
+        """(channel, data), bytes both, if `datagram` completes a message; else None."""
+        magic, = struct.unpack_from(">I", datagram) if len(datagram) >= _SHORT_HEADER.size else (0,)
+        if magic == SHORT:
+            return self._short(datagram, address)
+        if magic == FRAGMENT and len(datagram) >= _FRAGMENT_HEADER.size:
+            return self._fragment(datagram, address)
+        self._counts.damaged += 1
+        return None
+
+    def _sender(self, address, number):
+        """The sender, after its message `number` was noted."""
+        sender = self._senders.setdefault(address, _Sender())
+        self._senders.move_to_end(address)
+        if len(self._senders) > _MOST_SENDERS:
+            self._senders.popitem(last=False)
+
+        # A step back is a datagram that was overtaken, or a sender that began again: nothing is lost.
+        step = (number - sender.last) & 0xFFFFFFFF if sender.last is not None else 1
+        if 1 <= step < 1 << 31:
+            self._counts.lost += step - 1
+            sender.last = number
+        elif step:
+            sender.last = number
+        return sender
+
+    def _short(self, datagram, address):
+        end = datagram.find(b"\0", _SHORT_HEADER.size, _SHORT_HEADER.size + LONGEST_CHANNEL + 1)
+        if end < 0:
+            self._counts.damaged += 1
+            return None
+        self._sender(address, _SHORT_HEADER.unpack_from(datagram)[1])
+        return datagram[_SHORT_HEADER.size:end], datagram[end + 1:]
+
+    def _fragment(self, datagram, address):
+        _, number, size, offset, index, count = _FRAGMENT_HEADER.unpack_from(datagram)
+        sender = self._sender(address, number)
+        if sender.whole == number and not sender.partial:  # a fragment that came twice
+            return None
+
+        # A fragment of the next message ends the one before, whose other fragments are lost.
+        partial = sender.partial
+        if not partial or (partial.number, len(partial.data), partial.count) != (number, size, count):
+            self._counts.fragments += partial is not None
+            believed = index < count and 0 < size <= LARGEST_MESSAGE
+            partial = sender.partial = _Partial(number, size, count) if believed else None
+
+        # The channel stands in the first fragment.
+        start, end = _FRAGMENT_HEADER.size, None
+        if partial and index == 0:
+            end = datagram.find(b"\0", start, start + LONGEST_CHANNEL + 1)
+            partial.channel, start = datagram[start:end], end + 1
+        piece = datagram[start:]
+        if not partial or end == -1 or index >= count or offset + len(piece) > size:
+            self._counts.damaged += 1
+            sender.partial = None
+            return None
+
+        if index not in partial.seen:
+            partial.data[offset:offset + len(piece)] = piece
+            partial.filled += len(piece)
+            partial.seen.add(index)
+        if len(partial.seen) < count:
+            return None
+        sender.partial, sender.whole = None, number
+        if partial.filled != size:  # the fragments leave a hole
+            self._counts.damaged += 1
+            return None
+        return partial.channel, bytes(partial.data)

@@ -1,0 +1,90 @@
+"""LCM's event logs: what lcm-logger, `barehand record` and `barehand track --states-log` write.
+
+An event is the sync word, its number, its time [us], the lengths of channel and data (4, 8, 8, 4, 4 bytes, big endian),
+the channel and the data (https://lcm-proj.github.io/lcm/content/log-file-format.html).
+"""
+import mmap
+import os
+import struct
+
+from .datagrams import LONGEST_CHANNEL
+from .error import Error
+
+_SYNC = b"\xED\xA1\xDA\x01"
+_HEADER = struct.Struct(">IqqII")
+
+
+def events(path, counts):
+    """An iterator of (time [us], channel, data), bytes both, over every whole event of a log. What is damaged or cut short
+    is skipped up to the next event and counted in `counts.damaged`. A file that is no log raises Error."""
+    return _scan(_map(path), path, counts)  # opened now, so that a missing file is told at once
+
+
+def _scan(bytes_, path, counts):
+    at, found = 0, False
+    while at < len(bytes_):
+        end = _end(bytes_, at)
+
+        # Where nothing follows an event it may have been torn, and what was written later lies within its length.
+        if end and not _may_follow(bytes_, end):
+            inner = _whole_event(bytes_, at + 1, end)
+            if inner:
+                counts.damaged += 1
+                at = inner
+                continue
+        if not end:
+            counts.damaged += 1
+            at = _next_sync(bytes_, at + 1)
+            continue
+        _, _, time, channel_size, _ = _HEADER.unpack_from(bytes_, at)
+        start = at + _HEADER.size
+        yield time, bytes_[start:start + channel_size], bytes_[start + channel_size:end]
+        found, at = True, end
+    if not found:
+        raise Error("holds no LCM event", path,
+                    "logs are written by barehand track --states-log, barehand record, or lcm-logger")
+
+
+def write_event(file, number, time, channel, data):
+    """Appends an event to a log that is open for writing bytes; `time` in microseconds."""
+    file.write(_SYNC + _HEADER.pack(0, number, time, len(channel), len(data))[4:] + channel + data)
+
+
+def _map(path):
+    try:
+        with open(path, "rb") as file:
+            if os.fstat(file.fileno()).st_size == 0:
+                raise Error("the log is empty", path)
+            return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    except (OSError, ValueError) as error:
+        reason = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else str(error)
+        raise Error(f"cannot read the log: {reason}", path, "give the name of one log") from None
+
+
+def _end(bytes_, at):
+    """Where the event at `at` ends; None if no whole event begins there."""
+    if bytes_[at:at + 4] != _SYNC or at + _HEADER.size > len(bytes_):
+        return None
+    _, _, _, channel_size, size = _HEADER.unpack_from(bytes_, at)
+    end = at + _HEADER.size + channel_size + size
+    return end if 1 <= channel_size <= LONGEST_CHANNEL and end <= len(bytes_) else None
+
+
+def _may_follow(bytes_, at):
+    return _SYNC.startswith(bytes_[at:at + 4])
+
+
+def _next_sync(bytes_, at):
+    found = bytes_.find(_SYNC, at)
+    return found if found >= 0 else len(bytes_)
+
+
+def _whole_event(bytes_, start, end):
+    """Where the first event in [start, end) begins that something whole may follow; None if there is none."""
+    at = _next_sync(bytes_, start)
+    while at < end:
+        own_end = _end(bytes_, at)
+        if own_end and _may_follow(bytes_, own_end):
+            return at
+        at = _next_sync(bytes_, at + 1)
+    return None

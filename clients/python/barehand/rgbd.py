@@ -1,0 +1,96 @@
+"""Sends the images of a depth camera to `barehand track --source lcm`."""
+import functools
+import time
+import zlib
+
+import numpy as np
+
+from .error import Error
+from .messages import rgbd_frame_t
+from .network import Network
+
+_WHERE = "publish_rgbd"
+
+
+def publish_rgbd(depth, colour, intrinsics, depth_unit=0.001, utime=None, url=None, channel="RGBD_FRAME", sensor=""):
+    """Sends one measurement, so that any camera with a Python SDK is a source of `barehand track --source lcm`.
+
+    depth: (height, width), 0 = no measurement, along the optical axis: integer counts of `depth_unit` metres, or floating
+    point metres, of which NaN, infinity and what is below half a count or above 65,535 counts become 0.
+    colour: None; or (height, width, 3) of uint8, RGB, registered to depth: the same pixel is the same ray; or the bytes of
+    a JPEG or PNG file of that size.
+    intrinsics: (fx, fy, cx, cy) of that image in pixels, pixel centres at integers, without lens distortion.
+    utime: when the depth image was taken, microseconds since the epoch; now, if None.
+    url, channel, sensor: the LCM network (as in hands()), the channel and the name of the sensor.
+
+    A message has at most 4 MiB: send larger colour as JPEG. Raises Error for what the tracker would not take.
+    """
+    _publisher(url, channel, sensor).publish(depth, colour, intrinsics, depth_unit, utime)
+
+
+@functools.lru_cache(maxsize=None)
+def _publisher(url, channel, sensor):
+    return RgbdPublisher(url, channel, sensor)
+
+
+class RgbdPublisher:
+    """What publish_rgbd() keeps between two frames: the network, and the number of the frame."""
+
+    def __init__(self, url=None, channel="RGBD_FRAME", sensor=""):
+        self._network, self._channel, self._sensor, self._seq = Network(url), channel, sensor, 0
+
+    def publish(self, depth, colour, intrinsics, depth_unit=0.001, utime=None):
+        """As publish_rgbd()."""
+        message = rgbd_frame_t()
+        message.utime = time.time_ns() // 1000 if utime is None else int(utime)
+        message.seq, message.sensor = self._seq, self._sensor
+        counts = _counts(np.asarray(depth), depth_unit)
+        message.height, message.width = counts.shape
+        message.fx, message.fy, message.cx, message.cy = _intrinsics(intrinsics)
+        message.depth_unit, message.depth_encoding = float(depth_unit), rgbd_frame_t.DEPTH_ZLIB
+        message.depth = zlib.compress(counts.tobytes(), 1)
+        message.depth_size = len(message.depth)
+        message.colour_encoding, message.colour = _colour(colour, counts.shape)
+        message.colour_size = len(message.colour)
+        self._network.send(self._channel, message.encode())
+        self._seq += 1
+
+
+def _counts(depth, depth_unit):
+    """Depth as little endian counts of 16 bits."""
+    if not 1e-7 <= depth_unit <= 1:
+        raise Error(f"a depth unit of {depth_unit} m is none", _WHERE, "give metres a count: 0.001 for millimetres")
+    if depth.ndim != 2 or depth.size == 0:
+        raise Error(f"depth has the shape {depth.shape}", _WHERE, "give (height, width)")
+    if np.issubdtype(depth.dtype, np.floating):
+        counts = np.round(depth / depth_unit)
+        return np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # NaN compares as false
+    if not np.issubdtype(depth.dtype, np.integer):
+        raise Error(f"depth is of the type {depth.dtype}", _WHERE, "give integer counts or floating point metres")
+    if depth.dtype != np.uint16 and (depth.min() < 0 or depth.max() > 65535):
+        raise Error(f"depth has counts from {depth.min()} to {depth.max()}, 0 to 65535 can be sent", _WHERE,
+                    "give a larger depth_unit, and 0 where nothing was measured")
+    return np.ascontiguousarray(depth, "<u2")
+
+
+def _intrinsics(intrinsics):
+    fx, fy, cx, cy = (float(value) for value in intrinsics)
+    if not all(1 <= f <= 1e5 for f in (fx, fy)) or not all(abs(c) <= 1e5 for c in (cx, cy)):
+        raise Error(f"no camera has fx, fy, cx, cy = {fx}, {fy}, {cx}, {cy}", _WHERE, "give pixels, in this order")
+    return fx, fy, cx, cy
+
+
+def _colour(colour, shape):
+    """(encoding, bytes)."""
+    if colour is None:
+        return rgbd_frame_t.COLOUR_NONE, b""
+    if isinstance(colour, (bytes, bytearray, memoryview)):
+        for start, encoding in ((b"\xFF\xD8", rgbd_frame_t.COLOUR_JPEG), (b"\x89PNG", rgbd_frame_t.COLOUR_PNG)):
+            if bytes(colour[:len(start)]) == start:
+                return encoding, bytes(colour)
+        raise Error("colour is bytes that are no JPEG and no PNG", _WHERE, "give an array (height, width, 3) of uint8, RGB")
+    colour = np.asarray(colour)
+    if colour.dtype != np.uint8 or colour.shape != (*shape, 3):
+        raise Error(f"colour is {colour.dtype} {colour.shape}, depth is {shape}", _WHERE,
+                    "give (height, width, 3) of uint8, RGB, registered to depth, or None")
+    return rgbd_frame_t.COLOUR_RAW_RGB, np.ascontiguousarray(colour).tobytes()

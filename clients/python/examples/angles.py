@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+"""Prints the angles of the index finger, frame by frame, from a running `barehand track` or from a log.
+  angles.py [LINES] [LOG]      LCM_DEFAULT_URL names the network"""
+import itertools
+import math
+import sys
+
+import barehand
+
+
+def text(hand):
+    angles = hand.joint_angles()
+    known = [angles[f"index_{joint}_flex"] for joint in ("mcp", "pip", "dip")] if hand.has_pose and angles else []
+    return " ".join([f"frame {hand.frame_number} {hand.handedness} {hand.status}",
+                     *(f"{math.degrees(angle):.1f}" for angle in known)])
+
+
+def main(lines=None, log=None):
+    try:
+        states = (hand for hands in barehand.hands(log) for hand in (*hands, *hands.without_pose))
+        for hand in itertools.islice(states, int(lines) if lines else None):
+            print(text(hand), flush=True)
+    except barehand.Error as error:
+        sys.exit(str(error))
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Logs that are whole, cut short, damaged, or no logs."""
+import unittest
+import warnings
+
+import barehand
+from barehand import log
+from barehand.counts import Counts
+from support import Folder, messages_of
+
+FRAMES = 5
+
+
+class Logs(Folder):
+    def setUp(self):
+        super().setUp()
+        self.path = self.folder / "take.lcmlog"
+        self.ends = []
+        with open(self.path, "wb") as file:
+            for frame in range(FRAMES):
+                for channel, data in messages_of(frame):
+                    log.write_event(file, len(self.ends), frame, channel, data)
+                    self.ends.append(file.tell())
+
+    def read(self):
+        """The frames and the counts; warnings are expected where something is damaged."""
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            stream = barehand.hands(str(self.path))
+            frames = [hands.frame_number for hands in stream]
+        self.assertEqual(bool(stream.counts.trouble()), bool(said))
+        return frames, stream.counts
+
+    def test_every_event_of_a_whole_log_is_read(self):
+        self.assertEqual(self.read(), ([0, 1, 2, 3, 4], Counts(messages=3 * FRAMES)))
+        stamps = [stamp for stamp, _, _ in log.events(self.path, Counts())]
+        self.assertEqual(stamps, [frame for frame in range(FRAMES) for _ in range(3)])
+
+    def test_a_log_cut_short_anywhere_gives_what_is_whole(self):
+        whole = self.path.read_bytes()
+        for size in range(1, len(whole), 997):
+            self.path.write_bytes(whole[:size])
+            counts, events = Counts(), 0
+            try:
+                for _ in log.events(self.path, counts):
+                    events += 1
+            except barehand.Error:
+                self.assertEqual(events, 0)
+            self.assertEqual(events, sum(end <= size for end in self.ends), size)
+            self.assertEqual(counts.damaged, size not in self.ends, size)
+
+    def test_a_hand_whose_last_message_is_cut_off_has_nan_there(self):
+        self.path.write_bytes(self.path.read_bytes()[:-1])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            stream = barehand.hands(self.path)
+            *_, last = stream
+        self.assertEqual((last.frame_number, stream.counts.damaged, stream.counts.incomplete), (4, 1, 1))
+        joints = last.right.openxr26()
+        self.assertTrue((joints.position != joints.position).all() and (joints.flags == 0).all())
+        self.assertTrue((last.right.mano21() != last.right.mano21()).all())
+        self.assertEqual(last.right.glove22()[0], 0.5)
+
+    def test_damage_in_the_middle_costs_that_event_alone(self):
+        whole = bytearray(self.path.read_bytes())
+        whole[self.ends[5] + 24:self.ends[5] + 28] = b"\x7f\xff\xff\xff"  # the length of frame 2's state
+        self.path.write_bytes(whole)
+        frames, counts = self.read()
+        self.assertEqual((frames, counts.damaged, counts.incomplete), ([0, 1, 2, 3, 4], 1, 1))
+
+    def test_an_event_that_was_torn_does_not_swallow_what_was_written_later(self):
+        whole = self.path.read_bytes()
+        self.path.write_bytes(whole[:self.ends[2] + 100] + whole[self.ends[2]:])
+        frames, counts = self.read()
+        self.assertEqual((frames, counts.damaged, counts.incomplete), ([0, 1, 2, 3, 4], 1, 0))
+
+    def test_foreign_and_damaged_messages_are_counted(self):
+        with open(self.path, "ab") as file:
+            for channel, data in [(b"HAND_STATE", messages_of(9)[1][1]), (b"HAND_JOINTS", messages_of(9)[2][1][:-8]),
+                                  (b"GLOVE_STATE", messages_of(9)[1][1] + b"\0"), (b"HEALTH", b"anything")]:
+                log.write_event(file, 0, 9, channel, data)
+        frames, counts = self.read()
+        self.assertEqual((frames, counts.foreign, counts.damaged), ([0, 1, 2, 3, 4], 1, 2))
+
+    def test_what_is_no_log_of_hands_is_said(self):
+        other = self.folder / "other.lcmlog"
+        with open(other, "wb") as file:
+            log.write_event(file, 0, 0, b"RGBD_FRAME", b"data")
+        (self.folder / "empty.lcmlog").touch()
+        (self.folder / "text.lcmlog").write_text("no log\n" * 100)
+        for name, words in [("none.lcmlog", "cannot read the log: No such file"), ("empty.lcmlog", "the log is empty"),
+                            ("text.lcmlog", "holds no LCM event"), ("", "cannot read the log: Is a directory"),
+                            ("other.lcmlog", "no hand states on HAND_STATE.*--states-log")]:
+            with self.assertRaisesRegex(barehand.Error, words), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                list(barehand.hands(str(self.folder / name)))
+
+
+unittest.main()
