@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""Renders the pages of results from tools/measure/pages, the claims and their results.
+  tools/measure/pages.py             writes docs/NAME.md for every tools/measure/pages/NAME.md.in
+  tools/measure/pages.py --check     says which pages are not what would be written, and ends with 1 if there are any"""
+import os
+import re
+import sys
+import textwrap
+
+from claims import ClaimError, Tree, read, write
+from figures import KNOWN
+
+PLACEHOLDER = re.compile(r"\{\{(\w+)(?: ([^}]*))?\}\}")
+CELL = re.compile(r"\{([^{}:]+)(?::([^{}]+))?\}")  # {FIELD}, {RUN.FIGURE:FORM}
+MEASURE = "tools/measure/measure.py build/release/src/app/barehand RECORDINGS OUT"
+NONE = "–"  # not measured
+WIDTH = 120
+MONTHS = ("January February March April May June July August September October November December").split()
+
+
+def shown(value, form):
+    """A figure as text: `.2f` and the like; `lost` says how many frames were lost, if any. A range has two ends."""
+    if form == "lost":
+        return f", {value} lost" if value else ""
+    if isinstance(value, dict):
+        low, high = (shown(value[end], form) for end in ("low", "high"))
+        return low if low == high else f"{low}{NONE}{high}"
+    if isinstance(value, list):
+        return ", ".join(shown(one, form) for one in value)
+    if isinstance(value, (int, float)):
+        return format(value, form or "") if form else f"{value:,}"
+    return "none" if value is None else value
+
+
+def days(dates):
+    """A day, or the first and the last one of several, which a slash parts."""
+    words = []
+    for date in dates.split("/"):
+        year, month, day = date.split("-")
+        words.append(f"{int(day)} {MONTHS[int(month) - 1]} {year}")
+    return " to ".join(words)
+
+
+def listed(words):
+    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " and " + words[-1]
+
+
+class Section:
+    """A claim and its results, as a part of a page."""
+
+    def __init__(self, tree, name):
+        self.name = name
+        self.claim = tree.claim(name)
+        self.results = tree.measured(name)
+        self.rows = self.claim["rows"]
+        self.runs = self.claim.get("runs")  # None: measured by hand
+        if list(self.rows) != list(self.results["rows"]):
+            raise ClaimError(f"{tree.results_path(name)}: its rows are not those of the claim: measure {name} again")
+
+    def figure(self, row, path):
+        """The value of RUN.FIGURE of a row, None if it was not measured. RUN.FIGURE.range is the range over its repetitions,
+        and RUN.FIGURE.span that range or the only value."""
+        run, name, *kind = path.split(".")
+        figures = self.results["rows"][row].get(run, {})
+        ends = figures.get("ranges", {}).get(name)
+        if not kind or kind == ["span"] and ends is None:
+            return figures.get(name)
+        if kind not in (["range"], ["span"]):
+            raise ClaimError(f"{self.name}: {path} is no figure: RUN.FIGURE, RUN.FIGURE.range and RUN.FIGURE.span are")
+        return ends and {"low": ends[0], "high": ends[1]}
+
+    def cell(self, row, template):
+        """The template with the words and figures of a row; a dash if a figure was not measured."""
+        values = []
+        for path, form in CELL.findall(template):
+            if "." in path:
+                value = self.figure(row, path)
+                values.append(None if value is None else shown(value, form))
+            elif path in self.rows[row] or path == "name":
+                values.append(self.rows[row].get(path, f"`{row}`"))
+            else:
+                raise ClaimError(f"{self.name}: the row {row} does not say its {path}")
+        if None in values:
+            return NONE
+        rest = iter(values)
+        return CELL.sub(lambda _: next(rest), template).replace("$RECORDINGS", "RECORDINGS").replace("$OUT", "OUT")
+
+    def check_names(self, template):
+        """A misspelt figure would be taken for one that was not measured."""
+        for path, _ in CELL.findall(template):
+            run, _, figure = path.partition(".")
+            if figure and self.runs is not None and (run not in self.runs or figure.split(".")[0] not in KNOWN):
+                raise ClaimError(f"{self.name}: there is no figure {path}: the runs are {', '.join(self.runs)}, and "
+                                 "tools/measure/figures.py lists the figures")
+
+    def heading(self, template):
+        """The title of a column; a figure in it is the range over all rows."""
+        def over_all_rows(found):
+            values = [self.figure(row, found[1]) for row in self.rows]
+            values = [value for value in values if value is not None]
+            return shown({"low": min(values), "high": max(values)}, found[2]) if values else NONE
+        return CELL.sub(over_all_rows, template)
+
+    def table(self):
+        """The table; columns that were not measured are left out."""
+        titles, columns = [], []
+        for title, template in self.claim["columns"]:
+            self.check_names(template)
+            cells = [self.cell(row, template) for row in self.rows]
+            if any(cell != NONE for cell in cells):
+                titles.append(self.heading(title))
+                columns.append(cells)
+        lines = ["| " + " | ".join(cells) + " |" for cells in [titles, *zip(*columns)]]
+        return "\n".join([lines[0], "|" + "---|" * len(titles), *lines[1:]])
+
+    def commands(self):
+        lines = self.claim.get("commands", [f"{MEASURE} {self.name}"])
+        return "\n".join(f"    {line}" for line in lines)
+
+    def text(self):
+        """Heading, claim, table, command, figure, what the paper says and remarks."""
+        parts = [f"## {self.claim['title']}", self.claim.get("claim"), self.table(), self.commands()]
+        parts += [self.claim.get("paper"), self.claim.get("remarks")]
+        if "figure" in self.claim:
+            figure = self.claim["figure"]
+            parts += [f"![{figure['title']}](images/{figure['image']})",
+                      f"*Figure {{{{number}}}}. {figure['caption'].strip()}*"]
+        return "\n\n".join(part.strip("\n") for part in parts if part)
+
+
+class Page:
+    """A page and the claims that it shows."""
+
+    def __init__(self, tree, name):
+        self.tree, self.name = tree, name
+        self.sections = {}
+        self.figures = 0
+
+    def section(self, name):
+        if name not in self.sections:
+            self.sections[name] = Section(self.tree, name)
+        return self.sections[name]
+
+    def text(self):
+        template = read(os.path.join(self.tree.templates, self.name + ".md.in"))
+        with_claims = PLACEHOLDER.sub(self.insert_claim, template)
+        shown_claims = list(self.sections)
+        paragraphs = re.split(r"(\n\n|\n(?=- ))", with_claims)
+        text = "".join(self.filled(paragraph, shown_claims) for paragraph in paragraphs)
+        title, rest = text.split("\n", 1)
+        mark = f"<!-- Made by tools/measure/pages.py from tools/measure/pages/{self.name}.md.in: do not edit. -->"
+        return f"{title}\n\n{mark}\n{rest}"
+
+    def filled(self, paragraph, shown_claims):
+        """The paragraph with values for its placeholders, in lines of the usual length."""
+        text = PLACEHOLDER.sub(lambda found: self.insert_value(found, shown_claims), paragraph)
+        if "{{value" not in paragraph:
+            return text
+        return textwrap.fill(" ".join(text.split()), WIDTH, subsequent_indent="  " if text.startswith("- ") else "",
+                             break_long_words=False, break_on_hyphens=False)
+
+    def insert_claim(self, found):
+        kind, argument = found.groups()
+        if kind != "claim":
+            return found[0]
+        if argument in self.sections:
+            raise ClaimError(f"{self.name}.md.in: shows the claim {argument} twice")
+        return self.section(argument).text()
+
+    def insert_value(self, found, shown_claims):
+        kind, argument = found.groups()
+        if kind == "number":
+            self.figures += 1
+            return str(self.figures)
+        if kind == "measured":
+            return self.measured([self.section(name) for name in shown_claims])
+        if kind == "value":
+            return self.value(argument)
+        raise ClaimError(f"{self.name}.md.in: {found[0]} means nothing: there are claim, value and measured")
+
+    def value(self, argument):
+        """CLAIM.ROW.RUN.FIGURE:FORM"""
+        path, _, form = argument.partition(":")
+        claim, row, rest = path.split(".", 2)
+        section = self.section(claim)
+        value = section.figure(row, rest) if row in section.rows else None
+        if value is None:
+            raise ClaimError(f"{self.name}.md.in: {path} was not measured")
+        return shown(value, form)
+
+    @staticmethod
+    def measured(sections):
+        """With which version, when and where the tables of a page were measured; tables of one measurement stand together."""
+        groups, exceptions = {}, []
+        for section in sections:
+            measured, title = section.results["measured"], f"*{section.claim['title']}*"
+            groups.setdefault((measured["version"], measured["date"], measured["machine"]), []).append(title)
+            if "except" in measured:
+                exceptions.append(f"{title}: {measured['except']}.")
+        sentences = [f"{listed(titles) if len(groups) > 1 else 'All tables'}: version {version}, {days(date)}, {machine}."
+                     for (version, date, machine), titles in groups.items()] + exceptions
+        mark, indent = ("- ", "  ") if len(sentences) > 1 else ("", "")
+        return "\n".join(textwrap.fill(mark + sentence, WIDTH, subsequent_indent=indent) for sentence in sentences)
+
+
+def page_names(tree):
+    return sorted(name.removesuffix(".md.in") for name in os.listdir(tree.templates) if name.endswith(".md.in"))
+
+
+def rendered(tree):
+    """The text of every page by its name. Every claim stands on one page, or nobody would read it."""
+    texts, shown_on = {}, {}
+    for name in page_names(tree):
+        page = Page(tree, name)
+        texts[name] = page.text()
+        for claim in re.findall(r"\{\{claim (\w+)\}\}", read(os.path.join(tree.templates, name + ".md.in"))):
+            shown_on.setdefault(claim, []).append(name)
+    for claim in tree.claim_names():
+        pages = shown_on.get(claim, [])
+        if len(pages) != 1:
+            raise ClaimError(f"the claim {claim} stands on {len(pages)} pages: put {{{{claim {claim}}}}} into one of "
+                             "tools/measure/pages")
+    return texts
+
+
+def differences(tree):
+    """Which pages are not what their template and the results give."""
+    for name, text in rendered(tree).items():
+        path = os.path.join(tree.pages, name + ".md")
+        if not os.path.exists(path) or read(path) != text:
+            yield f"docs/{name}.md is not what tools/measure/pages.py makes: edit its template or claims, and run it"
+
+
+def main(arguments):
+    tree = Tree(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    try:
+        if arguments == ["--check"]:
+            found = list(differences(tree))
+            print("\n".join(found) or "all pages are what would be written")
+            sys.exit(1 if found else 0)
+        if arguments:
+            sys.exit(__doc__)
+        for name, text in rendered(tree).items():
+            write(os.path.join(tree.pages, name + ".md"), text)
+    except ClaimError as error:
+        sys.exit(f"pages.py: {error}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
