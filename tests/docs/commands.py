@@ -97,7 +97,7 @@ def mistakes_of(text, root, program, presets):
 def measuring_commands(root, path):
     """What tools/measure/measure.py would run, as a block of code."""
     script = os.path.join(root, "tools/measure/measure.py")
-    lines = subprocess.run([sys.executable, "-B", script, path, "RECORDINGS", "OUT", "--print"], check=True,
+    lines = subprocess.run([sys.executable, "-B", script, "RECORDINGS", "OUT", "--print", "--program", path], check=True,
                            capture_output=True, text=True).stdout.splitlines()
     assert len(lines) > 100, f"the check itself is broken: measure.py runs {lines}"
     return "\n".join(f"    {line}" for line in lines)

@@ -36,7 +36,7 @@ PAGE = """# Page
 | `a` | 1.3 | 1.2–1.4 | 2.0 | 0–4 |
 | another | 7.0 | – | – | 5 |
 
-    tools/measure/measure.py build/release/src/app/barehand RECORDINGS OUT errors
+    tools/measure/measure.py RECORDINGS OUT errors
 
 The error is 1.26 mm.
 

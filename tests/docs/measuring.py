@@ -48,8 +48,8 @@ class MeasuringTest(unittest.TestCase):
 
     def measure(self, *arguments):
         script = os.path.join(self.root, "tools/measure/measure.py")
-        return subprocess.run([sys.executable, "-B", script, BAREHAND, self.root, os.path.join(self.root, "out"), *arguments],
-                              capture_output=True, text=True, check=False)
+        return subprocess.run([sys.executable, "-B", script, self.root, os.path.join(self.root, "out"), "--program", BAREHAND,
+                               *arguments], capture_output=True, text=True, check=False)
 
     def results(self):
         with open(os.path.join(self.root, "docs/measured/short.json"), encoding="utf-8") as file:

@@ -4,6 +4,8 @@ import json
 import os
 import tomllib
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))  # of the source tree
+
 
 class ClaimError(Exception):
     """What is wrong with a claim or a page, where, and what to do."""

@@ -1,20 +1,19 @@
 #!/usr/bin/env python3
 """Measures claims of the documentation, and writes what was found to docs/measured. Then tools/measure/pages.py makes the pages.
-  tools/measure/measure.py BAREHAND RECORDINGS OUT CLAIM...             measures tools/measure/claims/CLAIM.toml
-  tools/measure/measure.py BAREHAND RECORDINGS OUT --print [CLAIM...]   only prints the commands (of all claims)
-BAREHAND is the program, RECORDINGS the folder of recordings, OUT a folder for all that is made on the way; what can be used
-again, such as rendered sequences, is made once."""
+  tools/measure/measure.py RECORDINGS OUT CLAIM...             measures tools/measure/claims/CLAIM.toml
+  tools/measure/measure.py RECORDINGS OUT --print [CLAIM...]   only prints the commands"""
+import argparse
 import datetime
 import json
 import os
 import re
-import shlex
 import shutil
+import signal
 import subprocess
 import sys
 
 import figures
-from claims import ClaimError, Tree, read, read_toml
+from claims import ROOT, ClaimError, Tree, read, read_toml
 
 MADE = re.compile(r"\$OUT/([\w.]+)")
 JOINED = ("track", "eval")  # options of the claim, of a row and of a run come one after the other
@@ -184,18 +183,29 @@ def merged(claim, row, run):
     return json.loads(text)
 
 
-def main(arguments):
-    printing = "--print" in arguments
-    arguments = [argument for argument in arguments if argument != "--print"]
-    if len(arguments) < 3 or (len(arguments) == 3 and not printing):
-        sys.exit(__doc__)
-    program, recordings, out, *names = arguments
-    tree = Tree(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+def arguments_of(words):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("recordings", metavar="RECORDINGS", help="folder of recordings")
+    parser.add_argument("out", metavar="OUT", help="folder for what is made on the way; what can be used again is made once")
+    parser.add_argument("claims", metavar="CLAIM", nargs="*", help="of tools/measure/claims")
+    parser.add_argument("--program", default=os.path.join(ROOT, "build/release/src/app/barehand"), help="path of barehand")
+    parser.add_argument("--print", action="store_true", help="only print the commands, of all claims if none is given")
+    arguments = parser.parse_intermixed_args(words)
+    if not arguments.claims and not arguments.print:
+        parser.error("give the claims to be measured")
+    return arguments
+
+
+def main(words):
+    arguments = arguments_of(words)
+    tree = Tree(ROOT)
+    if arguments.print:
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # the output may be read in part, by head
     try:
-        if os.path.basename(program) != "barehand" or not os.access(program, os.X_OK):
-            raise ClaimError(f"{shlex.quote(program)} is not the program: build it, and give the path of barehand")
-        runner = Runner(tree, program, recordings, out, printing)
-        for name in names or [name for name in tree.claim_names() if "runs" in tree.claim(name)]:
+        if os.path.basename(arguments.program) != "barehand" or not os.access(arguments.program, os.X_OK):
+            raise ClaimError(f"{arguments.program} is not the program: build it, or give the path of barehand with --program")
+        runner = Runner(tree, arguments.program, arguments.recordings, arguments.out, arguments.print)
+        for name in arguments.claims or [name for name in tree.claim_names() if "runs" in tree.claim(name)]:
             runner.measure(name)
     except ClaimError as error:
         sys.exit(f"measure.py: {error}")

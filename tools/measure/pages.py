@@ -7,12 +7,12 @@ import re
 import sys
 import textwrap
 
-from claims import ClaimError, Tree, read, write
+from claims import ROOT, ClaimError, Tree, read, write
 from figures import KNOWN
 
 PLACEHOLDER = re.compile(r"\{\{(\w+)(?: ([^}]*))?\}\}")
 CELL = re.compile(r"\{([^{}:]+)(?::([^{}]+))?\}")  # {FIELD}, {RUN.FIGURE:FORM}
-MEASURE = "tools/measure/measure.py build/release/src/app/barehand RECORDINGS OUT"
+MEASURE = "tools/measure/measure.py RECORDINGS OUT"
 NONE = "–"  # not measured
 WIDTH = 120
 MONTHS = ("January February March April May June July August September October November December").split()
@@ -232,7 +232,7 @@ def differences(tree):
 
 
 def main(arguments):
-    tree = Tree(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    tree = Tree(ROOT)
     try:
         if arguments == ["--check"]:
             found = list(differences(tree))
