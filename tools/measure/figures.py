@@ -25,7 +25,7 @@ def of_run(run):
     """Errors in mm of one table compared with the truth."""
     tracked = run["frames"] - run["untracked"]
     figures = {"frames": run["frames"], "tracked": tracked, "untracked": run["untracked"], "lost": run["lost"],
-               "off": run["lost"] - run["untracked"], "without_hand": run["phantom_frames"],
+               "off": run["lost"] - run["untracked"], "without_hand": len(run["phantom_frames"]),
                **named(run["frame_error_mm"])}
     for kind in ("seen", "hidden"):
         if "mean" in run[f"{kind}_segment_error_mm"]:
