@@ -28,6 +28,21 @@ eval = "--step 2"
 recording = "$OUT/short_fist"
 only = ["tracked"]
 """
+OTHER_RUNS = """
+title = "Runs of other kinds"
+columns = [["a", "{name}"]]
+[all]
+track = "--init $OUT/short_fist/start_pose.json"
+[runs.measured]
+[rows.states]
+states = true
+recording = ["$OUT/short_fist", "$OUT/short_fist"]
+hands = ["$OUT/short_fist/hand.json", "right"]
+[rows.bench]
+command = "barehand bench --source folder:$OUT/short_fist --store {frames} --warm-up 0 --frames 6 --overwrite --json $JSON"
+frames = "3"
+repeat = 2
+"""
 BY_HAND = 'title = "By hand"\ncolumns = [["a", "{name}"]]\n[rows.a]\n'
 
 
@@ -51,8 +66,8 @@ class MeasuringTest(unittest.TestCase):
         return subprocess.run([sys.executable, "-B", script, self.root, os.path.join(self.root, "out"), "--program", BAREHAND,
                                *arguments], capture_output=True, text=True, check=False)
 
-    def results(self):
-        with open(os.path.join(self.root, "docs/measured/short.json"), encoding="utf-8") as file:
+    def results(self, name="short"):
+        with open(os.path.join(self.root, f"docs/measured/{name}.json"), encoding="utf-8") as file:
             return json.load(file)
 
     def test_writes_figures_of_each_run_and_their_range_over_the_seeds(self):
@@ -80,6 +95,23 @@ class MeasuringTest(unittest.TestCase):
         self.assertIn("barehand sim fist", done.stdout)
         self.assertNotIn("barehand sim", again.stdout)
         self.assertEqual(self.results(), results)
+
+    def test_compares_stated_with_actual_errors_and_reads_what_commands_write(self):
+        self.write("tools/measure/claims/other.toml", OTHER_RUNS)
+        done = self.measure("other")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.results("other")["rows"]
+
+        # One comparison of two recordings, each tracked with a hand of its own.
+        self.assertGreater(rows["states"]["measured"]["all_stated"], 0)
+        self.assertIn("--hand $OUT/short_fist/hand.json", done.stdout)
+        self.assertIn("--hand right", done.stdout)
+
+        # A command that is repeated, with a text of its row in it.
+        bench = rows["bench"]["measured"]
+        self.assertEqual(bench["runs"], 2)
+        self.assertGreater(bench["fps"], 0)
+        self.assertIn("--store 3", done.stdout)
 
     def test_printing_runs_nothing(self):
         done = self.measure("--print")
