@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 
 SOURCE_TREE, BAREHAND = sys.argv.pop(1), os.path.abspath(sys.argv.pop(1))
@@ -120,6 +121,17 @@ class MeasuringTest(unittest.TestCase):
         self.assertEqual(lines[0], "barehand sim fist --frames 3 --out $OUT/short_fist")
         self.assertIn("--init $OUT/short_fist/start_pose.json --seed 4 ", lines[1])
         self.assertEqual(os.listdir(self.root), ["tools"])
+
+    def test_the_example_of_how_to_add_a_claim_is_one(self):
+        with open(os.path.join(SOURCE_TREE, "CONTRIBUTING.md"), encoding="utf-8") as file:
+            section = file.read().split("### Add a claim")[1]
+        block = section[section.index("    title"):].split("\n\n")[0]
+        self.write("tools/measure/claims/example.toml", textwrap.dedent(block))
+        shutil.copy(os.path.join(SOURCE_TREE, "tools/measure/prepared.toml"), os.path.join(self.root, "tools/measure"))
+        done = self.measure("--print", "example")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("barehand track --source folder:$OUT/grasp_"), 6)
+        self.assertIn("barehand sim grasp_ball", done.stdout)
 
     def test_a_command_that_fails_is_named_with_its_log_and_nothing_is_written(self):
         self.write("tools/measure/claims/short.toml", CLAIM.replace("--init", "--unknown"))
