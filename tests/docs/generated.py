@@ -10,7 +10,7 @@ from links import read
 
 sys.path.insert(0, os.path.join(sys.argv[1], "tools/measure"))
 from claims import ClaimError, Tree, write  # noqa: E402
-from pages import differences  # noqa: E402
+from pages import rendered  # noqa: E402
 
 CLAIM = """
 title = "Errors"
@@ -56,9 +56,17 @@ def small_tree(root):
     return tree
 
 
+def differences(tree):
+    """Which pages are not what their template and the results give."""
+    for name, text in rendered(tree).items():
+        path = os.path.join(tree.pages, name + ".md")
+        if not os.path.exists(path) or read(path) != text:
+            yield f"docs/{name}.md is not what tools/measure/pages.py makes: edit its template or claims, and run it"
+
+
 def found_in(tree):
     try:
-        return "; ".join(differences(tree))
+        return "\n".join(differences(tree))
     except ClaimError as error:
         return str(error)
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""Renders the pages of results from tools/measure/pages, the claims and their results.
-  tools/measure/pages.py             writes docs/NAME.md for every tools/measure/pages/NAME.md.in
-  tools/measure/pages.py --check     says which pages are not what would be written, and ends with 1 if there are any"""
+"""Renders the pages of results: writes docs/NAME.md for every tools/measure/pages/NAME.md.in, with the claims and their results.
+  tools/measure/pages.py"""
 import os
 import re
 import sys
@@ -123,23 +122,9 @@ def rendered(tree):
     return texts
 
 
-def differences(tree):
-    """Which pages are not what their template and the results give."""
-    for name, text in rendered(tree).items():
-        path = os.path.join(tree.pages, name + ".md")
-        if not os.path.exists(path) or read(path) != text:
-            yield f"docs/{name}.md is not what tools/measure/pages.py makes: edit its template or claims, and run it"
-
-
-def main(arguments):
+def main():
     tree = Tree(ROOT)
     try:
-        if arguments == ["--check"]:
-            found = list(differences(tree))
-            print("\n".join(found) or "all pages are what would be written")
-            sys.exit(1 if found else 0)
-        if arguments:
-            sys.exit(__doc__)
         for name, text in rendered(tree).items():
             write(os.path.join(tree.pages, name + ".md"), text)
     except ClaimError as error:
@@ -147,4 +132,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
