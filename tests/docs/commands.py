@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the commands that the pages of a source tree show: every `barehand SUBCOMMAND --option` is known to --help, every
-simulated sequence to `barehand sim --list`, every preset to CMakePresets.json, and every script is in the tree. First
-shows, on a page with planted mistakes, that it notices them.
+"""Checks the commands that the pages of a source tree show, and those that measure their figures: every `barehand
+SUBCOMMAND --option` is known to --help, every simulated sequence to `barehand sim --list`, every preset to
+CMakePresets.json, and every script is in the tree. First shows, on a page with planted mistakes, that it notices them.
   commands.py SOURCE_TREE BAREHAND"""
 import json
 import os
@@ -94,6 +94,15 @@ def mistakes_of(text, root, program, presets):
             for mistake in mistakes_in(code, root, program, presets)]
 
 
+def measuring_commands(root, path):
+    """What tools/measure/measure.py would run, as a block of code."""
+    script = os.path.join(root, "tools/measure/measure.py")
+    lines = subprocess.run([sys.executable, "-B", script, "RECORDINGS", "OUT", "--print", "--program", path], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    assert len(lines) > 100, f"the check itself is broken: measure.py runs {lines}"
+    return "\n".join(f"    {line}" for line in lines)
+
+
 def prove_that_it_can_fail(root, program, presets):
     page = """`barehand track --no-publish --none`, `track --nothing`, `barehand fly`
     build/release/src/app/barehand eval --truth a --result b --wings | grep --colour x
@@ -113,6 +122,8 @@ def main(root, path):
     prove_that_it_can_fail(root, program, presets)
     problems = [f"{page}: {mistake}" for page in pages_of(root)
                 for mistake in mistakes_of(read(os.path.join(root, page)), root, program, presets)]
+    problems += [f"tools/measure: {mistake}"
+                 for mistake in mistakes_of(measuring_commands(root, path), root, program, presets)]
     print("\n".join(problems) or "all commands are known")
     sys.exit(1 if problems else 0)
 

@@ -1,0 +1,105 @@
+"""Reads the figures of a run from what the program writes: `eval --json`, also in the folder of `experiment`, `eval
+--fingertips`, `eval --states` and `bench --json`. KNOWN lists their names."""
+import csv
+
+KNOWN = {
+    # of a result table: numbers of frames, errors in mm (or in pixels with fingertips), delays of returns in frames
+    "frames", "tracked", "untracked", "lost", "off", "without_hand", "mean", "median", "p90", "max", "seen", "hidden",
+    "percent", "delays", "labels", "missing",
+    # of stated uncertainty: coverage in per cent, stated and actual error in mm, by what is stated (tenths of 100 %) in per cent
+    *(f"{kind}_{what}" for kind in ("all", "seen", "inferred") for what in ("covered", "stated", "actual")),
+    *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
+    # of bench: frames per second, times in ms, memory in MB; of a sweep its values and the CPU times
+    "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
+    # how many repetitions a range is over
+    "runs",
+}
+
+
+def named(distribution, prefix=""):
+    """The parts of a distribution that pages show."""
+    return {prefix + name: distribution[name] for name in ("mean", "median", "p90", "max") if name in distribution}
+
+
+def of_run(run):
+    """Errors in mm of one table compared with the truth."""
+    tracked = run["frames"] - run["untracked"]
+    figures = {"frames": run["frames"], "tracked": tracked, "untracked": run["untracked"], "lost": run["lost"],
+               "off": run["lost"] - run["untracked"], "without_hand": len(run["phantom_frames"]),
+               **named(run["frame_error_mm"])}
+    for kind in ("seen", "hidden"):
+        if "mean" in run[f"{kind}_segment_error_mm"]:
+            figures[kind] = run[f"{kind}_segment_error_mm"]["mean"]
+    if "mean_frame_error_over_hand_length" in run:
+        figures["percent"] = 100 * run["mean_frame_error_over_hand_length"]
+    if run["returns"]:
+        figures["delays"] = [one["frames_until_tracked"] for one in run["returns"]]
+    return figures
+
+
+def of_reliability(reliability):
+    """Coverage in per cent, errors in mm."""
+    figures = {}
+    for kind, coverage in reliability["intervals_90"].items():
+        if coverage["intervals"]:
+            figures.update({f"{kind}_covered": 100 * coverage["covered"], f"{kind}_stated": coverage["stated_mm"],
+                            f"{kind}_actual": coverage["actual_mm"]})
+    for bin_ in reliability["within_10_mm"]:
+        decile = min(int(10 * bin_["stated"]), 9)
+        figures.update({f"stated_{decile}": 100 * bin_["stated"], f"found_{decile}": 100 * bin_["actual"]})
+    return figures
+
+
+def of_case(case):
+    """Times in ms and memory in MB of one case of bench."""
+    latency = case["capture_to_publish_ms"]
+    return {"fps": case["frames_per_second"], "cpu": case["cpu_ms_per_frame"], "dropped": case["dropped"],
+            "peak": case["peak_mb"], "stored": case["stored_frames_mb"],
+            **{f"latency_{name}": latency[name] for name in ("p50", "p95", "p99") if name in latency}}
+
+
+def of_report(report, label=None):
+    """All figures that a report has: of the run, or the sweep, with the label, else of the first run."""
+    figures = {}
+    runs = [run for run in report.get("runs", []) if label in (None, run["label"])]
+    if runs:
+        figures.update(of_run(runs[0]))
+    if "fingertips" in report:
+        tips = report["fingertips"]
+        figures.update({"labels": tips["labels"], "missing": tips["missing"], **named(tips["distance_px"])})
+    if "reliability" in report:
+        figures.update(of_reliability(report["reliability"]))
+    cases = report.get("cases", [])
+    swept = [case for case in cases if case["sweep"] and case["sweep"] == label]
+    if swept:
+        figures.update({"values": [case["value"] for case in swept], "cpu": [case["cpu_ms_per_frame"] for case in swept]})
+    elif cases:
+        figures.update(of_case(cases[0]))
+    if not figures:
+        raise KeyError(f"nothing is called {label}" if label else "the report has no figures")
+    return figures
+
+
+def frames_with_rows(result):
+    """How many frames of a result table have a hand."""
+    with open(result, encoding="utf-8", newline="") as file:
+        return len({row["frame"] for row in csv.DictReader(file)})
+
+
+def rounded(value):
+    if isinstance(value, list):
+        return [rounded(one) for one in value]
+    return round(value, 4) if isinstance(value, float) else value
+
+
+def together(repetitions):
+    """One run's figures from those of its repetitions: of the first, and the range over all."""
+    figures = {name: rounded(value) for name, value in repetitions[0].items()}
+    if len(repetitions) > 1:
+        figures["runs"] = len(repetitions)
+        figures["ranges"] = {}
+        for name, value in repetitions[0].items():
+            values = [one[name] for one in repetitions if isinstance(one.get(name), (int, float))]
+            if isinstance(value, (int, float)) and len(values) == len(repetitions):
+                figures["ranges"][name] = [rounded(min(values)), rounded(max(values))]
+    return figures
