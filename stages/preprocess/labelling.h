@@ -5,7 +5,7 @@
 #include "observe/dense/pixel_rays.h"
 #include "observe/observation.h"
 #include "stages/preprocess/depth_cleaner.h"
-#include "stages/preprocess/hand_search.h"
+#include "stages/preprocess/hand_locator.h"
 #include "stages/preprocess/image/specks.h"
 #include "stages/preprocess/image/window_sum.h"
 

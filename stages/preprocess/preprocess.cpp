@@ -49,14 +49,14 @@ void thin_cloud(int many, HandObservation& out) {
 }  // namespace
 
 Preprocessor::Preprocessor(const PreprocessParams& params, int hands)
-    : params_(params), skin_(params.learning_rate, params.learned_share), search_(params, hands), masker_(params) {}
+    : params_(params), skin_(params.learning_rate, params.learned_share), locator_(params, hands), masker_(params) {}
 
 Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<const HandEstimatePtr> feedback,
                                                const DetectionPtr& detection) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
   sample_coarsely(*frame, params_, skin_, grid_);
   const double age = feedback.empty() ? 0 : std::abs(static_cast<double>(frame->utime - feedback[0]->utime)) * 1e-6;
-  const std::span<const CoarseHand> hands = search_.find(grid_, feedback, age, detection.get());
+  const std::span<const CoarseHand> hands = locator_.find(grid_, feedback, age, detection.get());
   HandObservations result;
   if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
   for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands, detection));

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
-#include "stages/preprocess/hand_search.h"
+#include "stages/preprocess/hand_locator.h"
 #include "stages/preprocess/image/distance_transform.h"
 #include "stages/preprocess/labelling.h"
 #include "stages/preprocess/normals.h"
@@ -41,7 +41,7 @@ class Preprocessor {
 
   PreprocessParams params_;
   SkinModel skin_;
-  HandSearch search_;
+  HandLocator locator_;
   HandMask masker_;
   DepthCleaner cleaner_;
   NearestPixelTransform transform_;

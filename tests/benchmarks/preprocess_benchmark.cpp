@@ -20,7 +20,7 @@ void masks(benchmark::State& state) {
   const HandEstimates before = feedback(w);
   const SkinModel skin(w.preprocess.learning_rate, w.preprocess.learned_share);
   CoarseGrid grid;
-  HandSearch search(w.preprocess, 1);
+  HandLocator locator(w.preprocess, 1);
   DepthCleaner cleaner;
   HandMask masker(w.preprocess);
   const HandObservation& o = *w.observation;
@@ -29,7 +29,7 @@ void masks(benchmark::State& state) {
   Image<std::uint8_t> edge, mask;
   for (auto _ : state) {
     sample_coarsely(*w.frame, w.preprocess, skin, grid);
-    const std::span<const CoarseHand> hands = search.find(grid, before, 0.03);
+    const std::span<const CoarseHand> hands = locator.find(grid, before, 0.03);
     cleaner.clean(*w.frame, w.preprocess, region, depth, edge);
     masker.compute(*w.frame, skin, grid, hands.front(), hands, region, depth, edge, mask);
     benchmark::DoNotOptimize(mask.data());

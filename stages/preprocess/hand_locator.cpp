@@ -1,4 +1,4 @@
-#include "stages/preprocess/hand_search.h"
+#include "stages/preprocess/hand_locator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +32,8 @@ constexpr double kCloseBy = 0.05;        // motion allowed for a hand that touch
 
 }  // namespace
 
-std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
-                                             double feedback_age, const Detection* detection) {
+std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
+                                              double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
   if (detection && !grid.coloured) leave_labelled(grid, *detection);  // colour is better evidence of a tracked hand
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
@@ -80,7 +80,7 @@ std::span<const CoarseHand> HandSearch::find(const CoarseGrid& grid, std::span<c
 }
 
 /// Removes the candidates that are in a window of the detection and not labelled as hand.
-void HandSearch::leave_labelled(const CoarseGrid& grid, const Detection& detection) {
+void HandLocator::leave_labelled(const CoarseGrid& grid, const Detection& detection) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = all_candidates_.at(u, v);
@@ -96,8 +96,8 @@ void HandSearch::leave_labelled(const CoarseGrid& grid, const Detection& detecti
     }
 }
 
-const DetectedHand* HandSearch::detected_near(const Detection& detection, const Eigen::Vector3f& centre,
-                                              double reach) const {
+const DetectedHand* HandLocator::detected_near(const Detection& detection, const Eigen::Vector3f& centre,
+                                               double reach) const {
   const DetectedHand* nearest = nullptr;
   for (const DetectedHand& hand : detection.hands) {
     const double distance = (hand.centre - centre.cast<double>()).norm();
@@ -110,7 +110,7 @@ const DetectedHand* HandSearch::detected_near(const Detection& detection, const 
 
 /// The most probable detected hand within the working range that is not assigned to a hand of this frame yet; null if
 /// there is none.
-const DetectedHand* HandSearch::choose_detected(const Detection& detection) const {
+const DetectedHand* HandLocator::choose_detected(const Detection& detection) const {
   const auto taken = [&](const DetectedHand& detected) {
     return std::ranges::any_of(hands_, [&](const CoarseHand& hand) {
       if (hand.detected) return hand.detected == &detected;
@@ -125,7 +125,7 @@ const DetectedHand* HandSearch::choose_detected(const Detection& detection) cons
 /// Sets the cells of a detected hand: candidates labelled as hand, within a hand's reach and in front of its wrist. In
 /// depth, a palm may look like a held object, so cells labelled as object count as hand if their colour is clearly
 /// skin.
-bool HandSearch::start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand) {
+bool HandLocator::start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand) {
   hand.detected = &detected;
   const Eigen::Vector3f wrist = detected.joints[kWristLandmark].position.cast<float>();
   const Eigen::Vector3f knuckle = detected.joints[kMiddleKnuckleLandmark].position.cast<float>();
@@ -147,7 +147,7 @@ bool HandSearch::start_at(const CoarseGrid& grid, const DetectedHand& detected, 
 }
 
 /// Removes the candidates that are nearer to the hand `other` than to the hand `own`.
-void HandSearch::leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
+void HandLocator::leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       if (!candidates_.at(u, v)) continue;
@@ -158,7 +158,7 @@ void HandSearch::leave_to(const CoarseGrid& grid, const PredictedHand& other, co
 }
 
 /// Removes a hand that was found, and its forearm, from the candidates for the other hands.
-void HandSearch::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
+void HandLocator::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = candidates_.at(u, v);
@@ -174,14 +174,14 @@ void HandSearch::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
     }
 }
 
-float HandSearch::hand_area(const CoarseGrid& grid, const CoarseHand& hand) const {
+float HandLocator::hand_area(const CoarseGrid& grid, const CoarseHand& hand) const {
   float area = 0;
   for (std::size_t i = 0; i < hand.cells.size(); ++i)
     if (hand.cells[i]) area += grid.cell_area(grid.z[i]);
   return area;
 }
 
-std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const PredictedHand& hand, double reach) {
+std::optional<Eigen::Vector3f> HandLocator::motion(const CoarseGrid& grid, const PredictedHand& hand, double reach) {
   // Search without large surfaces first: on a wall, table or occluder, the hand would fit anywhere.
   movable_.reset(grid.z.width(), grid.z.height());
   for (std::size_t i = 0; i < movable_.size(); ++i)
@@ -198,8 +198,8 @@ std::optional<Eigen::Vector3f> HandSearch::motion(const CoarseGrid& grid, const 
   return translation_.find(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
-bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
-                        CoarseHand& hand) {
+bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
+                         CoarseHand& hand) {
   const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(feedback_age, 0.0, 0.5));
   if (!step) return false;
   body.translate(*step);
@@ -235,7 +235,7 @@ bool HandSearch::follow(const CoarseGrid& grid, PredictedHand body, double feedb
   return true;
 }
 
-int HandSearch::choose_part(const CoarseGrid& grid) const {
+int HandLocator::choose_part(const CoarseGrid& grid) const {
   const double least = std::max(params_.min_hand_area, grid.coloured ? 0.0015 : 0.004);
   int best = -1;
   for (int i = 0; i < static_cast<int>(surfaces_.parts.size()); ++i) {
@@ -252,7 +252,7 @@ int HandSearch::choose_part(const CoarseGrid& grid) const {
   return best;
 }
 
-bool HandSearch::start(const CoarseGrid& grid, CoarseHand& hand) {
+bool HandLocator::start(const CoarseGrid& grid, CoarseHand& hand) {
   const int chosen = choose_part(grid);
   if (chosen < 0) return false;
   hand.wrist = find_wrist(grid, surfaces_, chosen);

@@ -12,8 +12,6 @@
 
 namespace barehand {
 
-// Search for hands in the coarse grid.
-
 /// One hand in the coarse grid.
 struct CoarseHand {
   bool found = false;
@@ -25,12 +23,13 @@ struct CoarseHand {
   const DetectedHand* detected = nullptr;  ///< the corresponding detected hand; null if there is none
 };
 
-/// Searches for one or several hands. A hand with feedback is expected near its pose there, within max_speed times the
-/// feedback's age; tracked hands come first. Hands that are not found there, or have no feedback, are searched for in
-/// the rest of the image. A cell belongs to at most one hand.
-class HandSearch {
+/// Finds which cells of the coarse grid belong to which hand (a segmentation; the search for poses is in
+/// stages/search). A hand with feedback is expected near its pose there, within max_speed times the feedback's age;
+/// tracked hands come first. Hands that are not found there, or have no feedback, are searched for in the rest of the
+/// image. A cell belongs to at most one hand.
+class HandLocator {
  public:
-  HandSearch(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
+  HandLocator(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
   /// `feedback`: one estimate per hand or none at all; each may be null. `feedback_age`: seconds since its frame.
   /// `detection`: result for this frame; null: surfaces and colours alone decide. Within its windows, its labels
   /// distinguish the hand from arm, object and background; if its `whole_frame` is set, nothing else starts a hand.
