@@ -25,19 +25,20 @@ class FrameWriter {
 };
 
 struct FrameWriterOptions {
-  FrameEncoding encoding = {};               ///< of a log; of a folder only colour, which is never raw there
+  FrameEncoding encoding = {};               ///< of a log; else only of colour, which is raw in no other form
   std::string channel = "RGBD_FRAME";        ///< of a log
-  double fps = 0;                            ///< nominal rate, noted in a folder; 0 = not noted
-  bool overwrite = false;                    ///< of a log; a folder with a recording is never overwritten
+  double fps = 0;                            ///< nominal rate, noted except in a log; 0 = not noted
+  bool overwrite = false;                    ///< of a file; a folder with a recording is never overwritten
   std::optional<LogRotation> rotation = {};  ///< of a log: a set of files instead of one
   const Clock* clock = nullptr;              ///< of the rotation; outlives the writer
 };
 
-/// Whether frames written to `path` make an LCM log (is_log_name).
+/// Whether frames written to `path` make an LCM log (is_log_name), or an MCAP file.
 bool is_log_path(const std::string& path);
+bool is_mcap_path(const std::string& path);
 
-/// A recording folder, or an LCM log if is_log_path. Errors: it exists, it cannot be made, or
-/// it ends in .oni, which is not written; a folder does not rotate.
+/// A recording folder, or an LCM log or an MCAP file as the name says. Errors: it exists, it cannot be made, or it ends
+/// in .oni, which is not written; only an LCM log rotates.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 
 }  // namespace barehand

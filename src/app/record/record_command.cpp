@@ -12,10 +12,10 @@ namespace barehand {
 void add_record_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
   request->source.live_capacity = 128;  // a few seconds: a recording is to miss nothing
-  CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log or a folder");
+  CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log, an MCAP file or a folder");
   record->add_option("--source", request->source.spec, "openni2[:SENSOR] | lcm | sim:NAME | folder:DIR | log:FILE")
       ->required();
-  record->add_option("--out", request->out, "FILE.lcmlog, or a folder to create")->required();
+  record->add_option("--out", request->out, "FILE.lcmlog, FILE.mcap, or a folder to create")->required();
   record->add_option("--seconds", request->seconds, "stop after this time")->check(CLI::PositiveNumber);
   record->add_option("--lcm-url", request->source.lcm_url, "LCM network of the source lcm");
   record->add_option("--max-size", request->max_size, "continue in a new log at this size, such as 2GB")
