@@ -16,7 +16,7 @@ struct TrackOptions {
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
-  std::string result, states_log, decisions, overlay, save_hand;  ///< "": not written
+  std::string result, states_log, mcap, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
   bool overwrite = false;   ///< outputs replace files that exist
   int overlay_every = 1;    ///< every so many frames are drawn
@@ -31,8 +31,8 @@ struct TrackOptions {
   std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
 
   /// The outputs that are one file each.
-  static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::decisions,
-                                        &TrackOptions::save_hand};
+  static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::mcap,
+                                        &TrackOptions::decisions, &TrackOptions::save_hand};
 };
 
 }  // namespace barehand
