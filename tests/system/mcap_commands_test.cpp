@@ -52,6 +52,12 @@ TEST_F(McapCommands, TrackingSaysTheSameOfFolderLogAndMcap) {
       "cmp $D/folder.csv $D/hands.csv; cmp $D/hands.mcap $D/again.mcap");
 }
 
+TEST_F(McapCommands, TheSimulatorWritesThemWithTheTruthBeside) {
+  expect_done(
+      "$B sim fist --frames 2 --set width=160 --set height=120 --out $D/s.mcap; [ -s $D/s.truth.csv ]; "
+      "$B convert $D/s.mcap $D/s");
+}
+
 TEST_F(McapCommands, WhatAKilledRecorderLeftIsPlayedInPlaceOfItsFile) {
   ChildProcess child(
       {BAREHAND_PROGRAM, "record", "--source", "sim:fist,live=true,loop=true", "--out", folder_ / "a.mcap"});

@@ -90,6 +90,7 @@ class FolderFrameWriter : public FrameWriter {
 
 bool is_log_path(const std::string& path) { return is_log_name(path); }
 bool is_mcap_path(const std::string& path) { return std::filesystem::path(path).extension() == ".mcap"; }
+bool is_file_path(const std::string& path) { return is_log_path(path) || is_mcap_path(path); }
 
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
   if (std::filesystem::path(path).extension() == ".oni")

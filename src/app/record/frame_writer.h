@@ -36,6 +36,8 @@ struct FrameWriterOptions {
 /// Whether frames written to `path` make an LCM log (is_log_name), or an MCAP file.
 bool is_log_path(const std::string& path);
 bool is_mcap_path(const std::string& path);
+/// One of these: a single file, not a folder.
+bool is_file_path(const std::string& path);
 
 /// A recording folder, or an LCM log or an MCAP file as the name says. Errors: it exists, it cannot be made, or it ends
 /// in .oni, which is not written; only an LCM log rotates.

@@ -15,7 +15,8 @@ void add_track_command(CLI::App& app, int& exit_code) {
   TrackOptions& o = *options;
   o.threads = available_cores();
   CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
-  track->add_option("--source", o.source, "folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
+  track->add_option("--source", o.source,
+                    "folder:DIR | log:FILE (LCM or MCAP) | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
   track
       ->add_option("--config", o.config,
                    "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
