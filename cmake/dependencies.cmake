@@ -11,6 +11,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(assimp REQUIRED)
+find_package(fastcdr 1.0 REQUIRED)
 find_package(JPEG REQUIRED)  # libjpeg-turbo
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -2,7 +2,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "drivers/lcm/channel_glob.h"
+#include "core/glob.h"
 
 namespace barehand {
 

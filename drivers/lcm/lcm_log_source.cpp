@@ -6,8 +6,8 @@
 
 #include "barehand/rgbd_frame_t.hpp"
 #include "core/comma_list.h"
+#include "core/glob.h"
 #include "core/quote.h"
-#include "drivers/lcm/channel_glob.h"
 #include "drivers/lcm/frame_message.h"
 #include "io/lcm/log_names.h"
 #include "io/whole_file.h"

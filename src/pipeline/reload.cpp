@@ -43,7 +43,8 @@ Reload::Changes Reload::apply(const Config& wanted) {
   // Post them to the stages and sinks that they concern.
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
-  for (auto* slot : {&out_.bus, &out_.states_log, &out_.view}) put_if_changed(*slot, in_force_.publish, next.publish);
+  for (auto* slot : {&out_.bus, &out_.states_log, &out_.mcap, &out_.view})
+    put_if_changed(*slot, in_force_.publish, next.publish);
   in_force_ = next;
   return changes;
 }

@@ -5,7 +5,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "barehand/command_t.hpp"
-#include "drivers/lcm/channel_glob.h"
+#include "core/glob.h"
 #include "drivers/lcm/frame_codec.h"
 #include "drivers/lcm/layouts.h"
 #include "test_frames.h"

@@ -34,12 +34,16 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   request->out_option = "out";
   auto in = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
-      "convert", "Turn a recording folder or an .oni file into an LCM log, or logs or an .oni file into a folder");
-  command->add_option("in", *in, "recording folder, LCM log, folder or set of logs, or .oni file")->required();
-  command->add_option("out", request->out, "FILE.lcmlog, or a folder to create")->required();
+      "convert", "Turn recordings into one another: folder, LCM log, MCAP file; and .oni files into any of them");
+  command
+      ->add_option("in", *in,
+                   "recording folder, LCM log, folder or set of logs, MCAP file or bag of ROS 2, or .oni file")
+      ->required();
+  command->add_option("out", request->out, "FILE.lcmlog, FILE.mcap, or a folder to create")->required();
   add_copy_options(*command, *request);
   command->footer(
-      "Time stamps are kept; a log keeps frame numbers too, a folder numbers its frames from 0. hand.json and "
+      "Time stamps are kept; logs and MCAP files keep frame numbers too, a folder numbers its frames from 0. hand.json "
+      "and "
       "truth.csv stay beside the original. The times of an .oni file count from 1 s.");
   command->callback([request, in, &exit_code] { exit_code = convert(*in, *request); });
 }

@@ -6,8 +6,8 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand convert`, which turns a recording folder or an .oni file into an LCM log, or a log or an .oni file
-/// into a folder. After it has run, `exit_code` holds its result (exit_code.h).
+/// Adds `barehand convert`, which turns a recording (folder, LCM log, MCAP file, .oni file) into another form: folder,
+/// LCM log or MCAP file. After it has run, `exit_code` holds its result (exit_code.h).
 void add_convert_command(CLI::App& app, int& exit_code);
 
 }  // namespace barehand

@@ -12,12 +12,13 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
   command.add_option("--frames", r.frames, "stop after this many frames")->check(CLI::PositiveNumber);
   command.add_option("--channel", r.source.channel,
-                     "glob of the LCM channels to read; default: live the first of *RGBD_FRAME that brings a frame, in "
-                     "a log the only one that has some");
+                     "glob of the LCM channels, or of an MCAP file's topics with depth; default: live the first of "
+                     "*RGBD_FRAME that brings a frame, in a file the only one that has some");
   command.add_option("--config", r.config, "as for track; only the groups openni2 and foreign_camera matter");
   command.add_option(
       "--fx", r.source.foreign.fx,
-      "focal length [px] of kinect and bot_core messages, or instead of an OpenNI2 sensor's own; give all four");
+      "focal length [px] of frames that come without (kinect, bot_core, some bags), or instead of an OpenNI2 sensor's "
+      "own; give all four");
   command.add_option("--fy", r.source.foreign.fy, "vertical focal length [px]");
   command.add_option("--cx", r.source.foreign.cx, "principal point [px]");
   command.add_option("--cy", r.source.foreign.cy, "vertical principal point [px]");

@@ -5,6 +5,7 @@
 #include "drivers/lcm/wire.h"
 #include "io/lcm/lcm_log_writer.h"
 #include "io/lcm/log_names.h"
+#include "io/mcap/mcap_scene.h"
 #include "io/recording/recording_writer.h"
 
 namespace barehand {
@@ -27,6 +28,37 @@ class LogFrameWriter : public FrameWriter {
   std::string path_;
   FrameWriterOptions options_;
   std::unique_ptr<MessageSink> log_;
+  std::int64_t written_ = 0;
+};
+
+class McapFrameWriter : public FrameWriter {
+ public:
+  McapFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<mcap::McapWriter> file)
+      : path_(std::move(path)), options_(options), file_(std::move(file)) {}
+
+  Result<void> write(const RgbdFrame& frame) override {
+    ros::Scene scene;
+    scene.utime = frame.utime;
+    scene.number = frame.number;
+    scene.fps = options_.fps;
+    scene.cloud = false;  // it follows from depth
+    if (options_.encoding.colour == ColourEncoding::jpeg) scene.jpeg_quality = options_.encoding.jpeg_quality;
+    if (options_.encoding.colour != ColourEncoding::none) {
+      scene.frame = FramePtr(FramePtr(), &frame);  // it outlives the call
+    } else {
+      auto depth_only = std::make_shared<RgbdFrame>(frame);
+      depth_only->colour = {};
+      scene.frame = std::move(depth_only);
+    }
+    return mcap::write_scene(*file_, scene).map([&] { ++written_; });
+  }
+  Result<void> finish() override { return written_ > 0 ? file_->finish() : Result<void>(); }
+  std::string name() const override { return "MCAP file " + path_; }
+
+ private:
+  std::string path_;
+  FrameWriterOptions options_;
+  std::unique_ptr<mcap::McapWriter> file_;
   std::int64_t written_ = 0;
 };
 
@@ -57,12 +89,14 @@ class FolderFrameWriter : public FrameWriter {
 }  // namespace
 
 bool is_log_path(const std::string& path) { return is_log_name(path); }
+bool is_mcap_path(const std::string& path) { return std::filesystem::path(path).extension() == ".mcap"; }
+bool is_file_path(const std::string& path) { return is_log_path(path) || is_mcap_path(path); }
 
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
   if (std::filesystem::path(path).extension() == ".oni")
     return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
   if (options.rotation && !is_log_path(path))
-    return fail("only a log can continue in new files", path, "give a name that ends in .lcmlog");
+    return fail("only an LCM log can continue in new files", path, "give a name that ends in .lcmlog");
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());
@@ -72,6 +106,11 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
     auto log = LcmLogWriter::create(path, options.overwrite);
     if (!log) return tl::unexpected(log.error());
     return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+  }
+  if (is_mcap_path(path)) {
+    auto file = mcap::McapWriter::create(path, options.overwrite);
+    if (!file) return tl::unexpected(file.error());
+    return std::make_unique<McapFrameWriter>(path, options, std::move(*file));
   }
   RecordingWriter::Options folder;
   folder.fps = options.fps;

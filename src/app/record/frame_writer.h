@@ -26,19 +26,22 @@ class FrameWriter {
 };
 
 struct FrameWriterOptions {
-  FrameEncoding encoding = {};               ///< for a log; a folder uses only the colour, with raw as PNG
+  FrameEncoding encoding = {};               ///< for a log; the other forms use only the colour, with raw as PNG
   std::string channel = "RGBD_FRAME";        ///< for a log
-  double fps = 0;                            ///< nominal frame rate [Hz], stored in a folder; 0: not stored
-  bool overwrite = false;                    ///< replace a log; a folder with a recording is never replaced
+  double fps = 0;                            ///< nominal frame rate [Hz], stored except in a log; 0: not stored
+  bool overwrite = false;                    ///< replace a file; a folder with a recording is never replaced
   std::optional<LogRotation> rotation = {};  ///< for a log: write a set of files instead of one
   const Clock* clock = nullptr;              ///< for the rotation; must outlive the writer
 };
 
-/// Whether `path` is written as an LCM log (is_log_name).
+/// Whether `path` is written as an LCM log (is_log_name), or as an MCAP file.
 bool is_log_path(const std::string& path);
+bool is_mcap_path(const std::string& path);
+/// One of these: a single file, not a folder.
+bool is_file_path(const std::string& path);
 
-/// Creates an LCM log if is_log_path(path), and otherwise a recording folder. Errors: it exists or cannot be created,
-/// `path` ends in .oni, which is not written, or a folder is to rotate.
+/// Creates an LCM log or an MCAP file, as the name says, and otherwise a recording folder. Errors: it exists or cannot
+/// be created, `path` ends in .oni, which is not written, or something else than an LCM log is to rotate.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 
 }  // namespace barehand

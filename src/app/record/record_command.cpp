@@ -12,10 +12,12 @@ namespace barehand {
 void add_record_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
   request->source.live_capacity = 128;  // frames of a few seconds, since a recording should lose none
-  CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log or a folder");
-  record->add_option("--source", request->source.spec, "openni2[:SENSOR] | lcm | sim:NAME | folder:DIR | log:FILE")
+  CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log, an MCAP file or a folder");
+  record
+      ->add_option("--source", request->source.spec,
+                   "openni2[:SENSOR] | lcm | sim:NAME | folder:DIR | log:FILE (LCM or MCAP)")
       ->required();
-  record->add_option("--out", request->out, "FILE.lcmlog, or a folder to create")->required();
+  record->add_option("--out", request->out, "FILE.lcmlog, FILE.mcap, or a folder to create")->required();
   record->add_option("--seconds", request->seconds, "stop after this time")->check(CLI::PositiveNumber);
   record->add_option("--lcm-url", request->source.lcm_url, "LCM network of the source lcm");
   record->add_option("--max-size", request->max_size, "continue in a new log at this size, such as 2GB")
@@ -28,7 +30,8 @@ void add_record_command(CLI::App& app, int& exit_code) {
       ->transform(CLI::AsSizeValue(true));
   add_copy_options(*record, *request);
   record->footer(
-      "Ctrl-C ends the recording; the recording until then is complete, as it is after a crash. While the disk "
+      "Ctrl-C ends the recording; the recording until then is complete, as it is after a crash, but for the last "
+      "frames of an MCAP file. While the disk "
       "is full, frames of a live source are lost and counted.\n"
       "With --max-size, --max-age or --quota, take.lcmlog becomes take-000001-TIME.lcmlog and so on, each complete in "
       "itself and counted on from those that are there. With a quota the oldest are also removed when the disk is "

@@ -47,6 +47,7 @@ std::string config_file(const std::string& name) { return name.empty() ? "" : fi
 
 Output output_of(const CopyRequest& request, bool rotates) {
   const Output::Kind log = rotates ? Output::Kind::log_set : Output::Kind::file;
+  if (is_mcap_path(request.out)) return {request.out_option, request.out, Output::Kind::file};
   return {request.out_option, request.out, is_log_path(request.out) ? log : Output::Kind::recording};
 }
 

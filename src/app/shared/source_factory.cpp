@@ -4,6 +4,7 @@
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
+#include "drivers/mcap/mcap_source.h"
 #include "drivers/openni2/openni_file_source.h"
 #include "drivers/openni2/openni_live_source.h"
 #include "drivers/synthetic/synthetic_source.h"
@@ -11,6 +12,7 @@
 #include "io/file_bytes.h"
 #include "io/hand/hand_json.h"
 #include "io/hand/path_of_hand.h"
+#include "io/lcm/log_names.h"
 #include "io/recording/stamped_list.h"
 
 namespace barehand {
@@ -68,6 +70,30 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
                             left_out.front().message());
   open.source = std::move(*source);
   return open;
+}
+
+Result<OpenSource> open_mcap(const std::string& path, const SourceRequest& request) {
+  McapOptions options;
+  options.channel = request.channel;
+  options.start = request.start;
+  options.step = request.step;
+  options.foreign = request.foreign;
+  auto source = McapSource::open(path, options);
+  if (!source) return tl::unexpected(source.error());
+  OpenSource open;
+  open.frames = (*source)->remaining();
+  open.fps = (*source)->fps();
+  open.warnings = (*source)->doubts();
+  open.source = std::move(*source);
+  return open;
+}
+
+/// An LCM log or an MCAP file, told apart by what is in it. Instead of a file that is not there the draft is played
+/// that a killed recorder left.
+Result<OpenSource> open_log_or_mcap(const std::string& path, const SourceRequest& request) {
+  const auto files = find_logs(path);
+  const bool mcap = files && files->files.size() == 1 && mcap::is_mcap(files->files.front());
+  return mcap ? open_mcap(files->files.front(), request) : open_log(path, request);
 }
 
 Result<OpenSource> open_live(const SourceRequest& request) {
@@ -132,7 +158,7 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
   if (recording && argument.empty())
     return fail("the source names no file", request.spec, std::string("give ") + kKinds);
   if (kind == "folder") return open_folder(argument, request);
-  if (kind == "log") return open_log(argument, request);
+  if (kind == "log") return open_log_or_mcap(argument, request);
   return fail("unknown source", request.spec, std::string("give ") + kKinds);
 }
 

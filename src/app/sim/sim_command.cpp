@@ -60,7 +60,8 @@ int run(const SimArguments& a) {
   // Check the arguments.
   if (a.name.empty()) return fail_with({"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
-    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog"}, kExitUsage);
+    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog or .mcap"},
+                     kExitUsage);
 
   // Render. An error before the first frame is one of the arguments.
   std::int64_t done = 0;
@@ -84,7 +85,7 @@ void add_sim_command(CLI::App& app, int& exit_code) {
 
   // Add options for what is rendered, and where it is written.
   sim->add_option("name", a->name, "sequence, see --list; keys may follow: NAME,key=value,...");
-  sim->add_option("--out", a->out, "folder to create, or FILE.lcmlog");
+  sim->add_option("--out", a->out, "folder to create, FILE.lcmlog or FILE.mcap");
   add_overwrite_option(*sim, a->overwrite);
   sim->add_option("--noise", a->noise, "none, kinect or tof");
   sim->add_option("--seed", a->seed, "seed of motion and noise");
@@ -96,7 +97,8 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
   sim->add_flag("--list", a->list, "list the sequences and keys");
   sim->footer(
-      "FILE.lcmlog gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where two hands are seen, "
+      "A file, here FILE.lcmlog, gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where "
+      "two hands are seen, "
       "those of the left one end in _left. Ctrl-C: what is written so far is a complete recording.");
   sim->callback([a, &exit_code] { exit_code = run(*a); });
 }

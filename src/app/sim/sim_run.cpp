@@ -20,13 +20,13 @@ using synthetic::SyntheticSource;
 
 /// Path of a file that belongs to the recording.
 std::string beside(const std::string& out, const std::string& name) {
-  return is_log_path(out) ? std::filesystem::path(out).replace_extension(name).string() : out + "/" + name;
+  return is_file_path(out) ? std::filesystem::path(out).replace_extension(name).string() : out + "/" + name;
 }
 
 /// Logs get JPEG colour, as from a camera that streams; folders get lossless colour.
 Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double fps, bool overwrite) {
   FrameWriterOptions options;
-  options.encoding.colour = is_log_path(out) ? ColourEncoding::jpeg : ColourEncoding::png;
+  options.encoding.colour = is_file_path(out) ? ColourEncoding::jpeg : ColourEncoding::png;
   options.fps = fps;
   options.overwrite = overwrite;
   return open_frame_writer(out, options);
@@ -35,7 +35,7 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
 /// Checks that the log or recording, and the files that belong to it, may be written.
 Result<void> check_written(const SimOptions& options, const std::vector<SimulatedHand>& hands) {
   std::vector<Output> outputs{
-      {"--out", options.out, is_log_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
+      {"--out", options.out, is_file_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
   for (std::size_t k = 0; k < hands.size(); ++k)
     for (const char* name : {"hand.json", "truth.csv", "start_pose.json"})
       outputs.push_back(

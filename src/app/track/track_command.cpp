@@ -15,7 +15,8 @@ void add_track_command(CLI::App& app, int& exit_code) {
   TrackOptions& o = *options;
   o.threads = available_cores();
   CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
-  track->add_option("--source", o.source, "folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
+  track->add_option("--source", o.source,
+                    "folder:DIR | log:FILE (LCM or MCAP) | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
   track
       ->add_option("--config", o.config,
                    "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
@@ -31,6 +32,8 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
+  track->add_option("--mcap", o.mcap,
+                    "write images and hands as ROS 2 messages to an MCAP file, for Foxglove, ROS and replay");
   track->add_option("--log-decisions", o.decisions,
                     "write every decision of the tracker with the rule that made it (CSV)");
   track->add_option("--overlay", o.overlay,

@@ -16,7 +16,7 @@ struct TrackOptions {
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
-  std::string result, states_log, decisions, overlay, save_hand;  ///< "": not written
+  std::string result, states_log, mcap, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
   bool overwrite = false;   ///< outputs may replace existing files
   int overlay_every = 1;    ///< every n-th frame is drawn
@@ -32,8 +32,8 @@ struct TrackOptions {
   std::string view_record;                ///< folder of what the page's button records; "": it records nothing
 
   /// The outputs that are one file each.
-  static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::decisions,
-                                        &TrackOptions::save_hand};
+  static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::mcap,
+                                        &TrackOptions::decisions, &TrackOptions::save_hand};
 };
 
 }  // namespace barehand

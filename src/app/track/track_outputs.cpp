@@ -42,6 +42,7 @@ Kind kind_of_overlay(const std::string& path) { return video_format(path) ? Kind
 std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Profiles& hands) {
   std::vector<Output> outputs = of_hands("--result", o.result, hands);
   outputs.push_back({"--states-log", o.states_log});
+  outputs.push_back({"--mcap", o.mcap});
   outputs.push_back({"--log-decisions", o.decisions});
   outputs.push_back({"--overlay", o.overlay, kind_of_overlay(o.overlay)});
   for (Output& profile : of_hands("--save-hand", o.save_hand, hands)) outputs.push_back(std::move(profile));
@@ -95,6 +96,7 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
   const auto overlay_taken = [&](const std::string& path) { return is_taken({"", path, kind_of_overlay(path)}); };
   options.result = free_name(options.result, table_taken);
   options.states_log = free_name(options.states_log, file_taken);
+  options.mcap = free_name(options.mcap, file_taken);
   options.decisions = free_name(options.decisions, file_taken);
   options.overlay = free_name(options.overlay, overlay_taken);
   options.save_hand = free_name(options.save_hand, table_taken);

@@ -29,6 +29,7 @@
 #include "pipeline/service_manager.h"
 #include "pipeline/sinks/file_sinks.h"
 #include "pipeline/sinks/health_sink.h"
+#include "pipeline/sinks/mcap_sink.h"
 #include "pipeline/sinks/publish_sink.h"
 #include "pipeline/sinks/service_sink.h"
 #include "pipeline/sinks/view_sink.h"
@@ -71,6 +72,7 @@ class TrackRun {
   Step open_outputs();
   Step await_readers();
   Step open_bus();
+  Step open_mcap();
   Step open_view();
   CommandedTracker::Inbox inbox() const;
   template <class Open>
@@ -81,6 +83,10 @@ class TrackRun {
   void reload();
   Result<Reload::Changes> exchange_configuration();
   Step add(Result<std::unique_ptr<Sink>> sink);
+  /// Nominal rate of the frames that are played; `unknown`: that of a source that states none.
+  double rate(double unknown) const {
+    return (input_.fps > 0 ? input_.fps : unknown) / std::abs(static_cast<double>(options_.step));
+  }
   PipelineHealth with_view(PipelineHealth health) const;
   int conclude(const RunResult& result);
   int judge_frames(const PipelineHealth& health);
@@ -214,11 +220,10 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.states_log.empty())
     ok = add(
         StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &pending_.states_log));
+  if (ok && !options_.mcap.empty()) ok = open_mcap();
   if (ok && !options_.decisions.empty()) ok = add(DecisionSink::create(options_.decisions, options_.overwrite));
   if (ok && !options_.overlay.empty())
-    ok = add(OverlaySink::create(
-        options_.overlay, (input_.fps > 0 ? input_.fps : kUsualRate) / std::abs(static_cast<double>(options_.step)),
-        options_.overlay_every, options_.overwrite));
+    ok = add(OverlaySink::create(options_.overlay, rate(kUsualRate), options_.overlay_every, options_.overwrite));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (ok && options_.view) ok = open_view();
   if (!ok) return ok;
@@ -252,6 +257,13 @@ Step TrackRun::open_bus() {
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
   return add(
       BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &pending_.bus));
+}
+
+Step TrackRun::open_mcap() {
+  McapSink::Input input{rate(0), input_.source->live(), [this] { return with_view(pipeline_->health()); },
+                        input_.source->name()};
+  return add(
+      McapSink::create(config_.publish, options_.mcap, options_.overwrite, std::move(input), clock_, &pending_.mcap));
 }
 
 /// Opens something that needs the LCM network. A live run waits until the network is there.

@@ -5,6 +5,7 @@
 
 #include "drivers/lcm/layouts.h"
 #include "io/lcm/log_names.h"
+#include "io/mcap/mcap_reader.h"
 
 namespace barehand {
 
@@ -16,6 +17,9 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
     const auto files = find_logs(path);
     if (!files) return tl::unexpected(files.error());
     for (const std::string& file : files->files) {
+      if (mcap::is_mcap(file))
+        return fail("is an MCAP file, which this page does not play", file,
+                    "open it in Foxglove or Lichtblick, or convert it to an LCM log: barehand convert");
       auto log = LcmLogReader::open(file);
       if (!log) return tl::unexpected(log.error());
       index.logs_.push_back(std::move(*log));

@@ -7,6 +7,7 @@
 #include <map>
 #include <regex>
 
+#include "io/mcap/mcap_reader.h"
 #include "io/whole_file.h"
 
 namespace barehand {
@@ -82,7 +83,7 @@ FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
     if (!entry->is_regular_file(ignored) || entry->file_size(ignored) == 0 || !wanted(final_name(path))) continue;
 
     // Other programs may have drafts, too.
-    if (final_name(path) != path && !begins_as_log(path)) continue;
+    if (final_name(path) != path && !begins_as_log(path) && !mcap::is_mcap(path)) continue;
     if (auto reason = why_left_out(path))
       logs.left_out.push_back(std::move(*reason));
     else

@@ -2,65 +2,69 @@
 
 #include <algorithm>
 #include <map>
-#include <span>
 
 #include "sensor/frame_order.h"
 
 namespace barehand {
 namespace {
 
+using Times = std::span<const std::int64_t>;
+
+/// A colour image: its time and its place in the list.
+struct Stamped {
+  std::int64_t utime = 0;
+  std::size_t index = 0;
+};
+
 /// The typical time between two frames [us].
-std::int64_t frame_interval(const std::vector<StampedFile>& depth) {
+std::int64_t frame_interval(Times depth) {
   std::vector<std::int64_t> steps;
-  for (std::size_t i = 1; i < depth.size(); ++i) steps.push_back(depth[i].utime - depth[i - 1].utime);
+  for (std::size_t i = 1; i < depth.size(); ++i) steps.push_back(depth[i] - depth[i - 1]);
   if (steps.empty()) return 50'000;
   std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
   return std::max<std::int64_t>(steps[steps.size() / 2], 1);
 }
 
-/// The file nearest in time, or "" if none lies within one frame interval: older colour belongs to another pose.
-std::string nearest_file(const std::vector<StampedFile>& sorted, std::int64_t utime, std::int64_t window) {
+/// The image nearest in time; none if it is not within one frame interval: older colour belongs to another pose.
+std::optional<std::size_t> nearest(const std::vector<Stamped>& sorted, std::int64_t utime, std::int64_t window) {
   const auto after = std::lower_bound(sorted.begin(), sorted.end(), utime,
-                                      [](const StampedFile& file, std::int64_t t) { return file.utime < t; });
+                                      [](const Stamped& image, std::int64_t t) { return image.utime < t; });
   auto best = after;
   if (after == sorted.end() || (after != sorted.begin() && utime - std::prev(after)->utime <= after->utime - utime))
     best = after == sorted.begin() ? after : std::prev(after);
-  if (best == sorted.end() || std::abs(best->utime - utime) > window) return {};
-  return best->file;
+  if (best == sorted.end() || std::abs(best->utime - utime) > window) return std::nullopt;
+  return best->index;
 }
 
-/// The part of the recording that each file of a list belongs to, from 0.
-std::vector<int> parts_of(const std::vector<StampedFile>& files) {
-  std::vector<int> parts(files.size(), 0);
-  for (std::size_t i = 1; i < files.size(); ++i)
-    parts[i] = parts[i - 1] + (files[i - 1].utime - files[i].utime >= kRestart ? 1 : 0);
+/// The part of the recording that each time of a list belongs to, from 0.
+std::vector<int> parts_of(Times times) {
+  std::vector<int> parts(times.size(), 0);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    parts[i] = parts[i - 1] + (times[i - 1] - times[i] >= kRestart ? 1 : 0);
   return parts;
-}
-
-std::vector<StampedFile> sorted_by_time(std::vector<StampedFile> files) {
-  std::stable_sort(files.begin(), files.end(),
-                   [](const StampedFile& a, const StampedFile& b) { return a.utime < b.utime; });
-  return files;
 }
 
 }  // namespace
 
-ColourPairs pair_colour(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
+ColourPairs pair_colour(Times depth, Times colour) {
   ColourPairs pairs{{}, frame_interval(depth)};
   const std::vector<int> depth_parts = parts_of(depth), colour_parts = parts_of(colour);
 
   // Where the lists agree about the parts, colour is looked for in its own part only.
   const bool agree = !depth.empty() && !colour.empty() && depth_parts.back() == colour_parts.back();
-  std::map<int, std::vector<StampedFile>> by_part;
-  for (std::size_t i = 0; i < colour.size(); ++i) by_part[agree ? colour_parts[i] : 0].push_back(colour[i]);
-  for (auto& [part, files] : by_part) files = sorted_by_time(std::move(files));
+  std::map<int, std::vector<Stamped>> by_part;
+  for (std::size_t i = 0; i < colour.size(); ++i) by_part[agree ? colour_parts[i] : 0].push_back({colour[i], i});
+  for (auto& [part, images] : by_part)
+    std::stable_sort(images.begin(), images.end(),
+                     [](const Stamped& a, const Stamped& b) { return a.utime < b.utime; });
 
   // Else a colour image belongs to the first part in which it is the nearest.
-  std::map<std::string, int> first_part;
+  std::map<std::size_t, int> first_part;
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    std::string file = nearest_file(by_part[agree ? depth_parts[i] : 0], depth[i].utime, pairs.window);
-    if (!agree && first_part.try_emplace(file, depth_parts[i]).first->second != depth_parts[i]) file.clear();
-    pairs.files.push_back(std::move(file));
+    auto found = nearest(by_part[agree ? depth_parts[i] : 0], depth[i], pairs.window);
+    if (found && !agree && first_part.try_emplace(*found, depth_parts[i]).first->second != depth_parts[i])
+      found.reset();
+    pairs.colour.push_back(found);
   }
   return pairs;
 }

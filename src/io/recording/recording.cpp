@@ -28,14 +28,21 @@ std::vector<StampedFile> read_colour_list(Recording& recording) {
   return *std::move(files);
 }
 
+std::vector<std::int64_t> times_of(const std::vector<StampedFile>& files) {
+  std::vector<std::int64_t> times;
+  for (const StampedFile& file : files) times.push_back(file.utime);
+  return times;
+}
+
 /// The frames of depth.txt with their colour, and what their stamps say.
 void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
   const std::vector<StampedFile> colour = read_colour_list(recording);
-  ColourPairs pairs = pair_colour(depth, colour);
+  const ColourPairs pairs = pair_colour(times_of(depth), times_of(colour));
   FrameOrder order(StampUnit::seconds);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const StampedFile& file = depth[i];
-    RecordingEntry entry{file.utime, file.file, std::move(pairs.files[i]), {}, {}};
+    RecordingEntry entry{file.utime, file.file, {}, {}, {}};
+    if (pairs.colour[i]) entry.colour_file = colour[*pairs.colour[i]].file;
     if (entry.colour_file.empty() && !colour.empty())
       entry.colour_fault =
           formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(pairs.window));

@@ -1,4 +1,4 @@
-#include "drivers/lcm/channel_glob.h"
+#include "core/glob.h"
 
 namespace barehand {
 

@@ -1,0 +1,241 @@
+#include "io/mcap/mcap_reader.h"
+
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "io/mcap/mcap_format.h"
+
+namespace barehand::mcap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kMostUnpacked = 256 << 20;  // bytes of a chunk that are believed
+constexpr std::uint64_t kMessageFields = 22;        // bytes before those of the message itself
+
+/// What is said of a chunk packed in another way than zstd.
+std::string unknown_compression(const std::string& name) {
+  return "packed with " + name + ", which is not read: repack the file with `mcap compress --compression zstd`";
+}
+
+Result<void> unpack_zstd(std::span<const std::uint8_t> packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
+  const auto stated = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (stated != ZSTD_CONTENTSIZE_UNKNOWN && stated != size) return fail("damaged");
+  out.resize(size);
+  const std::size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
+  if (ZSTD_isError(got) != 0 || got != size) return fail("damaged");
+  return {};
+}
+
+}  // namespace
+
+bool is_mcap(const std::string& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  std::array<char, kMagic.size()> start{};
+  return std::ifstream(path, std::ios::binary).read(start.data(), start.size()) &&
+         std::string_view(start.data(), start.size()) == kMagic;
+}
+
+Result<McapReader> McapReader::open(const std::string& path, const Look& look) {
+  if (!is_mcap(path)) return fail("is not an MCAP file", path, "give one, an LCM log or a recording folder");
+  McapReader reader(path);
+  if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
+  reader.scan(look);
+  return reader;
+}
+
+Result<void> McapReader::open_file() {
+  file_.reset(std::fopen(path_.c_str(), "rb"));
+  if (!file_) return fail(std::string("cannot open the file: ") + std::strerror(errno), path_);
+  std::error_code error;
+  size_ = fs::file_size(path_, error);
+  if (error) return fail("cannot determine the size of the file: " + error.message(), path_);
+  return {};
+}
+
+bool McapReader::read_at(std::uint64_t at, std::uint64_t size, Bytes& out) {
+  if (at > size_ || size > size_ - at) return false;
+  out.resize(size);
+  return fseeko(file_.get(), static_cast<off_t>(at), SEEK_SET) == 0 &&
+         std::fread(out.data(), 1, out.size(), file_.get()) == out.size();
+}
+
+void McapReader::doubt(std::string what) { doubts_.push_back(path_ + ": " + std::move(what)); }
+
+void McapReader::scan(const Look& look) {
+  std::uint64_t lost = 0;  // bytes that are no record
+  bool ended = false;
+  for (std::uint64_t at = kMagic.size(); at < size_ && !ended;) {
+    Bytes header;
+    std::uint64_t size = 0;
+    const bool known = read_at(at, kRecordHeader, header);
+    if (known) std::memcpy(&size, &header[1], sizeof size);
+    const std::uint64_t content = at + kRecordHeader;
+    if (known && size <= size_ - content && take_record(header[0], content, size, look)) {
+      ended = header[0] == static_cast<std::uint8_t>(Kind::data_end);
+      at = content + size;
+      continue;
+    }
+
+    // Something else than a record: on with the next chunk.
+    const std::uint64_t next = next_chunk(at + 1).value_or(size_);
+    lost += next - at;
+    at = next;
+  }
+
+  if (lost > 0)
+    doubt(std::to_string(lost) + " bytes are damaged or cut off; every complete chunk is used");
+  else if (!ended)
+    doubt("it was not finished, as by a recorder that was killed; every complete chunk is used");
+  for (const auto& [reason, count] : left_out_)
+    doubt((count == 1 ? "a chunk is left out, " : std::to_string(count) + " chunks are left out, ") + reason);
+}
+
+/// `at`, `size`: of the content. False: this is no record of an MCAP file.
+bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const Look& look) {
+  const auto read = [&] {
+    return read_at(at, size, record_) ? std::span<const std::uint8_t>(record_) : std::span<const std::uint8_t>();
+  };
+  switch (static_cast<Kind>(kind)) {
+    case Kind::schema:
+      take_schema(read());
+      return true;
+    case Kind::channel:
+      take_channel(read());
+      return true;
+    case Kind::message:
+      take_message(read(), -1, at, look);
+      return true;
+    case Kind::chunk:
+      chunk_sizes_[static_cast<std::int64_t>(at)] = size;
+      take_chunk(at, look);
+      return true;
+    default:
+      return kind != 0;  // attachments, indexes, kinds to come
+  }
+}
+
+void McapReader::take_schema(std::span<const std::uint8_t> record) {
+  FieldReader fields(record);
+  const auto id = fields.get<std::uint16_t>();
+  Schema schema{fields.get_text(), fields.get_text()};
+  if (!fields.failed() && id != 0) schemas_[id] = std::move(schema);
+}
+
+void McapReader::take_channel(std::span<const std::uint8_t> record) {
+  FieldReader fields(record);
+  const auto id = fields.get<std::uint16_t>(), schema = fields.get<std::uint16_t>();
+  Channel channel;
+  channel.topic = fields.get_text();
+  channel.encoding = fields.get_text();
+  channel.metadata = fields.get_map();
+  if (const auto known = schemas_.find(schema); known != schemas_.end()) {
+    channel.type = known->second.name;
+    channel.schema_encoding = known->second.encoding;
+  }
+  if (!fields.failed()) channels_[id] = std::move(channel);
+}
+
+void McapReader::take_message(std::span<const std::uint8_t> record, std::int64_t chunk, std::uint64_t at,
+                              const Look& look) {
+  FieldReader fields(record);
+  Message message;
+  message.channel = fields.get<std::uint16_t>();
+  message.sequence = fields.get<std::uint32_t>();
+  message.log_time = fields.get<std::uint64_t>();
+  (void)fields.get<std::uint64_t>();  // when it was sent
+  message.chunk = chunk;
+  message.offset = at + kMessageFields;
+  message.size = fields.rest().size();
+  const auto channel = channels_.find(message.channel);
+  if (!fields.failed() && channel != channels_.end()) look(message, channel->second, fields.rest());
+}
+
+void McapReader::take_chunk(std::uint64_t at, const Look& look) {
+  if (const auto unpacked = unpack(at, chunk_sizes_[static_cast<std::int64_t>(at)]); !unpacked) {
+    ++left_out_[unpacked.error().what];
+    return;
+  }
+  const std::span<const std::uint8_t> all(chunk_);
+  for (std::uint64_t from = 0; all.size() - from >= kRecordHeader;) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, &all[from + 1], sizeof size);
+    const std::uint64_t content = from + kRecordHeader;
+    if (size > all.size() - content) return;
+    const auto record = all.subspan(content, size);
+    if (all[from] == static_cast<std::uint8_t>(Kind::schema)) take_schema(record);
+    if (all[from] == static_cast<std::uint8_t>(Kind::channel)) take_channel(record);
+    if (all[from] == static_cast<std::uint8_t>(Kind::message))
+      take_message(record, static_cast<std::int64_t>(at), content, look);
+    from = content + size;
+  }
+}
+
+/// Into `chunk_`. The error is what a user is told of chunks like this one.
+Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
+  chunk_at_ = -1;
+  if (!read_at(at, size, record_)) return fail("unreadable");
+  FieldReader fields(record_);
+  (void)fields.get_bytes(16);  // first and last time
+  const auto unpacked_size = fields.get<std::uint64_t>();
+  const auto crc = fields.get<std::uint32_t>();
+  const std::string compression = fields.get_text();
+  const auto packed = fields.get_bytes(fields.get<std::uint64_t>());
+  if (fields.failed()) return fail("damaged");
+  if (unpacked_size > kMostUnpacked) return fail("which would take more than 256 MiB");
+
+  if (compression == "zstd") {
+    if (auto good = unpack_zstd(packed, unpacked_size, chunk_); !good) return good;
+  } else if (compression.empty()) {
+    chunk_.assign(packed.begin(), packed.end());
+  } else {
+    return fail(unknown_compression(compression));
+  }
+  if (crc != 0 && crc != crc32_z(0, chunk_.data(), chunk_.size())) return fail("damaged");
+  chunk_at_ = static_cast<std::int64_t>(at);
+  return {};
+}
+
+/// Where a record begins that looks like a chunk packed with zstd.
+std::optional<std::uint64_t> McapReader::next_chunk(std::uint64_t from) {
+  constexpr std::string_view kSign("\4\0\0\0zstd", 8);
+  constexpr std::uint64_t kBefore = kRecordHeader + 8 + 8 + 8 + 4;  // of the sign, in a chunk's record
+  Bytes block;
+  for (std::uint64_t at = from + kBefore; at < size_; at += (1 << 16) - (kSign.size() - 1)) {
+    if (!read_at(at, std::min<std::uint64_t>(1 << 16, size_ - at), block)) break;
+    for (auto found = block.begin();; ++found) {
+      found = std::search(found, block.end(), kSign.begin(), kSign.end());
+      if (found == block.end()) break;
+      const std::uint64_t start = at + static_cast<std::uint64_t>(found - block.begin()) - kBefore;
+      Bytes header;
+      if (!read_at(start, kRecordHeader, header) || header[0] != static_cast<std::uint8_t>(Kind::chunk)) continue;
+      std::uint64_t size = 0;
+      std::memcpy(&size, &header[1], sizeof size);
+      if (size <= size_ - start - kRecordHeader) return start;
+    }
+  }
+  return std::nullopt;
+}
+
+Result<std::span<const std::uint8_t>> McapReader::read(const Message& message) {
+  const auto changed = [&] { return fail("the file changed while it was read", path_); };
+  if (message.chunk < 0) {
+    if (!read_at(message.offset, message.size, record_)) return changed();
+    return std::span<const std::uint8_t>(record_);
+  }
+  if (message.chunk != chunk_at_)
+    if (const auto size = chunk_sizes_.find(message.chunk);
+        size == chunk_sizes_.end() || !unpack(static_cast<std::uint64_t>(message.chunk), size->second))
+      return changed();
+  if (message.offset > chunk_.size() || message.size > chunk_.size() - message.offset) return changed();
+  return std::span<const std::uint8_t>(chunk_).subspan(message.offset, message.size);
+}
+
+}  // namespace barehand::mcap

@@ -1,0 +1,304 @@
+#include "io/mcap/mcap_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "io/mcap/mcap_format.h"
+
+namespace barehand::mcap {
+namespace {
+
+constexpr std::size_t kChunkSize = 1 << 20;  // bytes before compression; more than one frame of most cameras
+constexpr std::string_view kZstd = "zstd";
+constexpr std::size_t kChunkFields = 9 + 8 + 8 + 8 + 4 + 4 + 4 + 8;  // of a chunk's record, before its messages
+constexpr int kLevel = 1;  // of zstd: a frame of a live camera takes milliseconds
+
+std::uint32_t crc_of(std::uint32_t before, const std::vector<std::uint8_t>& bytes) {
+  return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
+}
+
+std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes) {
+  std::vector<std::uint8_t> out(ZSTD_compressBound(bytes.size()));
+  out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kLevel));
+  return out;
+}
+
+}  // namespace
+
+McapWriter::McapWriter(std::string path, WholeFile file, int descriptor)
+    : path_(std::move(path)), file_(std::move(file)), descriptor_(descriptor) {}
+
+McapWriter::~McapWriter() {
+  if (messages_ > 0 || !index_.empty()) (void)finish();
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+Result<std::unique_ptr<McapWriter>> McapWriter::create(const std::string& path, bool overwrite) {
+  auto file = WholeFile::create(path, overwrite);
+  if (!file) return tl::unexpected(file.error());
+  const int descriptor = file->open();
+  if (descriptor < 0)
+    return fail(std::string("cannot create the file: ") + std::strerror(errno), path,
+                "check the folder and its permissions");
+  return std::unique_ptr<McapWriter>(new McapWriter(path, std::move(*file), descriptor));
+}
+
+std::uint16_t McapWriter::schema_of(const NewMessage& message) {
+  const auto [known, added] = schema_ids_.try_emplace(message.type, static_cast<std::uint16_t>(schemas_.size() + 1));
+  if (!added) return known->second;
+  Bytes& record = schemas_.emplace_back();
+  RecordWriter writer(record);
+  writer.begin(Kind::schema);
+  writer.put(known->second);
+  writer.put_text(message.type);
+  writer.put_text("ros2msg");
+  writer.put_text(message.schema);
+  writer.end();
+  new_records_.insert(new_records_.end(), record.begin(), record.end());
+  return known->second;
+}
+
+/// A topic whose metadata change goes on as another channel.
+std::uint16_t McapWriter::channel_of(const NewMessage& message) {
+  std::string key = message.topic + '\n' + message.type;
+  for (const auto& [name, value] : message.metadata) key.append('\n' + name + '\n' + value);
+  const auto [known, added] = channel_ids_.try_emplace(key, static_cast<std::uint16_t>(channels_.size() + 1));
+  if (!added) return known->second;
+  const std::uint16_t schema = schema_of(message);
+  Bytes& record = channels_.emplace_back().record;
+  RecordWriter writer(record);
+  writer.begin(Kind::channel);
+  writer.put(known->second);
+  writer.put(schema);
+  writer.put_text(message.topic);
+  writer.put_text("cdr");
+  writer.put_map(message.metadata);
+  writer.end();
+  new_records_.insert(new_records_.end(), record.begin(), record.end());
+  return known->second;
+}
+
+Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64_t time, std::uint32_t sequence) {
+  if (descriptor_ < 0) return fail("the file is finished, nothing more is written", path_);
+  if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  const std::size_t before = records_.size();
+  for (const NewMessage& message : messages) {
+    const std::uint16_t channel = channel_of(message);
+    index_[channel].push_back({time, records_.size()});
+    RecordWriter writer(records_);
+    writer.begin(Kind::message);
+    writer.put(channel);
+    writer.put(sequence);
+    writer.put(time);  // of recording and of sending
+    writer.put(time);
+    writer.put_bytes(message.bytes);
+    writer.end();
+  }
+  if (records_.size() < kChunkSize) return {};
+  auto written = write_chunk();
+  if (!written) take_back(before);
+  return written;
+}
+
+/// The chunk becomes as it was when it had this size.
+void McapWriter::take_back(std::size_t size) {
+  records_.resize(size);
+  for (auto& [channel, stamps] : index_)
+    std::erase_if(stamps, [&](const Stamp& stamp) { return stamp.offset >= size; });
+  std::erase_if(index_, [](const auto& entry) { return entry.second.empty(); });
+}
+
+McapWriter::Span McapWriter::span_of(const Index& index) {
+  Span span{UINT64_MAX, 0};
+  for (const auto& [channel, stamps] : index)
+    for (const Stamp& stamp : stamps) span = {std::min(span.first, stamp.time), std::max(span.last, stamp.time)};
+  return span;
+}
+
+McapWriter::Bytes McapWriter::chunk_record(Span span) const {
+  const Bytes packed = compressed(records_);
+  Bytes bytes;
+  RecordWriter writer(bytes);
+  writer.begin(Kind::chunk);
+  writer.put(span.first);
+  writer.put(span.last);
+  writer.put<std::uint64_t>(records_.size());
+  writer.put(crc_of(0, records_));
+  writer.put_text(kZstd);
+  writer.put<std::uint64_t>(packed.size());
+  writer.put_bytes(packed);
+  writer.end();
+  return bytes;
+}
+
+Result<void> McapWriter::write_chunk() {
+  // What the file needs before the chunk.
+  Bytes bytes;
+  RecordWriter writer(bytes);
+  if (good_ == 0) {
+    bytes.assign(kMagic.begin(), kMagic.end());
+    writer.begin(Kind::header);
+    writer.put_text("ros2");
+    writer.put_text("barehand");
+    writer.end();
+  }
+  writer.put_bytes(new_records_);
+
+  // The chunk, and where its messages are.
+  const Span span = span_of(index_);
+  const std::uint64_t start = good_ + bytes.size();
+  const Bytes chunk = chunk_record(span);
+  writer.put_bytes(chunk);
+  const std::uint64_t index_start = good_ + bytes.size();
+  std::map<std::uint16_t, std::uint64_t> index_offsets;
+  for (const auto& [channel, stamps] : index_) {
+    index_offsets[channel] = good_ + bytes.size();
+    writer.begin(Kind::message_index);
+    writer.put(channel);
+    writer.put(static_cast<std::uint32_t>(stamps.size() * sizeof(Stamp)));
+    for (const Stamp& stamp : stamps) writer.put(stamp);
+    writer.end();
+  }
+  const std::uint64_t index_size = good_ + bytes.size() - index_start;
+  if (auto appended = append(bytes); !appended) return appended;
+
+  // Where the chunk is, for the end of the file.
+  Bytes& entry = chunk_indexes_.emplace_back();
+  RecordWriter index(entry);
+  index.begin(Kind::chunk_index);
+  index.put(span.first);
+  index.put(span.last);
+  index.put(start);
+  index.put<std::uint64_t>(chunk.size());
+  index.put_map(index_offsets);
+  index.put(index_size);
+  index.put_text(kZstd);
+  index.put<std::uint64_t>(chunk.size() - kChunkFields);
+  index.put<std::uint64_t>(records_.size());
+  index.end();
+
+  span_ = {messages_ == 0 ? span.first : std::min(span_.first, span.first), std::max(span_.last, span.last)};
+  for (const auto& [channel, stamps] : index_) {
+    channels_[channel - 1U].messages += stamps.size();
+    messages_ += stamps.size();
+  }
+  new_records_.clear();
+  records_.clear();
+  index_.clear();
+  return {};
+}
+
+McapWriter::Bytes McapWriter::statistics() const {
+  std::map<std::uint16_t, std::uint64_t> counts;
+  for (std::size_t i = 0; i < channels_.size(); ++i) counts[static_cast<std::uint16_t>(i + 1)] = channels_[i].messages;
+  Bytes bytes;
+  RecordWriter writer(bytes);
+  writer.begin(Kind::statistics);
+  writer.put(messages_);
+  writer.put(static_cast<std::uint16_t>(schemas_.size()));
+  writer.put(static_cast<std::uint32_t>(channels_.size()));
+  writer.put<std::uint32_t>(0);  // attachments
+  writer.put<std::uint32_t>(0);  // metadata
+  writer.put(static_cast<std::uint32_t>(chunk_indexes_.size()));
+  writer.put(span_.first);
+  writer.put(span_.last);
+  writer.put_map(counts);
+  writer.end();
+  return bytes;
+}
+
+/// What follows the last chunk: summary, where each kind of its records begins, footer.
+McapWriter::Bytes McapWriter::ending() const {
+  Bytes bytes;
+  RecordWriter writer(bytes);
+  writer.begin(Kind::data_end);
+  writer.put(crc_);
+  writer.end();
+
+  const std::size_t summary = bytes.size();
+  Bytes offsets;
+  const auto group = [&](Kind kind, const auto& put_records) {
+    const std::size_t start = bytes.size();
+    put_records();
+    RecordWriter offset(offsets);
+    offset.begin(Kind::summary_offset);
+    offset.put(kind);
+    offset.put<std::uint64_t>(good_ + start);
+    offset.put<std::uint64_t>(bytes.size() - start);
+    offset.end();
+  };
+  group(Kind::schema, [&] {
+    for (const Bytes& schema : schemas_) writer.put_bytes(schema);
+  });
+  group(Kind::channel, [&] {
+    for (const Channel& channel : channels_) writer.put_bytes(channel.record);
+  });
+  group(Kind::statistics, [&] { writer.put_bytes(statistics()); });
+  group(Kind::chunk_index, [&] {
+    for (const Bytes& index : chunk_indexes_) writer.put_bytes(index);
+  });
+  const std::size_t offsets_start = bytes.size();
+  writer.put_bytes(offsets);
+
+  // The check sum covers the summary and the footer up to itself.
+  writer.put(Kind::footer);
+  writer.put<std::uint64_t>(20);
+  writer.put<std::uint64_t>(good_ + summary);
+  writer.put<std::uint64_t>(good_ + offsets_start);
+  writer.put(crc_of(0, Bytes(bytes.begin() + static_cast<std::ptrdiff_t>(summary), bytes.end())));
+  bytes.insert(bytes.end(), kMagic.begin(), kMagic.end());
+  return bytes;
+}
+
+Result<void> McapWriter::finish() {
+  if (descriptor_ < 0) return {};
+  Result<void> result;
+  if (!index_.empty() && !failed_) result = write_chunk();
+
+  // Without its index the file is still read.
+  if (!failed_ && good_ > 0)
+    if (auto ended = append(ending()); !ended && result) result = ended;
+  close(std::exchange(descriptor_, -1));
+  const auto named = file_.finish();
+  return result ? named : result;
+}
+
+Result<void> McapWriter::append(const Bytes& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) break;
+    done += static_cast<std::size_t>(written);
+  }
+  if (done == bytes.size()) {
+    good_ += bytes.size();
+    crc_ = crc_of(crc_, bytes);
+    start_write_back();
+    return {};
+  }
+
+  const int reason = errno;
+  const auto end = static_cast<off_t>(good_);
+  failed_ = file_.direct() || ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) != end;
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+              failed_ ? "the file ends in an incomplete chunk, which readers skip"
+                      : "the " + std::to_string(messages_) + " messages before are kept; free some space");
+}
+
+/// Now and then, so that not all of a large file is left to be waited for when it is finished.
+void McapWriter::start_write_back() {
+  constexpr std::uint64_t kPiece = 8 << 20;
+  if (good_ - written_back_ < kPiece) return;
+  (void)sync_file_range(descriptor_, static_cast<off_t>(written_back_), static_cast<off_t>(good_ - written_back_),
+                        SYNC_FILE_RANGE_WRITE);
+  written_back_ = good_;
+}
+
+}  // namespace barehand::mcap

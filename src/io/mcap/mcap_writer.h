@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/whole_file.h"
+
+namespace barehand::mcap {
+
+/// What one message on a channel is written with.
+struct NewMessage {
+  std::string topic, type, schema;  ///< "/camera/depth", "sensor_msgs/msg/Image", text in ros2msg
+  std::map<std::string, std::string> metadata;
+  std::vector<std::uint8_t> bytes;  ///< in CDR
+};
+
+/// Writes an MCAP file of ROS 2 messages, indexed and in chunks compressed with zstd. It has its name when it is
+/// finished (WholeFile); the destructor finishes one that has messages and removes one without. A chunk is handed to
+/// the operating system as soon as it is full, so a crash loses what came after the last one. When a write fails (disk
+/// full) the file is cut back to its last whole chunk, and later messages may succeed. The same messages give the same
+/// bytes.
+class McapWriter {
+ public:
+  /// An existing file is replaced only if `overwrite`; otherwise it is an error.
+  static Result<std::unique_ptr<McapWriter>> create(const std::string& path, bool overwrite);
+  ~McapWriter();
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  /// Appends messages of one time [ns since the epoch], all of them or, on an error, none. `sequence`: number of the
+  /// frame.
+  Result<void> write(std::span<const NewMessage> messages, std::uint64_t time, std::uint32_t sequence);
+  /// Writes what is left, and the index, and gives the file its name. Nothing is written afterwards.
+  Result<void> finish();
+
+ private:
+  using Bytes = std::vector<std::uint8_t>;
+
+  struct Stamp {
+    std::uint64_t time = 0, offset = 0;  ///< offset: of the message within its chunk
+  };
+  struct Channel {
+    Bytes record;
+    std::uint64_t messages = 0;
+  };
+  struct Span {
+    std::uint64_t first = 0, last = 0;  ///< times of messages
+  };
+  using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< by channel
+
+  McapWriter(std::string path, WholeFile file, int descriptor);
+  std::uint16_t schema_of(const NewMessage& message);
+  std::uint16_t channel_of(const NewMessage& message);
+  void take_back(std::size_t size);
+  static Span span_of(const Index& index);
+  Bytes chunk_record(Span span) const;
+  Result<void> write_chunk();
+  Bytes ending() const;
+  Bytes statistics() const;
+  Result<void> append(const Bytes& bytes);
+  void start_write_back();
+
+  const std::string path_;
+  WholeFile file_;
+  int descriptor_;          // -1: finished
+  std::uint64_t good_ = 0;  // size of the file up to the last whole chunk
+  std::uint32_t crc_ = 0;   // of these bytes
+  std::uint64_t written_back_ = 0;
+  bool failed_ = false;  // a failed write could not be undone
+
+  Bytes records_;      // of the next chunk
+  Index index_;        // of its messages
+  Bytes new_records_;  // schemas and channels that are not in the file yet
+
+  std::vector<Bytes> schemas_, chunk_indexes_;
+  std::vector<Channel> channels_;
+  std::map<std::string, std::uint16_t> schema_ids_, channel_ids_;
+  std::uint64_t messages_ = 0;  // in the file
+  Span span_;                   // of them
+};
+
+}  // namespace barehand::mcap

@@ -1,0 +1,83 @@
+#include "io/ros/ros_topics.h"
+
+#include <algorithm>
+
+#include "core/format.h"
+#include "io/ros/ros_frame.h"
+#include "io/ros/ros_time.h"
+
+namespace barehand::ros {
+namespace {
+
+/// The schema is made once for every type.
+template <Message M>
+Topic topic(std::string name, std::function<Result<M>()> make) {
+  static const std::string type = schema_name<M>(), schema = SchemaText::of<M>();
+  return {std::move(name), type, schema, {}, [make = std::move(make)]() -> Result<Bytes> {
+            const auto message = make();
+            if (!message) return tl::unexpected(message.error());
+            return encode(*message);
+          }};
+}
+
+/// "/camera", or the sensor's name with underscores where a topic's name allows no other character.
+std::string camera_namespace(const std::string& sensor) {
+  std::string name = sensor.empty() ? "camera" : sensor;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return "/" + name;
+}
+
+void add_frame(const Scene& scene, std::vector<Topic>& topics) {
+  const RgbdFrame* frame = scene.frame.get();
+  const std::string space = camera_namespace(frame->sensor);
+  std::vector<Topic> added;
+  added.push_back(topic<CameraInfo>(space + "/camera_info", [frame] { return camera_info(*frame); }));
+  added.push_back(topic<Image>(space + "/depth", [frame] { return depth_image(*frame); }));
+  added.back().metadata[kDepthUnit] = formatted("%.17g", frame->depth_unit);
+  if (scene.fps > 0) added.back().metadata[kFps] = formatted("%.17g", scene.fps);
+  if (!frame->colour.empty())
+    added.push_back(topic<CompressedImage>(
+        space + "/colour", [frame, quality = scene.jpeg_quality] { return colour_image(*frame, quality); }));
+  if (scene.cloud) added.push_back(topic<PointCloud2>(space + "/points", [frame] { return point_cloud(*frame); }));
+  for (Topic& one : added) {
+    if (!frame->sensor.empty()) one.metadata[kSensor] = frame->sensor;
+    topics.push_back(std::move(one));
+  }
+}
+
+TFMessage transforms_of(const std::vector<HandState>& hands) {
+  TFMessage message;
+  for (const HandState& hand : hands)
+    if (hand.state.has_pose) add_transforms(hand, message);
+  return message;
+}
+
+DiagnosticArray diagnostics_of(const Scene& scene) {
+  DiagnosticArray message;
+  message.header.stamp = time_of(scene.utime).value_or(Time{});
+  for (const HandState& hand : scene.hands) message.status.push_back(diagnostic(hand));
+  if (scene.health) message.status.push_back(diagnostic(*scene.health));
+  return message;
+}
+
+}  // namespace
+
+std::vector<Topic> topics_of(const Scene& scene) {
+  std::vector<Topic> topics;
+  if (scene.frame) add_frame(scene, topics);
+  const auto has_pose = [](const HandState& hand) { return hand.state.has_pose; };
+  if (std::any_of(scene.hands.begin(), scene.hands.end(), has_pose))
+    topics.push_back(topic<TFMessage>("/tf", [&scene] { return transforms_of(scene.hands); }));
+  for (const HandState& hand : scene.hands) {
+    const std::string space = "/" + side_of(hand.state) + "_hand";
+    if (hand.state.has_pose)
+      topics.push_back(topic<JointState>(space + "/joint_states", [&hand] { return joint_state(hand); }));
+    topics.push_back(topic<MarkerArray>(space + "/markers", [&hand] { return markers(hand); }));
+  }
+  if (!scene.hands.empty() || scene.health)
+    topics.push_back(topic<DiagnosticArray>("/diagnostics", [&scene] { return diagnostics_of(scene); }));
+  return topics;
+}
+
+}  // namespace barehand::ros

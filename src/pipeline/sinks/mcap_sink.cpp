@@ -1,0 +1,45 @@
+#include "pipeline/sinks/mcap_sink.h"
+
+#include "io/mcap/mcap_scene.h"
+#include "stages/publish/health_message.h"
+
+namespace barehand {
+namespace {
+constexpr std::int64_t kHealthPeriodUs = 1'000'000;
+}
+
+McapSink::McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
+                   Slot<PublishParams>* news)
+    : params_(params), file_(std::move(file)), input_(std::move(input)), clock_(clock), news_(news) {}
+
+Result<std::unique_ptr<Sink>> McapSink::create(const PublishParams& params, const std::string& path, bool overwrite,
+                                               Input input, const Clock& clock, Slot<PublishParams>* news) {
+  auto file = mcap::McapWriter::create(path, overwrite);
+  if (!file) return tl::unexpected(file.error());
+  return std::unique_ptr<Sink>(new McapSink(params, std::move(*file), std::move(input), clock, news));
+}
+
+Result<void> McapSink::consume(const TrackedFrame& tracked) {
+  if (const auto params = news_ ? news_->take() : std::nullopt) {
+    params_ = *params;
+    makers_.clear();
+  }
+  while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
+
+  ros::Scene scene;
+  scene.utime = tracked.frame->utime;
+  scene.number = tracked.frame->number;
+  scene.frame = tracked.frame;
+  scene.fps = input_.fps;
+  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) {
+    HandMessages hand = makers_[k].process(*tracked.estimates[k]);
+    scene.hands.push_back({std::move(hand.state), std::move(hand.glove), std::move(hand.joints)});
+  }
+  if (input_.live && clock_.steady_us() - health_us_ >= kHealthPeriodUs) {
+    health_us_ = clock_.steady_us();
+    scene.health = health_message(input_.health(), clock_.utime(), input_.source);
+  }
+  return mcap::write_scene(*file_, scene).map([&] { ++frames_; });
+}
+
+}  // namespace barehand

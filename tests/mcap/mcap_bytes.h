@@ -1,0 +1,87 @@
+#pragma once
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "io/mcap/mcap_format.h"
+
+namespace barehand::test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+inline Bytes read_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(file), {});
+}
+
+inline void write_bytes(const std::string& path, const Bytes& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Composes MCAP files that McapWriter would never write: of other programs, and with lies in them.
+class ForeignMcap {
+ public:
+  ForeignMcap() : writer_(bytes_) {
+    bytes_.assign(mcap::kMagic.begin(), mcap::kMagic.end());
+    writer_.begin(mcap::Kind::header);
+    writer_.put_text("");
+    writer_.put_text("another program");
+    writer_.end();
+  }
+  /// Outside of chunks, as the format allows. The schema gets the channel's number.
+  ForeignMcap& channel(std::uint16_t id, const std::string& topic, const std::string& type,
+                       const std::string& encoding = "cdr") {
+    writer_.begin(mcap::Kind::schema);
+    writer_.put(id);
+    writer_.put_text(type);
+    writer_.put_text(encoding == "cdr" ? "ros2msg" : encoding);
+    writer_.put_text("");
+    writer_.end();
+    writer_.begin(mcap::Kind::channel);
+    writer_.put(id);
+    writer_.put(id);
+    writer_.put_text(topic);
+    writer_.put_text(encoding);
+    writer_.put_map(std::map<std::string, std::string>());
+    writer_.end();
+    return *this;
+  }
+  ForeignMcap& message(std::uint16_t channel, const Bytes& message) {
+    writer_.begin(mcap::Kind::message);
+    writer_.put(channel);
+    writer_.put<std::uint32_t>(0);
+    writer_.put<std::uint64_t>(7);
+    writer_.put<std::uint64_t>(7);
+    writer_.put_bytes(message);
+    writer_.end();
+    return *this;
+  }
+  ForeignMcap& chunk(const std::string& compression, std::uint64_t size, const Bytes& packed) {
+    writer_.begin(mcap::Kind::chunk);
+    writer_.put<std::uint64_t>(0);
+    writer_.put<std::uint64_t>(0);
+    writer_.put(size);
+    writer_.put<std::uint32_t>(0);
+    writer_.put_text(compression);
+    writer_.put<std::uint64_t>(packed.size());
+    writer_.put_bytes(packed);
+    writer_.end();
+    return *this;
+  }
+  /// With its end, but without a summary.
+  void write(const std::string& path) {
+    writer_.begin(mcap::Kind::data_end);
+    writer_.put<std::uint32_t>(0);
+    writer_.end();
+    write_bytes(path, bytes_);
+  }
+
+ private:
+  Bytes bytes_;
+  mcap::RecordWriter writer_;
+};
+
+}  // namespace barehand::test
