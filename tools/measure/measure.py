@@ -48,7 +48,7 @@ def measure(tree, runner, name):
         raise ClaimError(f"{name} is measured by hand: its commands are on its page, its figures in "
                          f"{tree.results_path(name)}")
 
-    # Run what the claim says, and draw its figure.
+    # Run what the claim says.
     figure = claim.get("figure", {})
     rows = {}
     for row in claim["rows"]:
@@ -56,13 +56,13 @@ def measure(tree, runner, name):
         for run in claim["rows"][row].get("only", claim["runs"]):
             plots = f"--plots $OUT/runs/{name}.plots" if figure.get("run") == f"{row}.{run}" else ""
             rows[row][run] = runner.measure_run(f"{name}.{row}.{run}", merged(claim, row, run), plots)
-    draw(runner, name, figure)
 
-    # Store what was found, and with what.
+    # Store what was found, and with what, before anything else can fail; then draw the figure.
     if not runner.printing:
         version = subprocess.run([runner.program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
         measured = {"version": version, "date": datetime.date.today().isoformat(), "machine": machine()}
         tree.store(name, {"measured": measured, "rows": rows})
+    draw(runner, name, figure)
 
 
 def draw(runner, name, figure):
