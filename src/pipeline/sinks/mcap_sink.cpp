@@ -9,18 +9,18 @@ constexpr std::int64_t kHealthPeriodUs = 1'000'000;
 }
 
 McapSink::McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
-                   Slot<PublishParams>* news)
-    : params_(params), file_(std::move(file)), input_(std::move(input)), clock_(clock), news_(news) {}
+                   Slot<PublishParams>* pending)
+    : params_(params), file_(std::move(file)), input_(std::move(input)), clock_(clock), pending_(pending) {}
 
 Result<std::unique_ptr<Sink>> McapSink::create(const PublishParams& params, const std::string& path, bool overwrite,
-                                               Input input, const Clock& clock, Slot<PublishParams>* news) {
+                                               Input input, const Clock& clock, Slot<PublishParams>* pending) {
   auto file = mcap::McapWriter::create(path, overwrite);
   if (!file) return tl::unexpected(file.error());
-  return std::unique_ptr<Sink>(new McapSink(params, std::move(*file), std::move(input), clock, news));
+  return std::unique_ptr<Sink>(new McapSink(params, std::move(*file), std::move(input), clock, pending));
 }
 
 Result<void> McapSink::consume(const TrackedFrame& tracked) {
-  if (const auto params = news_ ? news_->take() : std::nullopt) {
+  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
     params_ = *params;
     makers_.clear();
   }

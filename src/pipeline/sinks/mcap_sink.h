@@ -24,9 +24,9 @@ class McapSink : public Sink {
     std::function<PipelineHealth()> health;
     std::string source;  ///< FrameSource::name()
   };
-  /// `clock` and `news` (may be null; looked at before every frame) outlive it.
+  /// `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& path, bool overwrite,
-                                              Input input, const Clock& clock, Slot<PublishParams>* news = nullptr);
+                                              Input input, const Clock& clock, Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "MCAP file"; }
   Result<void> consume(const TrackedFrame& tracked) override;
   /// Without a frame there is no file.
@@ -34,13 +34,13 @@ class McapSink : public Sink {
 
  private:
   McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
-           Slot<PublishParams>* news);
+           Slot<PublishParams>* pending);
 
   PublishParams params_;
   std::unique_ptr<mcap::McapWriter> file_;
   const Input input_;
   const Clock& clock_;
-  Slot<PublishParams>* news_;
+  Slot<PublishParams>* pending_;
   std::vector<HandMessageMaker> makers_;     // one a hand
   std::int64_t frames_ = 0, health_us_ = 0;  // written; when the health was told, steady clock
 };
