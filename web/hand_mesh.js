@@ -71,14 +71,14 @@ export class HandMesh {
     }
   }
 
-  // `poses`: Matrix4 of every segment; null: no pose.
-  setPose(poses, segments) {
+  // `poses`: Matrix4 of every segment; null: no pose. `shares`: colours the segments instead of their confidence.
+  setPose(poses, segments, shares) {
     if (!this.mesh) return;
     this.mesh.visible = poses !== null;
     if (!poses) return;
     poses.forEach((pose, s) => {
       this.uniforms.bones.value[s].copy(pose);
-      this.uniforms.states.value[s].set(segments[s].confidence, segments[s].seen ? 1 : 0);
+      this.uniforms.states.value[s].set(shares ? shares[s] : segments[s].confidence, segments[s].seen ? 1 : 0);
     });
   }
 

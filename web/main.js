@@ -5,6 +5,7 @@ import {Meter, notice, showConnection, showHands, showHealth} from "./panels.js"
 import {Picture} from "./picture.js";
 import {Plots} from "./plots.js";
 import {Recorder} from "./recorder.js";
+import {coverage, showScan} from "./scan.js";
 import {Timeline} from "./timeline.js";
 
 const byId = (id) => document.getElementById(id);
@@ -51,6 +52,8 @@ const connection = new Connection({
     timeline.show(message.log);
     applyRoom();
     recorder.show(message.record);
+    showScan(message.scan || null);
+    if (scene) scene.options.coverage = coverage(message.scan);
   },
   async onFrame(frame) {
     for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins.push(skin);
@@ -97,10 +100,12 @@ function showPicture(frame) {
 
 // What the user must know, most important first; "": all is well.
 function problem() {
+  const scan = status && status.scan ? status.scan.phase : "";
+  if (!open && scan === "done") return "The calibration is done and the program has ended. The result stays here until you leave the page.";
   if (!open) return "No connection to Barehand. Is it still running? The page connects again by itself.";
   if (status && status.trouble) return status.trouble;
   if (sceneProblem) return sceneProblem;
-  if (state.freeze) return "";
+  if (state.freeze || scan === "measuring" || scan === "done") return "";
   const paused = status && status.log && !status.log.playing;
   if (!shown || (performance.now() - frameAt > kSlowFrameMs && !paused)) return "Waiting for frames.";
   if (shown.states.some((s) => s.has_pose)) return "";
@@ -139,7 +144,7 @@ function applyState() {
   connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
   if (!scene) return;
   if (scene.view !== state.view) scene.setView(state.view);
-  scene.options = {smoothed: !state.raw, ellipsoids: state.ellipsoids, floor: state.floor};
+  Object.assign(scene.options, {smoothed: !state.raw, ellipsoids: state.ellipsoids, floor: state.floor});
   if (!shown) return;
   showPicture(shown);
   scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);

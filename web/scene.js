@@ -47,7 +47,7 @@ export class Scene {
     this.setRoom(null);
 
     this.view = "follow";
-    this.options = {smoothed: true, ellipsoids: false, floor: true};
+    this.options = {smoothed: true, ellipsoids: false, floor: true, coverage: null};
     this.ground = new THREE.Color();
     this.picture = null;  // texture behind the sensor's view
     this.header = null;
@@ -148,7 +148,7 @@ export class Scene {
     for (const side of [0, 1]) {
       const state = frame.states.find((s) => s.handedness === side && s.has_pose);
       const poses = state ? state.segments.map((s) => poseMatrix(s, this.options.smoothed)) : null;
-      this.hands[side].setPose(poses, state && state.segments);
+      this.hands[side].setPose(poses, state && state.segments, this.options.coverage);
       this.ellipsoids[side].set(state && this.options.ellipsoids ? state.segments : null, this.options.smoothed);
       if (state) centres.push(new THREE.Vector3(...state.segments[0].smoothed_distal));
     }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "hand/profile.h"
 #include "hand/skin.h"
@@ -10,6 +11,7 @@
 #include "support/child_process.h"
 #include "support/quick_config.h"
 #include "support/temp_folder.h"
+#include "web/web_client.h"
 
 namespace barehand {
 namespace {
@@ -53,6 +55,49 @@ TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
   EXPECT_EQ(hand->origin, ProfileOrigin::measured);
   ASSERT_TRUE(hand->scanned_skin);
   EXPECT_GT(hand->scanned_skin->vertices.size(), 300u);
+}
+
+/// The scan in the next status that has one; null: the page is gone.
+nlohmann::json next_scan(test::SocketClient& client) {
+  while (const auto text = client.text()) {
+    const auto status = nlohmann::json::parse(*text);
+    if (status["type"] == "status" && !status["scan"].is_null()) return status["scan"];
+  }
+  return nullptr;
+}
+
+TEST_F(Calibrate, CanBeFollowedOnThePage) {
+  // Look on.
+  auto arguments = calibrate("sim:scan,frames=60,width=320,height=240");
+  arguments.push_back("--view=0");
+  ChildProcess child(arguments);
+  ASSERT_TRUE(child.wait_for(" in a browser to see")) << child.output();
+  const std::string url = "http://localhost:";
+  test::SocketClient client(std::stoi(child.output().substr(child.output().find(url) + url.size())));
+  std::vector<std::string> phases;
+  nlohmann::json scan, last;
+  for (scan = next_scan(client); !scan.is_null(); scan = next_scan(client)) {
+    last = scan;
+    if (phases.empty() || phases.back() != scan["phase"]) phases.push_back(scan["phase"]);
+  }
+  ASSERT_EQ(child.finish(), 0) << child.output();
+
+  // The last status says what the profile says.
+  ASSERT_FALSE(phases.empty());
+  EXPECT_EQ(phases.front(), "showing");
+  EXPECT_EQ(phases.back(), "done");
+  const auto hand = load_profile(profile_);
+  ASSERT_TRUE(hand) << hand.error().message();
+  ASSERT_EQ(last["segments"].size(), static_cast<std::size_t>(kSegmentCount));
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto& segment = last["segments"][static_cast<std::size_t>(s)];
+    EXPECT_EQ(segment["name"], kSegmentNames[s]);
+    EXPECT_NEAR(segment["before"].get<double>(), test::adult_hand()->segments[s].length, 1e-6) << s;
+    EXPECT_NEAR(segment["after"].get<double>(), hand->segments[s].length, 1e-6) << s;
+  }
+  EXPECT_EQ(last["frames"], 60);
+  EXPECT_THAT(last["missing"].dump(), HasSubstr("show the back of: palm"));
+  EXPECT_THAT(last["progress"].get<std::string>(), HasSubstr("Saved in " + profile_));
 }
 
 TEST_F(Calibrate, AMeasuredHandKeepsItsJointsAndGetsASkinOfWhatWasShown) {

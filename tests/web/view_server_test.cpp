@@ -133,6 +133,15 @@ TEST_F(ViewServerTest, TellsTheStatusToThoseWhoComeLater) {
   EXPECT_EQ(nlohmann::json::parse(client.text().value())["source"], "here");
 }
 
+TEST_F(ViewServerTest, ALastWordReachesThoseWhoReadBeforeTheEnd) {
+  SocketClient client(port());
+  wait_until_heard(client);
+  server_->show_status(R"({"type": "status", "source": "the last"})");
+  server_->flush(std::chrono::seconds(20));
+  server_.reset();
+  EXPECT_EQ(nlohmann::json::parse(client.text().value())["source"], "the last");
+}
+
 TEST_F(ViewServerTest, HandsCommandsOn) {
   SocketClient client(port());
   client.send(R"({"type": "seek", "value": 12})");

@@ -62,7 +62,7 @@ TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
   ASSERT_TRUE(server) << server.error().message();
   const PublishParams params;
-  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }, {}, "DESK_", &recorder}, clock);
+  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }, {}, {}, "DESK_", &recorder}, clock);
   const TrackedFrame frame = tracked(3'000'000);
   ASSERT_TRUE(sink.consume(tracked(2'900'000))) << "before";
   ASSERT_TRUE(recorder.start(1));
@@ -94,7 +94,7 @@ TEST(ViewSink, TellsTheStateOfTheRecorderAtOnce) {
   LogRecorder recorder({folder.path()}, make_silent_logger(), clock);
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
   ASSERT_TRUE(server);
-  ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }, {}, "", &recorder}, time);
+  ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }, {}, {}, "", &recorder}, time);
   const std::string& url = (*server)->url();
   SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
   ASSERT_TRUE(sink.idle());

@@ -9,6 +9,19 @@ namespace {
 
 using nlohmann::json;
 
+TEST(ViewStatus, TellsHowFarAScanIs) {
+  ViewState state;
+  EXPECT_TRUE(json::parse(status_json(state))["scan"].is_null()) << "no hand is being scanned";
+  state.scan =
+      ViewScan{ViewScan::Phase::measuring, "Open the hand.", {"show the back of: palm"}, "round 2", 7, 15, 0.5, {}};
+  state.scan->segments.push_back({"palm", 3, 4, 0.25, true, 0.09, 0.1});
+  const json scan = json::parse(status_json(state))["scan"];
+  EXPECT_EQ(scan,
+            json::parse(R"({"phase": "measuring", "how_to": "Open the hand.", "missing": ["show the back of: palm"],
+    "progress": "round 2", "frames": 7, "enough_frames": 15, "enough_bending": 0.5, "segments": [{"name": "palm",
+    "palm_side": 3, "back_side": 4, "bent": 0.25, "to_bend": true, "before": 0.09, "after": 0.1}]})"));
+}
+
 TEST(ViewStatus, TellsTheRoomRowByRow) {
   ViewState state;
   EXPECT_TRUE(json::parse(status_json(state))["T_world_camera"].is_null()) << "not known";

@@ -7,10 +7,13 @@
 #include <memory>
 #include <optional>
 
+#include "app/calibrate/scan_page.h"
 #include "app/calibrate/scan_report.h"
 #include "app/shared/outputs.h"
 #include "app/shared/run_inputs.h"
+#include "app/track/track_command.h"
 #include "app/track/track_run.h"
+#include "core/format.h"
 #include "core/parallel/parallel.h"
 #include "io/hand/hand_json.h"
 #include "io/place.h"
@@ -96,7 +99,8 @@ void print(std::FILE* out, const ScanReport& report, const HandProfile& start, c
 }
 
 /// Scans the skin from the frames that were kept; none if they do not suffice.
-std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads) {
+std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads,
+                                   ScanPage& page) {
   // Too few frames do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
@@ -106,9 +110,11 @@ std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, d
 
   // Scan, and report the progress.
   Workers workers(threads);
-  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [](const ScanProgress& progress) {
-    std::fprintf(stderr, "skin and joints: round %d of %d, mean error before it %.2f mm\n", progress.round,
-                 progress.rounds, progress.mismatch * 1e3);
+  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [&](const ScanProgress& progress) {
+    const std::string text = formatted("skin and joints: round %d of %d, mean error before it %.2f mm", progress.round,
+                                       progress.rounds, progress.mismatch * 1e3);
+    std::fprintf(stderr, "%s\n", text.c_str());
+    page.measuring("Measuring " + text + ".");
   });
 
   if (hand)
@@ -116,6 +122,59 @@ std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, d
   else
     std::fputs("the skin cannot be measured in these frames; the result is the fitted hand alone\n", stderr);
   return hand;
+}
+
+struct Measured {
+  HandProfile hand;
+  bool skin = false;  ///< was measured, too
+};
+
+/// Scans the skin, and saves the profile that comes of it: as scanned, or else as fitted. Errors: it cannot be saved.
+Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSink::Scan& scan, double cell,
+                         ScanPage& page) {
+  // Save the fitted hand before the scan, which takes a while. From a pipe it could not be taken back.
+  const bool once = target_of(o.out).direct;
+  if (!once)
+    if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tl::unexpected(saved.error());
+
+  // Scan the skin.
+  page.measuring("Measuring the skin and the joints.");
+  const auto hand = scanned(out, scan, cell, o.track.threads, page);
+  const Measured result{hand ? *hand : *scan.profile, hand.has_value()};
+  if (hand || once)
+    if (const auto saved = save_profile(result.hand, o.out); !saved) return tl::unexpected(saved.error());
+  return result;
+}
+
+/// Makes a profile of what was shown while tracking, and tells of it. Returns the exit code.
+int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, const HandProfile& start,
+             const ScanSink::Scan& scan, const TrackOutcome& tracked) {
+  // Without a hand there is nothing to measure.
+  ViewState state;
+  state.source = o.track.source;
+  state.T_world_camera = world_from(config.world).value_or(std::nullopt);
+  state.scan = view_scan(kHowTo, scan.report, start, start);
+  ScanPage page(tracked.page ? &tracked.page->server() : nullptr, std::move(state));
+  if (!scan.profile) {
+    page.done("No hand was tracked, so nothing is saved.", nullptr);
+    if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
+    return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
+                kExitFailure);
+  }
+
+  const auto result = measure(out, o, scan, config.tracker.skin_cell, page);
+  if (!result) {
+    page.done("The profile is not saved: " + result.error().message(), nullptr);
+    return tell(result.error(), kExitFailure);
+  }
+
+  // Tell what came of it.
+  print(out, scan.report, start, result->hand);
+  page.done(formatted("Saved in %s%s. The hand is %.0f mm long, %.0f mm before.", o.out.c_str(),
+                      result->skin ? ", with a skin of its own" : "; the skin could not be measured",
+                      result->hand.hand_length() * 1e3, start.hand_length() * 1e3),
+            &result->hand);
+  return tracked.stopped ? static_cast<int>(kExitOk) : tracked.exit_code;
 }
 
 int run(const CalibrateOptions& o) {
@@ -141,26 +200,11 @@ int run(const CalibrateOptions& o) {
   track_options.hands = {o.hand};
   track_options.saved_later = o.out;
   std::cerr << kHowTo << std::endl;
-  const auto tracked = track(track_options, *config, {}, std::move(sinks));
+  const HandProfile& start = *hands->front().profile;
+  const auto shown = [&] { return view_scan(kHowTo, scan.report, start, scan.profile ? *scan.profile : start); };
+  const auto tracked = track(track_options, *config, {}, std::move(sinks), shown);
   if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
-  if (!scan.profile && tracked->exit_code == kExitFailure) return tracked->exit_code;  // track() has reported why
-  if (!scan.profile)
-    return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
-                kExitFailure);
-
-  // Save the fitted hand before the scan, which takes a while. In a pipe, the scanned hand could not replace it, so a
-  // pipe gets the final result only.
-  const bool once = target_of(o.out).direct;
-  if (!once)
-    if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tell(saved.error(), kExitFailure);
-
-  // Scan the skin.
-  const auto hand = scanned(out, scan, config->tracker.skin_cell, o.track.threads);
-  if (hand || once)
-    if (const auto saved = save_profile(hand ? *hand : *scan.profile, o.out); !saved)
-      return tell(saved.error(), kExitFailure);
-  print(out, scan.report, *hands->front().profile, hand ? *hand : *scan.profile);
-  return tracked->stopped ? static_cast<int>(kExitOk) : tracked->exit_code;
+  return conclude(out, o, *config, start, scan, *tracked);
 }
 
 }  // namespace
@@ -185,6 +229,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   // Add options for how the hand is tracked.
   calibrate->add_option("--config", o.track.config, "as for track")->capture_default_str();
   calibrate->add_option("--overlay", o.track.overlay, "as for track, to check the fitted hand");
+  add_view_options(*calibrate, o.track);
   add_overwrite_option(*calibrate, o.track.overwrite);
   calibrate->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
   calibrate->add_option("--threads", o.track.threads, "cores to use; results do not depend on it")

@@ -40,9 +40,7 @@ std::vector<std::string> ScanReport::missing() const {
     const std::string name(kSegmentNames[s]);
     if (segment.palm_side < kEnoughFrames) palm_sides.push_back(name);
     if (segment.back_side < kEnoughFrames) back_sides.push_back(name);
-    // The thumb's metacarpal moves too little to be asked for.
-    if (s != kPalm && s != segment_of(0, 0) && segment.most_bent - segment.least_bent < kEnoughBending)
-      stiff.push_back(name);
+    if (asks_to_bend(s) && segment.most_bent - segment.least_bent < kEnoughBending) stiff.push_back(name);
   }
 
   // Ask for it, one sentence per kind.

@@ -23,6 +23,9 @@ class ScanReport {
   static constexpr int kEnoughFrames = 15;       ///< frames that must show each side of a segment
   static constexpr double kEnoughBending = 0.5;  ///< range of flexion that a joint must show [rad]
 
+  /// Whether bending the joint of segment `s` is asked for: the thumb's metacarpal moves too little.
+  static bool asks_to_bend(int s) { return s != kPalm && s != segment_of(0, 0); }
+
   /// Adds a frame; frames in which the hand is not tracked are ignored.
   void add(const HandEstimate& estimate);
 

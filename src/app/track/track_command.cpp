@@ -10,6 +10,22 @@
 
 namespace barehand {
 
+void add_view_options(CLI::App& command, TrackOptions& o) {
+  command
+      .add_option("--view", o.view,
+                  "serve a page that shows the tracked hand, at this PORT or ADDRESS:PORT (0.0.0.0:8765: to the whole "
+                  "network); without one at http://localhost:8765")
+      ->expected(0, 1)
+      ->default_str("8765")
+      ->type_name("[PORT]");
+  command.add_option("--view-origin", o.view_origins,
+                     "origin of another web page that may connect, such as https://example.org");
+  command.add_option(
+      "--view-record", o.view_record,
+      "folder into which the page's button records, as LCM logs named by their time; default: it records "
+      "nothing");
+}
+
 void add_track_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TrackOptions>();
   TrackOptions& o = *options;
@@ -49,18 +65,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
-  track
-      ->add_option("--view", o.view,
-                   "serve a page that shows the tracked hand, at this PORT or ADDRESS:PORT (0.0.0.0:8765: to the whole "
-                   "network); without one at http://localhost:8765")
-      ->expected(0, 1)
-      ->default_str("8765")
-      ->type_name("[PORT]");
-  track->add_option("--view-origin", o.view_origins,
-                    "origin of another web page that may connect, such as https://example.org");
-  track->add_option("--view-record", o.view_record,
-                    "folder into which the page's button records, as LCM logs named by their time; default: it records "
-                    "nothing");
+  add_view_options(*track, o);
   track
       ->add_flag("--print-config{user}", o.print_config,
                  "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "

@@ -6,6 +6,11 @@ class App;
 
 namespace barehand {
 
+struct TrackOptions;
+
+/// Adds the options of the live page, which calibrate has, too.
+void add_view_options(CLI::App& command, TrackOptions& options);
+
 /// Adds `barehand track`, the daemon. After it has run, `exit_code` holds its result (exit_code.h).
 void add_track_command(CLI::App& app, int& exit_code);
 

@@ -52,10 +52,11 @@ constexpr double kUsualRate = 30;  // frame rate of a video if that of the sourc
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread,
-           std::vector<std::unique_ptr<Sink>> more)
+           std::vector<std::unique_ptr<Sink>> more, std::function<ViewScan()> scan)
       : options_(options),
         config_(config),
         reread_(std::move(reread)),
+        scan_(std::move(scan)),
         log_(make_logger(), clock_),
         reload_(config, pending_),
         interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()),
@@ -94,6 +95,7 @@ class TrackRun {
   TrackOptions options_;
   const Config& config_;
   const std::function<Result<Config>()> reread_;
+  const std::function<ViewScan()> scan_;
   SystemClock clock_;
   RepeatLog log_;
   ServiceManager service_{clock_};
@@ -109,8 +111,7 @@ class TrackRun {
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
   PipeReaders readers_;
-  std::unique_ptr<LogRecorder> recorder_;  // null: nothing can be recorded from the page
-  std::unique_ptr<ViewServer> view_;       // null: nobody wants it, or it could not be started
+  std::unique_ptr<LivePage> page_;  // null: nobody wants it, or it could not be served
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -126,10 +127,7 @@ Step TrackRun::prepare() {
   const auto world = world_from(config_.world);
   if (!world) return usage(world.error());
   world_ = *world;
-  if (!options_.view_record.empty()) {
-    if (!options_.view) return usage({"records from the live page", "--view-record", "give --view, too"});
-    if (const auto good = LogRecorder::check_folder(options_.view_record); !good) return usage(good.error());
-  }
+  if (const auto good = LivePage::check(options_); !good) return usage(good.error());
   return open_input()
       .and_then([&] { return use_hands(); })
       .and_then([&] { return choose_start(); })
@@ -286,27 +284,24 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
 /// Starts the server of the live page. The page is optional: if the server cannot be started, tracking continues
 /// without.
 Step TrackRun::open_view() {
-  const auto address = parse_web_address(*options_.view);
-  if (!address) return usage(address.error());
-  if (!options_.view_record.empty())
-    recorder_ = std::make_unique<LogRecorder>(LogRecorder::Options{options_.view_record}, log_.shared_logger(), clock_);
-  auto view = ViewServer::start({*address, options_.view_origins, {}, recorder_.get()}, clock_);
-  if (!view) {
-    log_.logger().error("{}; tracking goes on without the page", view.error().message());
+  auto page = LivePage::open(options_, log_.shared_logger());
+  if (!page) {
+    log_.logger().error("{}; tracking goes on without the page", page.error().message());
     return {};
   }
-  view_ = std::move(*view);
-  log_.logger().info("open {} in a browser to see the hand", view_->url());
+  page_ = std::move(*page);
+  log_.logger().info("open {} in a browser to see the hand", page_->server().url());
   ViewSink::Input input{
-      input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_,
-      config_.run.channel_prefix, recorder_.get()};
-  sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &pending_.view));
+      input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,
+      config_.run.channel_prefix, page_->recorder()};
+  sinks_.push_back(
+      std::make_unique<ViewSink>(config_.publish, page_->server(), std::move(input), clock_, &pending_.view));
   return {};
 }
 
 /// Adds the queue of frames for the live page.
 PipelineHealth TrackRun::with_view(PipelineHealth health) const {
-  if (view_) health.queues.push_back(view_->health());
+  if (page_) health.queues.push_back(page_->server().health());
   return health;
 }
 
@@ -367,7 +362,7 @@ TrackOutcome TrackRun::run() {
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
   const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
-  return {with_view(result.health), progress_->counts(), seconds, result.stopped, conclude(result)};
+  return {with_view(result.health), progress_->counts(), seconds, result.stopped, conclude(result), std::move(page_)};
 }
 
 int TrackRun::conclude(const RunResult& result) {
@@ -428,8 +423,9 @@ int tell(const TrackFailure& failure) {
 
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread,
-                                               std::vector<std::unique_ptr<Sink>> more) {
-  TrackRun run(options, config, std::move(reread), std::move(more));
+                                               std::vector<std::unique_ptr<Sink>> more,
+                                               std::function<ViewScan()> scan) {
+  TrackRun run(options, config, std::move(reread), std::move(more), std::move(scan));
   if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
   return run.run();
 }

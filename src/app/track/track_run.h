@@ -3,7 +3,9 @@
 #include <functional>
 
 #include "app/shared/exit_code.h"
+#include "app/track/live_page.h"
 #include "app/track/track_options.h"
+#include "io/web/view_scan.h"
 #include "pipeline/config.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/progress.h"
@@ -24,16 +26,19 @@ struct TrackOutcome {
   double seconds = 0;                ///< duration of the run [s]
   bool stopped = false;              ///< by a signal; everything tracked until then is written
   int exit_code = kExitOk;
+  std::unique_ptr<LivePage> page;  ///< still served; null: nobody wants it, or it could not be
 };
 
 /// Tracks with `config` and `options`. Of the latter, seed and print_config are not used, and config only to protect
 /// its file from the outputs. Progress and log go to standard error, nothing to standard output. All input is checked
 /// before the first output file is touched. `reread` returns the configuration as it is now; a run over live frames
 /// calls it at SIGHUP. Without it, and over a recording, SIGHUP ends the run as SIGTERM does. `more`: sinks in addition
-/// to those of the options.
+/// to those of the options. `scan` returns what the live page shows of a scan; it is called on the thread of the sinks;
+/// empty: no hand is being scanned.
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread = {},
-                                               std::vector<std::unique_ptr<Sink>> more = {});
+                                               std::vector<std::unique_ptr<Sink>> more = {},
+                                               std::function<ViewScan()> scan = {});
 
 /// Runs `barehand track` and returns its exit code (exit_code.h). Errors are printed to standard error; so is the final
 /// summary if an output goes to standard output, where it is printed otherwise.

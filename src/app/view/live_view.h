@@ -15,9 +15,9 @@ namespace barehand {
 class LiveView {
  public:
   struct Options {
-    std::string prefix;                 ///< of the tracker's channels
-    std::optional<SE3> T_world_camera;  ///< none: the room is not known
-    LogRecorder* recorder = nullptr;    ///< null: nothing can be recorded. Must outlive the view
+    std::string prefix;                      ///< of the tracker's channels
+    std::optional<SE3> T_world_camera = {};  ///< none: the room is not known
+    LogRecorder* recorder = nullptr;         ///< null: nothing can be recorded. Must outlive the view
   };
   /// `server` and `clock` must outlive the view.
   LiveView(std::shared_ptr<LcmBus> bus, Options options, ShownHands hands, ViewServer& server, const Clock& clock);

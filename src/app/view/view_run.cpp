@@ -134,9 +134,10 @@ int view_network(const ViewOptions& options, const WebAddress& address, Shown sh
   auto bus = LcmBus::open(options.lcm_url);
   if (!bus) return tell(bus.error(), kExitFailure);
   const SystemClock clock;
+  constexpr std::size_t kWaiting = 120;  // messages; a frame has four
   std::unique_ptr<LogRecorder> recorder;
   if (!options.record.empty())
-    recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record}, make_logger(), clock);
+    recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record, kWaiting}, make_logger(), clock);
   auto server = ViewServer::start({address, options.origins, {}, recorder.get()}, clock);
   if (!server) return tell(server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()

@@ -111,9 +111,12 @@ void LogRecorder::run(LcmLogWriter& log) {
   }
 
   const RecorderState done = close(written && log.events() == 0);
-  log_->info("recorded {} frames to {}/{}, {:.1f} s, {} dropped. {}", done.frames, done.folder, done.file, done.seconds,
-             done.dropped, done.failed ? "" : done.note);
-  if (done.failed) log_->error("{}; tracking goes on", done.note);
+  log_->info("recorded {} frames to {}/{}, {:.1f} s, {} dropped", done.frames, done.folder, done.file, done.seconds,
+             done.dropped);
+  if (done.failed)
+    log_->error("{}; tracking goes on", done.note);
+  else if (!done.note.empty())
+    log_->info(done.note);
 }
 
 /// The file is whole, or as whole as it becomes.

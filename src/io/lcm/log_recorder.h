@@ -40,7 +40,7 @@ class LogRecorder {
   using Write = std::function<Result<void>(MessageSink& log)>;
   struct Options {
     std::string folder;
-    std::size_t capacity = 64;  ///< entries that may wait
+    std::size_t capacity = 30;  ///< entries that may wait, each with a frame in memory
   };
 
   /// Errors: `folder` is no folder that can be written to.

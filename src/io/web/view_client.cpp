@@ -83,6 +83,11 @@ void ViewClient::post_status(StatusText status) {
   changed_.notify_all();
 }
 
+bool ViewClient::is_told() const {
+  const std::lock_guard lock(mutex_);
+  return broken_ || (!next_.status && !sending_);
+}
+
 QueueHealth ViewClient::health() const {
   const std::lock_guard lock(mutex_);
   return {"view", 1, next_.frame ? 1u : 0u, pushed_, popped_, dropped_, {}};
@@ -91,9 +96,10 @@ QueueHealth ViewClient::health() const {
 void ViewClient::run() {
   Due due;
   while (wait(due)) {
-    if (send(due)) continue;
+    const bool sent = send(due);
     const std::lock_guard lock(mutex_);
-    broken_ = true;
+    sending_ = false;
+    if (!sent) broken_ = true;
   }
 }
 
@@ -118,6 +124,7 @@ bool ViewClient::wait(Due& due) {
       changed_.wait(lock);
   }
   if (ending_) return false;
+  sending_ = true;
   due.status = std::exchange(next_.status, nullptr);
   due.reply = std::exchange(next_.reply, nullptr);
   due.wish = next_.wish;

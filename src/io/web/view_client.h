@@ -35,6 +35,8 @@ class ViewClient : public WebPeer {
   /// Any thread, at once. A frame that waits is replaced and counted as dropped.
   void post(ViewFramePtr frame);
   void post_status(StatusText status);
+  /// Whether the last status has been sent; nothing more can be sent to a client that is gone.
+  bool is_told() const;
   /// Frames of this client; a capacity of one.
   QueueHealth health() const;
 
@@ -66,7 +68,7 @@ class ViewClient : public WebPeer {
   int under_way_ = 0;            // sent and not acknowledged
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
   std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
-  bool asked_ = false, ending_ = false, broken_ = false;
+  bool asked_ = false, sending_ = false, ending_ = false, broken_ = false;
 
   std::array<ViewSkinPtr, 2> skins_;  // sent last; sender's thread only, like the next one
   std::array<std::int64_t, 2> skin_sent_us_{};

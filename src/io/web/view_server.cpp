@@ -1,5 +1,8 @@
 #include "io/web/view_server.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "io/web/web_page.h"
 
 namespace barehand {
@@ -68,6 +71,16 @@ void ViewServer::show_status(std::string json) {
   const std::lock_guard lock(mutex_);
   status_ = status;
   for (ViewClient* client : clients_) client->post_status(status);
+}
+
+void ViewServer::flush(std::chrono::milliseconds patience) const {
+  const auto all_told = [&] {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::all_of(clients_, [](const ViewClient* client) { return client->is_told(); });
+  };
+  constexpr std::int64_t kStepMs = 5;
+  for (std::int64_t ms = 0; ms < patience.count() && !all_told(); ms += kStepMs)
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
 }
 
 QueueHealth ViewServer::health() const {

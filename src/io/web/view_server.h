@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -37,6 +38,8 @@ class ViewServer {
   void show(const ViewFramePtr& frame);
   /// Any thread: JSON, to those who are there and, until the next one, to those who come.
   void show_status(std::string json);
+  /// Waits until the last status has been sent to every client that reads, but no longer than `patience`.
+  void flush(std::chrono::milliseconds patience) const;
   /// Frames for clients since the start, of all of them together. The capacity is one frame a client.
   QueueHealth health() const;
 

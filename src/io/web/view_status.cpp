@@ -48,6 +48,27 @@ json transform_json(const SE3& T) {
   return numbers;
 }
 
+json scan_json(const ViewScan& scan) {
+  constexpr const char* kPhases[] = {"showing", "measuring", "done"};
+  json segments = json::array();
+  for (const ViewScanSegment& s : scan.segments)
+    segments.push_back({{"name", s.name},
+                        {"palm_side", s.palm_side},
+                        {"back_side", s.back_side},
+                        {"bent", s.bent},
+                        {"to_bend", s.to_bend},
+                        {"before", s.before},
+                        {"after", s.after}});
+  return {{"phase", kPhases[static_cast<int>(scan.phase)]},
+          {"how_to", scan.how_to},
+          {"missing", scan.missing},
+          {"progress", scan.progress},
+          {"frames", scan.frames},
+          {"enough_frames", scan.enough_frames},
+          {"enough_bending", scan.enough_bending},
+          {"segments", segments}};
+}
+
 json record_json(const RecorderState& record) {
   return {{"folder", record.folder},   {"recording", record.recording}, {"writing", record.writing},
           {"file", record.file},       {"frames", record.frames},       {"bytes", record.bytes},
@@ -66,6 +87,7 @@ std::string status_json(const ViewState& state) {
            {"health", state.health ? health_json(*state.health) : json()},
            {"log", state.log ? log_json(*state.log) : json()},
            {"T_world_camera", state.T_world_camera ? transform_json(*state.T_world_camera) : json()},
+           {"scan", state.scan ? scan_json(*state.scan) : json()},
            {"record", state.record ? record_json(*state.record) : json()}};
   return out.dump(-1, ' ', false, json::error_handler_t::replace);  // names of sources need not be UTF-8
 }

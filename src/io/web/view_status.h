@@ -7,6 +7,7 @@
 
 #include "core/statistics.h"
 #include "io/lcm/log_recorder.h"
+#include "io/web/view_scan.h"
 #include "math/se3.h"
 
 namespace barehand {
@@ -35,10 +36,11 @@ struct ViewState {
   bool live = false;    ///< frames come in real time
   std::string trouble;  ///< why nothing comes, a sentence; "": all is well
   int clients = 0;
-  std::optional<PipelineHealth> health;  ///< none: not known
-  std::optional<PlayedLog> log;          ///< none: nothing to play
-  std::optional<SE3> T_world_camera;     ///< none: the room is not known (sensor/camera_placement.h)
-  std::optional<RecorderState> record;   ///< none: there is nothing to record
+  std::optional<PipelineHealth> health;      ///< none: not known
+  std::optional<PlayedLog> log;              ///< none: nothing to play
+  std::optional<SE3> T_world_camera = {};    ///< none: the room is not known (sensor/camera_placement.h)
+  std::optional<ViewScan> scan = {};         ///< none: no hand is being scanned
+  std::optional<RecorderState> record = {};  ///< none: there is nothing to record
 };
 
 /// {"type": "status", ...}, as docs/view_protocol.md lists it. What is not known is null.

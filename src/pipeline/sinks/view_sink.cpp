@@ -95,7 +95,8 @@ ViewSkinPtr ViewSink::skin_of(const HandEstimate& estimate) {
 
 void ViewSink::show_status() {
   status_us_ = clock_.steady_us();
-  ViewState state{input_.source, input_.live, "", server_.clients(), {}, {}, input_.T_world_camera, {}};
+  ViewState state{input_.source, input_.live, "", server_.clients(), {}, {}, input_.T_world_camera};
+  if (input_.scan) state.scan = input_.scan();
   state.record = input_.recorder ? input_.recorder->state() : RecorderState{};
   shown_recording_ = state.record->recording;
   if (!server_.has_clients()) return server_.show_status(status_json(state));

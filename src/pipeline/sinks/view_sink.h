@@ -23,9 +23,10 @@ class ViewSink : public Sink {
     std::string source;  ///< FrameSource::name()
     bool live = false;   ///< FrameSource::live()
     std::function<PipelineHealth()> health;
-    std::optional<SE3> T_world_camera;  ///< none: the room is not known
-    std::string prefix;                 ///< of the channels in recordings
-    LogRecorder* recorder = nullptr;    ///< null: nothing can be recorded. Outlives the sink
+    std::optional<SE3> T_world_camera = {};  ///< none: the room is not known
+    std::function<ViewScan()> scan = {};     ///< empty: no hand is being scanned
+    std::string prefix = {};                 ///< of the channels in recordings
+    LogRecorder* recorder = nullptr;         ///< null: nothing can be recorded. Outlives the sink
   };
   /// `server`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,

@@ -1,0 +1,40 @@
+#include "app/calibrate/scan_page.h"
+
+namespace barehand {
+
+ViewScan view_scan(const std::string& how_to, const ScanReport& report, const HandProfile& start,
+                   const HandProfile& now) {
+  ViewScan scan;
+  scan.how_to = how_to;
+  scan.missing = report.missing();
+  scan.frames = report.frames();
+  scan.enough_frames = ScanReport::kEnoughFrames;
+  scan.enough_bending = ScanReport::kEnoughBending;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const ScannedSegment& seen = report.segment(s);
+    scan.segments.push_back({std::string(kSegmentNames[s]), seen.palm_side, seen.back_side,
+                             seen.most_bent - seen.least_bent, ScanReport::asks_to_bend(s), start.segments[s].length,
+                             now.segments[s].length});
+  }
+  return scan;
+}
+
+void ScanPage::done(const std::string& what, const HandProfile* result) {
+  for (int s = 0; s < kSegmentCount; ++s) {
+    ViewScanSegment& segment = state_.scan->segments[s];
+    segment.after = result ? result->segments[s].length : segment.before;
+  }
+  show(ViewScan::Phase::done, what);
+  constexpr std::chrono::seconds kPatience{1};
+  if (server_) server_->flush(kPatience);
+}
+
+void ScanPage::show(ViewScan::Phase phase, const std::string& progress) {
+  if (!server_) return;
+  state_.scan->phase = phase;
+  state_.scan->progress = progress;
+  state_.clients = server_->clients();
+  server_->show_status(status_json(state_));
+}
+
+}  // namespace barehand
