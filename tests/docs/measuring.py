@@ -105,6 +105,8 @@ class MeasuringTest(unittest.TestCase):
 
         # One comparison of two recordings, each tracked with a hand of its own.
         self.assertGreater(rows["states"]["measured"]["all_stated"], 0)
+        logs = [line.split("--states-log ")[1] for line in done.stdout.splitlines() if "--states-log" in line]
+        self.assertEqual(len(set(logs)), 2)
         self.assertIn("--hand $OUT/short_fist/hand.json", done.stdout)
         self.assertIn("--hand right", done.stdout)
 

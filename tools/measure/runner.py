@@ -77,26 +77,28 @@ class Runner:
         if "recording" not in how:
             raise ClaimError(f"{base.removeprefix('$OUT/runs/')}: says no recording, command or json")
         recordings = how["recording"] if isinstance(how["recording"], list) else [how["recording"]]
+
+        # Track each recording, and name what it is compared with.
         pairs = []
         for number, recording in enumerate(recordings):
-            if isinstance(how.get("hands"), list):  # one for each recording
+            if "hands" in how:  # one for each recording
                 how = {**how, "hand": how["hands"][number]}
-            if how.get("fingertips"):
-                result = self.track(base, recording, how, ("--result", ".csv"))
-                pairs += [f"--fingertips {recording}/fingertips_2d.csv --recording {recording} --hand {how['hand']} "
-                          f"--result {result}.csv"]
-            elif how.get("states"):
-                result = self.track(f"{base}.{os.path.basename(recording)}", recording, how, ("--states-log", ".lcmlog"))
-                pairs += [f"--truth {recording}/truth.csv --states {result}.lcmlog"]
-            else:
-                result = self.track(base, recording, how, ("--result", ".csv"))
-                pairs += [f"--truth {recording}/truth.csv --result {result}.csv"]
+            if how.get("states"):
+                result = self.track(f"{base}.{number}", recording, how, ("--states-log", ".lcmlog"))
+                pairs.append(f"--truth {recording}/truth.csv --states {result}.lcmlog")
+                continue
+            result = self.track(base, recording, how, ("--result", ".csv"))
+            labels = f"--fingertips {recording}/fingertips_2d.csv --recording {recording} --hand {how.get('hand')}"
+            pairs.append(f"{labels if how.get('fingertips') else f'--truth {recording}/truth.csv'} --result {result}.csv")
+
+        # Compare all together.
         line = f"barehand eval {' '.join(pairs)} --overwrite --json {base}.json {plots} {how.get('eval', '')}"
         self.run(" ".join(line.split()).replace("$RECORDING/", recordings[0] + "/"), base + ".eval.log")
         return result
 
     def repetition(self, base, how, plots):
         """The figures of one repetition of a run."""
+        # Run it.
         report, result = how.get("json", base + ".json"), None
         if "command" in how:
             self.run(how["command"].replace("$JSON", report), base + ".log")
@@ -106,6 +108,8 @@ class Runner:
             result = self.compare(base, how, plots)
         if self.printing:
             return {}
+
+        # Read what it wrote.
         try:
             found = figures.of_report(json.loads(read(self.place(report))), how.get("label"))
         except (OSError, KeyError, ValueError) as error:
