@@ -171,9 +171,9 @@ export class Scene {
   // Once a picture of the display, at the time `now` [ms].
   draw(now) {
     if (!this.changed) { this.drawnAt = undefined; return; }
+    if (this.drawnAt !== undefined) this.adapt(now - this.drawnAt);  // before it is drawn: another size empties the canvas
     this.changed = false;
     this.render();
-    if (this.drawnAt !== undefined) this.adapt(now - this.drawnAt);
     this.drawnAt = now;
   }
 

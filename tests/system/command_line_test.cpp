@@ -153,6 +153,25 @@ TEST(Track, StopsAtARoomThatIsNone) {
   }
 }
 
+TEST(Track, RecordsFromThePageOnlyIntoAFolder) {
+  const test::TempFolder folder;
+  test::write_text(folder / "file", "");
+  const std::vector<std::string> track = {"track", "--source", "sim:fist", "--no-publish", "--view-record"};
+  const std::vector<std::string> view = {"view", "--record"};
+  for (const auto& [command, rest, reason] :
+       {std::tuple(track, std::vector<std::string>{folder.path()}, "give --view, too"),
+        {track, {folder / "nowhere", "--view"}, "make the folder first"},
+        {track, {folder / "file", "--view"}, "is no folder"},
+        {view, {folder / "nowhere", "--lcm"}, "make the folder first"},
+        {view, {folder.path(), "a.lcmlog"}, "give --lcm instead of a log"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    const Outcome outcome = barehand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(reason));
+  }
+}
+
 TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);
