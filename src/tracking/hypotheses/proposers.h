@@ -18,9 +18,9 @@ class Proposers {
   Proposers(const TrackerContext& context, Choice& choice) : context_(context), choice_(choice) {}
 
   /// The best pose of up to `attempts` searches of the whole observation; fewer do where they settle it (FoundPoses),
-  /// none is needed where the detected hand is explained well. None: too little of a hand is seen, or nothing is
-  /// found. `frame`, the number of the frame, keys the random numbers.
-  std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, const Track& track,
+  /// none is needed where the detected hand is explained well. None: too little of a hand is seen, nothing is found,
+  /// or what is detected may be something else than a hand. `frame`, the number of the frame, keys the random numbers.
+  std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
                                      Effort effort, int attempts, std::uint32_t frame) const;
 
   /// A pose beside a followed one that explains the frame, where that is tentative or ambiguous, which means that it
@@ -33,6 +33,8 @@ class Proposers {
 
  private:
   std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
+  // The same with hidden joints at any angle.
+  std::optional<Hypothesis> at_detection(const HandObservation& observation, const HandModel& hand) const;
   // One search of the whole observation; `attempt` counts those of a frame.
   std::optional<Hypothesis> searched(const HandObservation& observation, const HandModel& hand, const Track& track,
                                      Effort effort, int attempt, std::uint32_t frame) const;
