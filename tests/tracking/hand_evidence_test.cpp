@@ -121,6 +121,12 @@ TEST(HandEvidence, AFrameAgainstAHandTakesBackWhatWasForIt) {
   EXPECT_EQ(evidence.add(7, kHere, 1), 1);
 }
 
+TEST(HandEvidence, FadesOverFramesWithoutADetection) {
+  HandEvidence evidence;
+  for (int frame = 1; frame <= 5; ++frame) evidence.add(frame, kHere, 1);
+  EXPECT_NEAR(evidence.add(105, kHere, 1), 1, 1e-3);
+}
+
 TEST(HandEvidence, WhatIsSeenElsewhereIsSomethingNew) {
   HandEvidence evidence;
   for (int frame = 1; frame <= 5; ++frame) evidence.add(frame, kHere, 1);

@@ -63,7 +63,7 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {
   if (frame != frame_) {
-    before_ = (centre - centre_).norm() < kApart ? kKept * sum_ : 0;
+    before_ = (centre - centre_).norm() < kApart ? std::pow(kKept, frame - frame_) * sum_ : 0;
     frame_ = frame;
   }
   centre_ = centre;

@@ -33,14 +33,13 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
   }
 
   // A pose, and other frames, may prove that it is one.
-  std::optional<Hypothesis> best = at_detection(observation, hand);
+  std::optional<Hypothesis> best = detected(observation, hand);
   if (log_odds < kCertainHand) {
     const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
     if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
   }
 
   // A detection that is explained well needs no search.
-  relax(observation, hand, best);
   if (best && choice_.judged_score(observation, *hand.profile, best->refined) < params.loss.recovered_score)
     return best;
 
@@ -86,18 +85,15 @@ void Proposers::uncross(const HandObservation& observation, const HandModel& han
   if (choice_.replaces("uncross", *best, followed, -params.choice.uncross_allowance)) followed = std::move(*best);
 }
 
-std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
-  auto best = at_detection(observation, hand);
-  relax(observation, hand, best);
-  return best;
-}
-
 /// Inverse kinematics of the detected joints, then the ordinary refinement.
-std::optional<Hypothesis> Proposers::at_detection(const HandObservation& observation, const HandModel& hand) const {
+std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
   if (!observation.detected) return std::nullopt;
   const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
   if (!fit) return std::nullopt;
-  return best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
+  auto best =
+      best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
+  relax(observation, hand, best);
+  return best;
 }
 
 std::optional<Hypothesis> Proposers::searched(const HandObservation& observation, const HandModel& hand,

@@ -33,8 +33,6 @@ class Proposers {
 
  private:
   std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
-  // The same with hidden joints at any angle.
-  std::optional<Hypothesis> at_detection(const HandObservation& observation, const HandModel& hand) const;
   // One search of the whole observation; `attempt` counts those of a frame.
   std::optional<Hypothesis> searched(const HandObservation& observation, const HandModel& hand, const Track& track,
                                      Effort effort, int attempt, std::uint32_t frame) const;
