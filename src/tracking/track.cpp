@@ -31,6 +31,7 @@ void Track::forget() {
   last_good.reset();
   search_frames = 0;
   baseline.reset();
+  evidence.forget();
 }
 
 }  // namespace barehand

@@ -6,6 +6,7 @@
 #include "stages/prediction/motion_prediction.h"
 #include "stages/search/initialiser.h"
 #include "tracking/baseline_score.h"
+#include "tracking/hypotheses/hand_evidence.h"
 #include "tracking/hypotheses/hypothesis.h"
 #include "tracking/tracker_params.h"
 
@@ -18,6 +19,7 @@ struct Track {
   MotionModel motion;
   TrackState state;
   BaselineScore baseline;
+  HandEvidence evidence;              ///< that what is detected, and was not followed yet, is a hand
   std::optional<HandPose> last_good;  ///< T_camera_segment of the last frame that was explained well
   int ambiguous_frames = 0;           ///< number of ambiguous frames since the track began
   int search_frames = 0;              ///< number of frames with a search since the hand was last followed well

@@ -219,13 +219,17 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
 /// A hand whose joints are detected.
 class StartOfDetectedHand : public TwoHandTrackerTest {
  protected:
-  static HandObservationPtr detected(const HandProfile& profile, double flexion) {
+  /// What is certainly a hand, unless the heat map and the labels say less of it.
+  static HandObservationPtr detected(const HandProfile& profile, double flexion, double palm = 0.9, float odds = 6) {
     const HandPose pose = test::facing_pose(profile, 0.5, flexion);
     const auto observation = test::observe_skin(make_blended_skin(profile, 0.004), pose);
     DetectedHand hand;
     const auto joints = test::landmarks(profile, pose);
     for (int k = 0; k < kLandmarkCount; ++k) hand.joints[k] = {joints[k], 0.005 * 0.005 * Eigen::Matrix3d::Identity()};
+    hand.palm = palm;
     hand.right_log_odds = 3;
+    hand.labels.label.reset(1, 1, SurfaceLabel::hand);
+    hand.labels.hand_log_odds.reset(1, 1, odds);
     observation->detected = std::make_shared<const DetectedHand>(hand);
     return observation;
   }
@@ -286,6 +290,34 @@ TEST_F(StartOfDetectedHand, KeepsItsSizeWhereNoCopyExplainsItBetter) {
   for (int frame = 0; frame < 3; ++frame) next(tracker, hand);
   EXPECT_EQ(out.str(), "");
 }
+
+/// A detection that may be something else than a hand, `aside` [m] of what is explained well by one.
+class DoubtfulDetection : public StartOfDetectedHand {
+ protected:
+  /// The first of 40 frames that is tracked; 0: none is.
+  int first_tracked(double aside, double palm = 0.7) {
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, palm, 2));
+    auto joints = std::make_shared<DetectedHand>(*hand->detected);
+    for (DetectedJoint& joint : joints->joints) joint.position.x() += aside;
+    hand->detected = joints;
+    TwoHandTracker tracker(test::quick_tracker(), {right_}, 1, workers_);
+    for (int frame = 1; frame <= 40; ++frame)
+      if (next(tracker, hand)[0]->status == TrackStatus::tracking) return frame;
+    return 0;
+  }
+};
+
+TEST_F(DoubtfulDetection, IsAHandWhereAPoseExplainsIt) { EXPECT_EQ(first_tracked(0), 1); }
+
+TEST_F(DoubtfulDetection, IsAHandAfterSomeFramesWhereOneDoesNotDecide) {
+  const int first = first_tracked(0.025, 0.5);
+  EXPECT_GT(first, 1);
+  EXPECT_LT(first, 20);
+}
+
+TEST_F(DoubtfulDetection, IsNoneWhereThePoseThatExplainsItIsAnother) { EXPECT_EQ(first_tracked(0.045), 0); }
+
+TEST_F(DoubtfulDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, 0.3), 0); }
 
 }  // namespace
 }  // namespace barehand

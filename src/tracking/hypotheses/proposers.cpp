@@ -13,16 +13,33 @@ namespace {
 
 constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
 
+// Log odds of a hand (HandEvidence): below the first, no pose is worth refining; from the second on, a hand is searched
+// for; from the third on, the networks are believed without a pose that explains the frame.
+constexpr double kPossibleHand = 2.5, kProvenHand = 3.5, kCertainHand = 7.5;
+
 }  // namespace
 
-std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation, const HandModel& hand,
-                                              const Track& track, Effort effort, int attempts,
-                                              std::uint32_t frame) const {
+std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
+                                              Effort effort, int attempts, std::uint32_t frame) const {
   const TrackerParams& params = context_.params;
   if (static_cast<int>(observation.hand_pixels.size()) < params.loss.min_hand_pixels) return std::nullopt;
 
-  // A detection that is explained well needs no search.
+  // What was not followed yet may be no hand.
+  const DetectedHand* const unproven = track.was_followed() ? nullptr : observation.detected.get();
+  const double log_odds = unproven ? log_odds_of_hand(hand_cues(*unproven, *hand.profile)) : kCertainHand;
+  if (log_odds < kPossibleHand) {
+    track.evidence.forget();
+    return std::nullopt;
+  }
+
+  // A pose, and other frames, may prove that it is one.
   std::optional<Hypothesis> best = detected(observation, hand);
+  if (log_odds < kCertainHand) {
+    const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
+    if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
+  }
+
+  // A detection that is explained well needs no search.
   if (best && choice_.judged_score(observation, *hand.profile, best->refined) < params.loss.recovered_score)
     return best;
 

@@ -19,8 +19,9 @@ class Proposers {
 
   /// The best pose of up to `attempts` searches of the whole observation; fewer do where they settle it
   /// (RestartConsensus), none is needed where the detected hand is explained well. None: too little of a hand is seen,
-  /// or nothing is found. `frame`, the number of the frame, keys the random numbers.
-  std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, const Track& track,
+  /// nothing is found, or what is detected may be something else than a hand. `frame`, the number of the frame, keys
+  /// the random numbers.
+  std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
                                      Effort effort, int attempts, std::uint32_t frame) const;
 
   /// A pose beside a followed one that explains the frame, where that is tentative or ambiguous, which means that it

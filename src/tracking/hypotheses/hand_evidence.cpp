@@ -1,0 +1,74 @@
+#include "tracking/hypotheses/hand_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/search/inverse_kinematics.h"
+
+namespace barehand {
+namespace {
+
+// Weights of the logistic model.
+constexpr double kBias = -1.0, kOfPalm = 1.85, kOfSide = 0.35, kOfLabels = 0.55, kOfMisfit = -0.84, kOfScore = -1.57,
+                 kOfDistance = -2.3;
+// Beyond these values the cues say no more.
+constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 4, kLeastMisfit = 0.05;
+constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;  // m
+constexpr double kAllMatched = 0.3;  // fraction of the segments' skin, from which on the pose shows where joints are
+
+// Evidence over frames.
+constexpr double kKept = 0.9;    // of the sum, from frame to frame
+constexpr double kCounts = 0.2;  // share of the sum that is new to the present frame
+constexpr double kApart = 0.1;   // m, farther away something else is seen
+
+}  // namespace
+
+HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
+  HandCues cues;
+  cues.palm = detected.palm;
+  cues.side = std::abs(detected.right_log_odds);
+
+  // The labels.
+  double sum = 0;
+  int count = 0;
+  const LabelMap& labels = detected.labels;
+  for (std::size_t i = 0; i < labels.label.size(); ++i) {
+    if (labels.label[i] != SurfaceLabel::hand) continue;
+    constexpr float kSure = 20;
+    sum += std::min(kSure, labels.hand_log_odds[i]);
+    ++count;
+  }
+  if (count) cues.labels = sum / count;
+
+  // The joints: of a foot they have no hand's proportions.
+  const bool own_side = detected.side() == profile.handedness;
+  const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), detected.joints, kScaleDeviation);
+  cues.misfit = fit ? fit->cost : INFINITY;
+  return cues;
+}
+
+double log_odds_of_hand(const HandCues& cues) {
+  const double palm = std::clamp(cues.palm, kLeastPalm, kSurestPalm);
+  return kBias + kOfPalm * std::log(palm / (1 - palm)) + kOfSide * std::min(cues.side, kClearSide) +
+         kOfLabels * cues.labels + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
+}
+
+double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {
+  double matched = 0;
+  for (const double of_segment : refined.matched) matched += of_segment / kSegmentCount;
+  const double distance = std::max(kLeastDistance, mean_distance(profile, refined.pose, detected.joints));
+  return kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore) +
+         kOfDistance * std::min(1.0, matched / kAllMatched) * std::log(distance / kReferenceDistance);
+}
+
+double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {
+  if (frame != frame_) {
+    before_ = (centre - centre_).norm() < kApart ? std::pow(kKept, frame - frame_) * sum_ : 0;
+    frame_ = frame;
+  }
+  centre_ = centre;
+  sum_ = std::max(0.0, before_ + log_odds);
+  return log_odds + kCounts * before_;
+}
+
+}  // namespace barehand

@@ -1,0 +1,137 @@
+#include "tracking/hypotheses/hand_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include "support/painted_hand.h"
+#include "support/rendered_person.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kLots = 0.9;  // log odds that matter
+
+/// What the networks say of an ordinary hand.
+constexpr HandCues kHand{.palm = 0.8, .side = 4, .labels = 5, .misfit = 0.3};
+const Eigen::Vector3d kHere(0, 0, 0.6);
+
+TEST(HandCues, EachOneTellsAHandFromWhatIsTakenForOne) {
+  const double hand = log_odds_of_hand(kHand);
+  HandCues unlikely = kHand, sideless = kHand, blurred = kHand, misshapen = kHand;
+  unlikely.palm = 0.6;
+  sideless.side = 0.1;
+  blurred.labels = 1.5;
+  misshapen.misfit = 1.5;
+  for (const HandCues& cues : {unlikely, sideless, blurred, misshapen}) EXPECT_LT(log_odds_of_hand(cues), hand - kLots);
+}
+
+TEST(HandCues, OfAFollowedHandOrNoJointsAreNotInfinite) {
+  HandCues followed = kHand, nothing;
+  followed.palm = 1;
+  EXPECT_LT(log_odds_of_hand(followed), 15);
+  EXPECT_GT(log_odds_of_hand(nothing), -15);
+}
+
+/// A hand that was detected where it is.
+class CuesOfDetection : public testing::TestWithParam<Handedness> {
+ protected:
+  const std::shared_ptr<const HandProfile> profile_ = test::adult_hand(GetParam());
+  const HandPose pose_ = test::facing_pose(*profile_, 0.5, 0.3);
+  DetectedHand detected() const {
+    DetectedHand hand;
+    const auto joints = test::landmarks(*profile_, pose_);
+    for (int k = 0; k < kLandmarkCount; ++k) hand.joints[k] = {joints[k], 1e-4 * Eigen::Matrix3d::Identity()};
+    hand.right_log_odds = GetParam() == Handedness::right ? 3 : -3;
+    hand.labels.label.reset(2, 1, SurfaceLabel::hand);
+    hand.labels.hand_log_odds.reset(2, 1, 4);
+    hand.labels.label.at(1, 0) = SurfaceLabel::arm;
+    hand.labels.hand_log_odds.at(1, 0) = -9;
+    return hand;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Sides, CuesOfDetection, testing::Values(Handedness::right, Handedness::left));
+
+TEST_P(CuesOfDetection, AreTheSameForProfilesOfBothSides) {
+  for (const auto& profile : {test::adult_hand(), test::adult_hand(Handedness::left)}) {
+    const HandCues cues = hand_cues(detected(), *profile);
+    EXPECT_EQ(cues.side, 3);
+    EXPECT_FLOAT_EQ(cues.labels, 4) << "of what is called hand";
+    EXPECT_LT(cues.misfit, 0.1);
+  }
+}
+
+TEST_P(CuesOfDetection, JointsWithoutAHandsProportionsFitNone) {
+  DetectedHand foot = detected();
+  for (int finger = 0; finger < kFingerCount; ++finger)  // the toes are short
+    for (int k = 1; k < 4; ++k)
+      foot.joints[landmark_of(finger, k)].position = foot.joints[landmark_of(finger, 0)].position;
+  EXPECT_GT(hand_cues(foot, *profile_).misfit, 0.5);
+}
+
+TEST_P(CuesOfDetection, APoseCountsThatExplainsTheDataAtTheJoints) {
+  RefinedPose refined;
+  refined.pose = pose_;
+  refined.score = 0.002;
+  refined.matched.fill(0.8);
+  const double good = log_odds_of_pose(refined, *profile_, detected());
+
+  RefinedPose bad = refined, elsewhere = refined;
+  bad.score = 0.006;
+  for (SE3& T : elsewhere.pose) T.t.x() += 0.04;
+  EXPECT_LT(log_odds_of_pose(bad, *profile_, detected()), good - kLots);
+  EXPECT_LT(log_odds_of_pose(elsewhere, *profile_, detected()), good - kLots);
+
+  RefinedPose unseen = elsewhere;
+  unseen.matched.fill(0);
+  EXPECT_GT(log_odds_of_pose(unseen, *profile_, detected()), log_odds_of_pose(elsewhere, *profile_, detected()) + kLots)
+      << "joints that are not seen may be anywhere";
+}
+
+TEST(HandEvidence, OneFrameCountsAsItIs) {
+  HandEvidence evidence;
+  EXPECT_EQ(evidence.add(1, kHere, 5), 5);
+  EXPECT_EQ(HandEvidence().add(1, kHere, -5), -5);
+}
+
+TEST(HandEvidence, GrowsOverFramesButLessThanTheirSum) {
+  HandEvidence evidence;
+  double last = 0, total = 0;
+  for (int frame = 1; frame <= 10; ++frame) {
+    total = evidence.add(frame, kHere, 1);
+    EXPECT_GT(total, last);
+    last = total;
+  }
+  EXPECT_GT(total, 2);
+  EXPECT_LT(total, 4);
+}
+
+TEST(HandEvidence, AFrameCountsOnceHoweverOftenItIsLookedAt) {
+  HandEvidence once, often;
+  for (int frame = 1; frame <= 3; ++frame) {
+    const double total = once.add(frame, kHere, 1);
+    often.add(frame, kHere, 1);
+    EXPECT_EQ(often.add(frame, kHere, 1), total);
+  }
+}
+
+TEST(HandEvidence, AFrameAgainstAHandTakesBackWhatWasForIt) {
+  HandEvidence evidence;
+  for (int frame = 1; frame <= 5; ++frame) evidence.add(frame, kHere, 1);
+  evidence.add(6, kHere, -10);
+  EXPECT_EQ(evidence.add(7, kHere, 1), 1);
+}
+
+TEST(HandEvidence, FadesOverFramesWithoutADetection) {
+  HandEvidence evidence;
+  for (int frame = 1; frame <= 5; ++frame) evidence.add(frame, kHere, 1);
+  EXPECT_NEAR(evidence.add(105, kHere, 1), 1, 1e-3);
+}
+
+TEST(HandEvidence, WhatIsSeenElsewhereIsSomethingNew) {
+  HandEvidence evidence;
+  for (int frame = 1; frame <= 5; ++frame) evidence.add(frame, kHere, 1);
+  EXPECT_EQ(evidence.add(6, kHere + Eigen::Vector3d(0.2, 0, 0), 1), 1);
+}
+
+}  // namespace
+}  // namespace barehand
