@@ -284,6 +284,7 @@ Step TrackRun::open_view() {
     return {};
   }
   view_ = std::move(*view);
+  for (const auto& profile : profiles_) view_->know(profile);
   log_.logger().info("open {} in a browser to see the hand", view_->url());
   ViewSink::Input input{input_.source->name(), input_.source->live(), [this] { return pipeline_->health(); }};
   sinks_.push_back(std::make_unique<ViewSink>(config_.publish, *view_, std::move(input), clock_, &news_.view));

@@ -15,7 +15,7 @@
 namespace barehand {
 
 /// What the page may show of the messages on LCM.
-enum class MessageKind { hand_state, glove_state, health, frame, other };
+enum class MessageKind { hand_state, glove_state, hand_joints, health, frame, other };
 /// By the fingerprint of a message's type.
 MessageKind kind_of(std::int64_t hash);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/format.h"
+#include "stages/publish/health_message.h"
 
 namespace barehand {
 namespace {
@@ -57,9 +58,12 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
     const HandMessages messages = makers_[k].process(estimate);
     content.messages.push_back(encoded("HAND_STATE", messages.state));
     content.messages.push_back(encoded("GLOVE_STATE", messages.glove));
+    content.hands.push_back({messages.state, messages.glove, messages.joints});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as the page is told of it
+    content.health = health_message(input_.health(), clock_.utime(), input_.source);
   return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
 }
 
