@@ -90,6 +90,15 @@ TEST_F(McapFile, WhatAKilledProgramLeavesIsReadUpToItsLastChunk) {
   EXPECT_THAT(doubts_, ElementsAre(HasSubstr("was not finished")));
 }
 
+TEST_F(McapFile, ASlowCameraLosesNoMoreThanASecond) {
+  auto writer = McapWriter::create(path_, false).value();
+  const NewMessage one = message(0, 10);
+  for (const std::uint64_t time : {0, 500'000'000}) ASSERT_TRUE(writer->write({&one, 1}, time, 0));
+  EXPECT_EQ(std::filesystem::file_size(path_ + ".unfinished"), 0u);
+  ASSERT_TRUE(writer->write({&one, 1}, 1'000'000'000, 0));
+  EXPECT_GT(std::filesystem::file_size(path_ + ".unfinished"), 0u);
+}
+
 TEST_F(McapFile, ACutFileIsReadUpToItsLastChunk) {
   write(5);
   Bytes bytes = test::read_bytes(path_);

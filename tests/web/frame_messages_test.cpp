@@ -34,6 +34,18 @@ TEST(FrameMessages, BecomeAFrame) {
   EXPECT_EQ(frame_content(messages, hands, {}).skins[1], content.skins[1]) << "the same hand has the same skin";
 }
 
+TEST(FrameMessages, GiveViewersOfRosTheHandsThatAreWhole) {
+  const HandMessages made = messages_at(4'000'000);
+  std::vector<LcmMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
+  ShownHands hands = mean_hands();
+  EXPECT_TRUE(frame_content(messages, hands, {}).hands.empty()) << "its joints are missing";
+  messages.push_back({"C", encode_message(made.joints)});
+  const auto content = frame_content(messages, hands, {});
+  ASSERT_EQ(content.hands.size(), 1u);
+  EXPECT_EQ(content.hands[0].joints.radius[3], made.joints.radius[3]);
+  EXPECT_EQ(content.messages.size(), 2u) << "the page does without them";
+}
+
 TEST(FrameMessages, AreLeftOutWhereDamaged) {
   auto bytes = encode_message(messages_at(4'000'000).state);
   bytes.resize(bytes.size() / 2);

@@ -69,10 +69,13 @@ inline std::string upgrade(const std::string& headers) {
 /// A WebSocket client that keeps what it hears.
 class SocketClient {
  public:
-  explicit SocketClient(int port) {
+  /// `protocol`: the subprotocol to ask for; "": none.
+  explicit SocketClient(int port, const char* path = "/live", const std::string& protocol = "") {
     char error[200] = "";
-    connection_ = mg_connect_websocket_client("localhost", port, 0, error, sizeof error, "/live", nullptr, on_data,
-                                              on_close, this);
+    // The library has no argument for subprotocols, but takes the next header line behind the origin.
+    const std::string origin = "http://localhost\r\nSec-WebSocket-Protocol: " + protocol;
+    connection_ = mg_connect_websocket_client("localhost", port, 0, error, sizeof error, path,
+                                              protocol.empty() ? nullptr : origin.c_str(), on_data, on_close, this);
     EXPECT_NE(connection_, nullptr) << error;
   }
   ~SocketClient() {

@@ -290,6 +290,7 @@ Step TrackRun::open_view() {
     return {};
   }
   page_ = std::move(*page);
+  for (const auto& profile : profiles_) page_->server().know(profile);
   log_.logger().info("open {} in a browser to see the hand", page_->server().url());
   ViewSink::Input input{
       input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,

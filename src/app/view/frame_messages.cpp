@@ -1,6 +1,8 @@
 #include "app/view/frame_messages.h"
 
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "drivers/lcm/frame_message.h"
 #include "drivers/lcm/layouts.h"
@@ -19,6 +21,13 @@ double relative_size(const hand_state_t& state, const HandProfile& profile) {
   return tracked / own;
 }
 
+/// What has come of one hand.
+struct HandParts {
+  std::optional<hand_state_t> state;
+  std::optional<glove_state_t> glove;
+  std::optional<hand_joints_t> joints;
+};
+
 void add(ViewFrame::Content& content, const char* channel, const LcmMessage& message) {
   ViewMessage& added = content.messages.emplace_back();
   added.channel = channel;
@@ -30,6 +39,7 @@ void add(ViewFrame::Content& content, const char* channel, const LcmMessage& mes
 MessageKind kind_of(std::int64_t hash) {
   if (hash == hand_state_t::getHash()) return MessageKind::hand_state;
   if (hash == glove_state_t::getHash()) return MessageKind::glove_state;
+  if (hash == hand_joints_t::getHash()) return MessageKind::hand_joints;
   if (hash == health_t::getHash()) return MessageKind::health;
   return carries_frames(hash) ? MessageKind::frame : MessageKind::other;
 }
@@ -51,6 +61,7 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
                                  const GivenIntrinsics& foreign) {
   ViewFrame::Content content;
   FrameVector<Eigen::Vector3d> places;
+  std::map<std::int32_t, HandParts> parts;  // by hand_id
 
   // States and glove values are passed on as received; an image is decoded.
   for (const LcmMessage& message : messages) {
@@ -63,12 +74,21 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
       content.skins[state->handedness == hand_state_t::LEFT ? 0 : 1] = hands.skin_of(*state);
       for (const segment_state_t& segment : state->segments) places.push_back(Eigen::Vector3d(segment.position));
       add(content, "HAND_STATE", message);
+      parts[state->hand_id].state = *state;
     } else if (kind == MessageKind::glove_state) {
-      if (decode_message<glove_state_t>(message.bytes)) add(content, "GLOVE_STATE", message);
+      const auto glove = decode_message<glove_state_t>(message.bytes);
+      if (!glove) continue;
+      add(content, "GLOVE_STATE", message);
+      parts[glove->hand_id].glove = *glove;
+    } else if (kind == MessageKind::hand_joints) {
+      if (const auto joints = decode_message<hand_joints_t>(message.bytes)) parts[joints->hand_id].joints = *joints;
     } else if (kind == MessageKind::frame && !content.frame) {
       if (const auto frame = decode_frame_message(message.bytes, foreign, content.number)) content.frame = *frame;
     }
   }
+
+  for (const auto& [id, hand] : parts)
+    if (hand.state && hand.glove && hand.joints) content.hands.push_back({*hand.state, *hand.glove, *hand.joints});
 
   // Without states the image gives time and number.
   if (content.frame && content.messages.empty()) {

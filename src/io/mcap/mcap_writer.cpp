@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kChunkSize = 1 << 20;  // bytes before compression; more than one frame of most cameras
 constexpr std::string_view kZstd = "zstd";
 constexpr std::size_t kChunkFields = 9 + 8 + 8 + 8 + 4 + 4 + 4 + 8;  // of a chunk's record, before its messages
+constexpr std::uint64_t kChunkTime = 1'000'000'000;                  // ns; a crash loses no more of a slow camera
 constexpr int kLevel = 1;  // of zstd: a frame of a live camera takes milliseconds
 
 std::uint32_t crc_of(std::uint32_t before, const std::vector<std::uint8_t>& bytes) {
@@ -88,6 +89,7 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
   if (descriptor_ < 0) return fail("the file is finished, nothing more is written", path_);
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   const std::size_t before = records_.size();
+  if (index_.empty()) chunk_start_ = time;
   for (const NewMessage& message : messages) {
     const std::uint16_t channel = channel_of(message);
     index_[channel].push_back({time, records_.size()});
@@ -100,7 +102,8 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
     writer.put_bytes(message.bytes);
     writer.end();
   }
-  if (records_.size() < kChunkSize) return {};
+  const bool full = records_.size() >= kChunkSize || time - chunk_start_ >= kChunkTime;
+  if (!full) return {};
   auto written = write_chunk();
   if (!written) take_back(before);
   return written;

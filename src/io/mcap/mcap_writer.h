@@ -21,9 +21,9 @@ struct NewMessage {
 
 /// Writes an MCAP file of ROS 2 messages, indexed and in chunks compressed with zstd. It has its name when it is
 /// finished (WholeFile); the destructor finishes one that has messages and removes one without. A chunk is handed to
-/// the operating system as soon as it is full, so a crash loses what came after the last one. When a write fails (disk
-/// full) the file is cut back to its last whole chunk, and later messages may succeed. The same messages give the same
-/// bytes.
+/// the operating system when it has a megabyte or lasts a second, so a crash loses what came after the last one. When a
+/// write fails (disk full) the file is cut back to its last whole chunk, and later messages may succeed. The same
+/// messages give the same bytes.
 class McapWriter {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
@@ -73,9 +73,10 @@ class McapWriter {
   std::uint64_t written_back_ = 0;
   bool failed_ = false;  // a failed write could not be undone
 
-  Bytes records_;      // of the next chunk
-  Index index_;        // of its messages
-  Bytes new_records_;  // schemas and channels that are not in the file yet
+  Bytes records_;                  // of the next chunk
+  Index index_;                    // of its messages
+  std::uint64_t chunk_start_ = 0;  // time of the first of them
+  Bytes new_records_;              // schemas and channels that are not in the file yet
 
   std::vector<Bytes> schemas_, chunk_indexes_;
   std::vector<Channel> channels_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/frame_memory.h"
+#include "io/ros/ros_hand.h"
 #include "io/web/view_request.h"
 #include "io/web/view_skin.h"
 #include "sensor/rgbd_frame.h"
@@ -40,7 +41,9 @@ class ViewFrame {
     FramePtr frame;                  ///< null: the images are not known
     std::optional<ViewFocus> focus;  ///< none: no hand is seen
     FrameVector<ViewMessage> messages;
-    std::array<ViewSkinPtr, 2> skins;  ///< by Handedness; null: no such hand
+    std::array<ViewSkinPtr, 2> skins;   ///< by Handedness; null: no such hand
+    std::vector<ros::HandState> hands;  ///< the messages once more, for viewers of ROS
+    std::optional<health_t> health;     ///< none: not due
   };
   explicit ViewFrame(Content content) : content_(std::move(content)) {}
   const Content& content() const { return content_; }

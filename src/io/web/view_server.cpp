@@ -19,6 +19,9 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   web.invited = std::move(options.invited);
   web.files = std::move(*page);
   web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
+  web.protocols.assign(std::begin(kFoxgloveProtocols), std::end(kFoxgloveProtocols));
+  web.connect_protocol = [self = server.get()](WebSocket socket) { return self->foxglove_.connect(socket); };
+  web.made_file = [self = server.get()](const std::string& path) { return self->foxglove_.urdf(path); };
   auto started = WebServer::start(std::move(web));
   if (!started) return tl::unexpected(started.error());
   server->web_ = std::move(*started);
@@ -61,6 +64,7 @@ void ViewServer::forget(const ViewClient& client) {
 }
 
 void ViewServer::show(const ViewFramePtr& frame) {
+  foxglove_.show(frame);
   const std::lock_guard lock(mutex_);
   frame_ = frame;
   for (ViewClient* client : clients_) client->post(frame);
@@ -88,6 +92,7 @@ QueueHealth ViewServer::health() const {
   QueueHealth all = gone_;
   all.name = "view";
   all.capacity = clients_.size();
+  foxglove_.add_health(all);
   for (const ViewClient* client : clients_) {
     const QueueHealth one = client->health();
     all.depth += one.depth;

@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "io/lcm/log_recorder.h"
+#include "io/web/foxglove_clients.h"
 #include "io/web/view_client.h"
 
 namespace barehand {
@@ -31,9 +32,11 @@ class ViewServer {
   ~ViewServer();
 
   std::string url() const { return web_->url(); }
+  /// A hand that frames may show: it can be fetched as a robot before they do.
+  void know(std::shared_ptr<const HandProfile> profile) { foxglove_.know(std::move(profile)); }
   /// Whether anybody looks; else nothing need be made for show().
-  bool has_clients() const { return clients_count_ > 0; }
-  int clients() const { return clients_count_; }
+  bool has_clients() const { return clients() > 0; }
+  int clients() const { return clients_count_ + foxglove_.count(); }
   /// Any thread: the newest frame, of all clients.
   void show(const ViewFramePtr& frame);
   /// Any thread: JSON, to those who are there and, until the next one, to those who come.
@@ -62,6 +65,7 @@ class ViewServer {
   ViewFramePtr frame_;
   StatusText status_;
 
+  FoxgloveClients foxglove_;
   std::unique_ptr<WebServer> web_;  // destroyed first: it lets all clients go
 };
 

@@ -13,11 +13,16 @@ namespace barehand {
 namespace {
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // of a client [bytes]
-constexpr int kText = 1, kClose = 8;               // WebSocket opcodes
+constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
 
 std::string_view header(const mg_connection* connection, const char* name) {
   const char* value = mg_get_header(connection, name);
   return value ? value : "";
+}
+
+/// The subprotocol that the client and the server have agreed on; null: none.
+const char* chosen_protocol(const mg_connection* connection) {
+  return mg_get_request_info(connection)->acceptedWebSocketSubprotocol;
 }
 
 /// What the server keeps of one connection.
@@ -28,6 +33,12 @@ struct Connection {
 
 Connection* connection_of(const mg_connection* connection) {
   return static_cast<Connection*>(mg_get_user_connection_data(connection));
+}
+
+/// Lets the page of an invited origin, which has passed is_allowed, read the answer.
+std::string allowance(const mg_connection* connection) {
+  const std::string origin(header(connection, "Origin"));
+  return origin.empty() ? "" : "Access-Control-Allow-Origin: " + origin + "\r\n";
 }
 
 }  // namespace
@@ -65,13 +76,20 @@ class WebServer::Impl {
   static int on_connect(const mg_connection* connection, void* self) {
     return static_cast<Impl*>(self)->admit(connection) ? 0 : 1;
   }
+  static int on_connect_protocol(const mg_connection* connection, void* self) {
+    return chosen_protocol(connection) ? on_connect(connection, self) : 1;
+  }
   static void on_ready(mg_connection* connection, void* self) { static_cast<Impl*>(self)->ready(connection); }
   static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void*) {
     return hear(connection, bits, {data, size}) ? 1 : 0;
   }
   static void on_close(const mg_connection* connection, void* self) { static_cast<Impl*>(self)->closed(connection); }
 
+  std::optional<WebFile> file_of(const std::string& path) const;
+
   const Options options_;
+  std::vector<const char*> protocol_names_;
+  mg_websocket_subprotocols protocols_{};  // civetweb keeps a pointer to it
   mg_context* context_ = nullptr;
   std::atomic<int> clients_ = 0;
 };
@@ -107,6 +125,12 @@ Result<int> WebServer::Impl::start() {
   // Answer, and say at which port where any would do.
   mg_set_request_handler(context_, "**", on_request, this);
   mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
+  if (options_.connect_protocol) {
+    for (const std::string& name : options_.protocols) protocol_names_.push_back(name.c_str());
+    protocols_ = {static_cast<int>(protocol_names_.size()), protocol_names_.data()};
+    mg_set_websocket_handler_with_subprotocols(context_, "/", &protocols_, on_connect_protocol, on_ready, on_data,
+                                               on_close, this);
+  }
   mg_server_port ports[1] = {};
   return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
 }
@@ -133,6 +157,12 @@ void WebServer::Impl::send_error(mg_connection* connection, int status, const ch
   mg_send_http_error(connection, status, "%s", text);
 }
 
+std::optional<WebFile> WebServer::Impl::file_of(const std::string& path) const {
+  if (const auto file = options_.files.find(path == "/" ? "/index.html" : path); file != options_.files.end())
+    return file->second;
+  return options_.made_file ? options_.made_file(path) : std::nullopt;
+}
+
 int WebServer::Impl::answer(mg_connection* connection) const {
   const mg_request_info& request = *mg_get_request_info(connection);
   const std::string_view method = request.request_method;
@@ -142,9 +172,7 @@ int WebServer::Impl::answer(mg_connection* connection) const {
     send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
   else if (method != "GET" && method != "HEAD")
     send_error(connection, 405, "Files can be read only.");
-  else if (const auto file =
-               options_.files.find(std::string_view(request.local_uri) == "/" ? "/index.html" : request.local_uri);
-           file == options_.files.end())
+  else if (const auto file = file_of(request.local_uri); !file)
     send_error(connection, 404, "There is no such file.");
 
   // Send the file; scripts and connections of other origins stay out.
@@ -153,9 +181,9 @@ int WebServer::Impl::answer(mg_connection* connection) const {
               "HTTP/1.1 200 OK\r\nContent-Type: %s\r\nContent-Length: %zu\r\nCache-Control: no-cache\r\n"
               "X-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\n"
               "Content-Security-Policy: default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws:\r\n"
-              "Connection: close\r\n\r\n",
-              file->second.type.c_str(), file->second.bytes.size());
-    if (method == "GET") mg_write(connection, file->second.bytes.data(), file->second.bytes.size());
+              "%sConnection: close\r\n\r\n",
+              file->type.c_str(), file->bytes.size(), allowance(connection).c_str());
+    if (method == "GET") mg_write(connection, file->bytes.data(), file->bytes.size());
   }
   return 1;  // the request is done with, whatever the status
 }
@@ -169,7 +197,8 @@ bool WebServer::Impl::admit(const mg_connection* connection) {
 
 void WebServer::Impl::ready(mg_connection* connection) {
   auto made = std::make_unique<Connection>();
-  made->peer = options_.connect(WebSocket(connection));
+  const auto& connect = chosen_protocol(connection) ? options_.connect_protocol : options_.connect;
+  made->peer = connect(WebSocket(connection));
   WebPeer& peer = *made->peer;
   mg_set_user_connection_data(connection, made.release());
   peer.start();
@@ -181,7 +210,7 @@ bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::strin
   const bool last = (bits & 0x80) != 0;
   if (!known || opcode == kClose) return false;
   if (opcode > kClose) return true;  // ping and pong are the server's own
-  if (opcode == kText) known->message.clear();
+  if (opcode != kContinuation) known->message.clear();
   if (known->message.size() + data.size() > kLongestMessage) return false;
   known->message.append(data);
   return !last || known->peer->hear(known->message);

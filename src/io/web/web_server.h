@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,8 +45,8 @@ struct WebFile {
   std::string bytes;
 };
 
-/// An HTTP and WebSocket server with threads of its own. It serves a fixed set of files from memory, so no request
-/// reaches the disk, and WebSockets. Hosts and origins that are not this machine's own are refused (own_origin.h).
+/// An HTTP and WebSocket server with threads of its own. It serves files from memory, so no request reaches the
+/// disk, and WebSockets. Hosts and origins that are not this machine's own are refused (own_origin.h).
 class WebServer {
  public:
   static constexpr int kMaxClients = 32;    ///< WebSockets at a time; more are refused
@@ -58,6 +59,9 @@ class WebServer {
     std::vector<std::string> invited;      ///< foreign origins whose pages may connect
     std::string socket_path = "/live";
     std::function<std::unique_ptr<WebPeer>(WebSocket)> connect;  ///< called on threads of the server
+    std::vector<std::string> protocols;  ///< subprotocols of the WebSocket at "/"; none: there is no such socket
+    std::function<std::unique_ptr<WebPeer>(WebSocket)> connect_protocol;  ///< a client that asked for one of them
+    std::function<std::optional<WebFile>(const std::string&)> made_file;  ///< by path: what is no fixed file, if any
   };
 
   /// Errors: the port is taken, or may not be used.

@@ -4,6 +4,7 @@
 
 #include "core/format.h"
 #include "pipeline/sinks/record_frame.h"
+#include "stages/publish/health_message.h"
 
 namespace barehand {
 namespace {
@@ -80,9 +81,12 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
     content.messages.push_back(encoded("HAND_STATE", hands[k].state));
     content.messages.push_back(encoded("GLOVE_STATE", hands[k].glove));
+    content.hands.push_back({hands[k].state, hands[k].glove, hands[k].joints});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as the page is told of it
+    content.health = health_message(input_.health(), clock_.utime(), input_.source);
   return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
 }
 

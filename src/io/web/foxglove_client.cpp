@@ -1,0 +1,164 @@
+#include "io/web/foxglove_client.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/ros/ros_time.h"
+
+namespace barehand {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostSubscriptions = 256;  // of one client; there are about a dozen topics
+constexpr int kJpegQuality = 85;                 // a viewer shows the colour, and does not measure in it
+
+/// What comes from the client, or goes back to it, need not be UTF-8.
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// The scene of a frame, whose content must be there as long.
+ros::Scene scene_of(const ViewFrame::Content& content) {
+  ros::Scene scene;
+  scene.utime = content.utime;
+  scene.number = content.number;
+  scene.frame = content.frame;
+  scene.hands = content.hands;
+  scene.health = content.health;
+  scene.jpeg_quality = kJpegQuality;
+  return scene;
+}
+
+}  // namespace
+
+FoxgloveClient::~FoxgloveClient() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  on_gone_(*this);
+}
+
+void FoxgloveClient::start() {
+  next_.reply = text_of({{"op", "serverInfo"},
+                         {"name", "barehand"},
+                         {"capabilities", Json::array()},
+                         {"supportedEncodings", Json::array()},
+                         {"metadata", Json::object()}});
+  thread_ = std::thread([this] { run(); });
+}
+
+/// Error: there are too many subscriptions.
+Result<void> FoxgloveClient::obey(const FoxgloveRequest& request) {
+  for (const auto& [id, channel] : request.subscribe) {
+    if (next_.subscriptions.size() >= kMostSubscriptions) return fail("there are too many subscriptions");
+    next_.subscriptions[id] = channel;
+  }
+  for (const std::uint32_t id : request.unsubscribe) next_.subscriptions.erase(id);
+  return {};
+}
+
+bool FoxgloveClient::hear(std::string_view text) {
+  const auto request = parse_foxglove_request(text);
+  const std::lock_guard lock(mutex_);
+  const Result<void> obeyed = request ? obey(*request) : tl::unexpected(request.error());
+  if (!obeyed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", obeyed.error().message()}});
+
+  // A log that stands still brings no further frame to show the new topics with.
+  if (request && !request->subscribe.empty() && !next_.frame && sent_) {
+    next_.frame = sent_;
+    ++pushed_;
+  }
+  changed_.notify_all();
+  return !broken_;
+}
+
+void FoxgloveClient::post(ViewFramePtr frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (ending_) return;
+    ++pushed_;
+    if (next_.frame) ++dropped_;
+    next_.frame = std::move(frame);
+  }
+  changed_.notify_all();
+}
+
+QueueHealth FoxgloveClient::health() const {
+  const std::lock_guard lock(mutex_);
+  return {"view", 1, next_.frame ? 1u : 0u, pushed_, popped_, dropped_, {}};
+}
+
+void FoxgloveClient::run() {
+  Due due;
+  while (wait(due)) {
+    if (send(due)) continue;
+    const std::lock_guard lock(mutex_);
+    broken_ = true;
+  }
+}
+
+/// Waits for something that may be sent, and takes it. False: the client ends.
+bool FoxgloveClient::wait(Due& due) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return ending_ || (!broken_ && (next_.frame || !next_.reply.empty())); });
+  if (ending_) return false;
+  due.reply = std::exchange(next_.reply, {});
+  due.frame = std::exchange(next_.frame, nullptr);
+  due.subscriptions = next_.subscriptions;
+  if (due.frame) {
+    sent_ = due.frame;
+    ++popped_;
+  }
+  return true;
+}
+
+bool FoxgloveClient::send(const Due& due) {
+  if (!due.reply.empty() && !socket_.send_text(due.reply)) return false;
+  if (!due.frame) return true;
+  const auto time = ros::time_of(due.frame->content().utime);
+  if (!time) return true;
+  const ros::Scene scene = scene_of(due.frame->content());
+  const std::vector<ros::Topic> topics = ros::topics_of(scene);
+  if (!advertise(topics)) return false;
+
+  // Each topic is encoded once, if at all.
+  for (const ros::Topic& topic : topics) {
+    const std::uint32_t channel = channels_.at(topic.name);
+    ros::Bytes message;
+    for (const auto& [subscription, wanted] : due.subscriptions) {
+      if (wanted != channel) continue;
+      if (message.empty()) message = topic.encode().value_or(ros::Bytes());
+      if (!message.empty() && !send_message(subscription, ros::nanoseconds(*time), message)) return false;
+    }
+  }
+  return true;
+}
+
+/// Tells of the topics that are new.
+bool FoxgloveClient::advertise(const std::vector<ros::Topic>& topics) {
+  Json channels = Json::array();
+  for (const ros::Topic& topic : topics) {
+    const auto [known, added] = channels_.try_emplace(topic.name, static_cast<std::uint32_t>(channels_.size() + 1));
+    if (added)
+      channels.push_back({{"id", known->second},
+                          {"topic", topic.name},
+                          {"encoding", "cdr"},
+                          {"schemaName", topic.type},
+                          {"schemaEncoding", "ros2msg"},
+                          {"schema", topic.schema}});
+  }
+  return channels.empty() || socket_.send_text(text_of({{"op", "advertise"}, {"channels", channels}}));
+}
+
+bool FoxgloveClient::send_message(std::uint32_t subscription, std::uint64_t time,
+                                  std::span<const std::uint8_t> message) {
+  bytes_.assign(1, 1);  // message data
+  for (const auto& [value, size] : {std::pair<std::uint64_t, int>(subscription, 4), {time, 8}})
+    for (int i = 0; i < size; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+  bytes_.insert(bytes_.end(), message.begin(), message.end());
+  return socket_.send_binary(bytes_);
+}
+
+}  // namespace barehand

@@ -1,0 +1,213 @@
+#include "io/web/foxglove_client.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/clock.h"
+#include "io/hand/hand_json.h"
+#include "io/web/view_server.h"
+#include "tests/lcm/test_frames.h"
+#include "web/web_client.h"
+
+namespace barehand {
+namespace {
+
+using Json = nlohmann::json;
+using test::SocketClient;
+using ::testing::HasSubstr;
+
+ViewFramePtr frame(int number, bool has_pose = true) {
+  ViewFrame::Content content;
+  content.frame = std::make_shared<RgbdFrame>(test_frame(number));
+  content.utime = content.frame->utime;
+  content.number = number;
+  ros::HandState& hand = content.hands.emplace_back();
+  hand = {};
+  hand.state.utime = content.utime;
+  hand.state.handedness = hand_state_t::RIGHT;
+  hand.state.has_pose = has_pose;
+  for (int i = 0; i < 21; ++i) {
+    hand.glove.joint_name[i] = "joint" + std::to_string(i);
+    hand.glove.joint_angle[i] = 0.01 * i + number;
+  }
+  return std::make_shared<const ViewFrame>(std::move(content));
+}
+
+class Foxglove : public testing::TestWithParam<const char*> {
+ protected:
+  Foxglove() {
+    ViewServer::Options options;
+    options.address.port = 0;
+    server_ = ViewServer::start(std::move(options), clock_).value();
+  }
+  int port() const { return std::stoi(server_->url().substr(server_->url().rfind(':') + 1)); }
+  /// The server knows it when it returns.
+  std::unique_ptr<SocketClient> viewer() const {
+    auto client = std::make_unique<SocketClient>(port(), "/", GetParam());
+    EXPECT_EQ(text_of(*client, "serverInfo")["name"], "barehand");
+    return client;
+  }
+  /// Waits for a text message with this operation.
+  static Json text_of(SocketClient& client, const std::string& op) {
+    while (const auto message = client.text()) {
+      Json json = Json::parse(*message);
+      if (json["op"] == op) return json;
+    }
+    ADD_FAILURE() << "no " << op;
+    return Json::object();
+  }
+  /// The number of a topic's channel; 0: there is none.
+  static int channel(const Json& advertised, const std::string& topic) {
+    for (const Json& one : advertised["channels"])
+      if (one["topic"] == topic) return one["id"];
+    return 0;
+  }
+  static void subscribe(SocketClient& client, int id, int channel) {
+    client.send(R"({"op": "subscribe", "subscriptions": [{"id": )" + std::to_string(id) + R"(, "channelId": )" +
+                std::to_string(channel) + "}]}");
+  }
+  /// The server answers in order: what was sent before has been heard.
+  static void wait_until_heard(SocketClient& client) {
+    client.send("?");
+    text_of(client, "status");
+  }
+
+  SystemClock clock_;
+  std::unique_ptr<ViewServer> server_;
+};
+constexpr const char* kJoints = "/right_hand/joint_states";
+
+TEST_P(Foxglove, AViewerGetsWhatItSubscribesTo) {
+  const auto client = viewer();
+  server_->show(frame(1));
+  const Json advertised = text_of(*client, "advertise");
+  for (const Json& one : advertised["channels"]) {
+    EXPECT_EQ(one["encoding"], "cdr");
+    EXPECT_EQ(one["schemaEncoding"], "ros2msg");
+  }
+  subscribe(*client, 77, channel(advertised, kJoints));
+
+  // Kind of message, subscription, time in nanoseconds, message.
+  const std::string message = client->binary().value_or("");
+  ASSERT_GT(message.size(), 13u);
+  std::uint32_t subscription = 0;
+  std::uint64_t time = 0;
+  std::memcpy(&subscription, &message[1], 4);
+  std::memcpy(&time, &message[5], 8);
+  EXPECT_EQ(message[0], 1);
+  EXPECT_EQ(subscription, 77u);
+  EXPECT_EQ(time, static_cast<std::uint64_t>(test_frame(1).utime) * 1000);
+  const ros::Bytes expected = ros::encode(ros::joint_state(frame(1)->content().hands[0]));
+  EXPECT_EQ(message.substr(13), std::string(expected.begin(), expected.end()));
+}
+
+TEST_P(Foxglove, TopicsAreToldWhenTheyHaveSomethingToSay) {
+  const auto client = viewer();
+  server_->show(frame(1, false));
+  EXPECT_EQ(channel(text_of(*client, "advertise"), kJoints), 0) << "a hand that is not seen has no joints";
+  server_->show(frame(2));
+  const Json more = text_of(*client, "advertise");
+  EXPECT_EQ(more["channels"].size(), 2u) << more;
+  EXPECT_GT(channel(more, kJoints), 0);
+}
+
+TEST_P(Foxglove, NothingComesUnaskedOrAfterTheEndOfASubscription) {
+  const auto client = viewer();
+  server_->show(frame(1));
+  const int joints = channel(text_of(*client, "advertise"), kJoints);
+  subscribe(*client, 5, joints);
+  ASSERT_TRUE(client->binary());
+  client->send(R"({"op": "unsubscribe", "subscriptionIds": [5]})");
+  wait_until_heard(*client);
+  while (server_->health().depth > 0) std::this_thread::yield();
+  server_->show(frame(2));
+  while (server_->health().depth > 0) std::this_thread::yield();
+  subscribe(*client, 6, joints);
+  std::string message = client->binary().value_or("");
+  while (message.size() > 5 && message[1] == 5) message = client->binary().value_or("");  // on its way before
+  ASSERT_GT(message.size(), 13u);
+  EXPECT_EQ(message[1], 6);
+}
+
+TEST_P(Foxglove, WhatIsNotUnderstoodIsAnsweredAndTheViewerStays) {
+  const auto client = viewer();
+  const std::string strange[] = {"nonsense",
+                                 "[]",
+                                 R"({"op": 3})",
+                                 R"({"op": "advertise", "channels": []})",
+                                 R"({"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 2}]})",
+                                 R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 99999999999}]})",
+                                 R"({"op": "subscribe", "subscriptions": [7]})",
+                                 "{\"op\": \"\xff\"}"};
+  for (const std::string& text : strange) {
+    client->send(text);
+    EXPECT_EQ(text_of(*client, "status")["level"], 1) << text;
+  }
+  for (int id = 0; id < 300; ++id) subscribe(*client, id, 1);
+  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("too many"));
+  server_->show(frame(1));
+  EXPECT_FALSE(text_of(*client, "advertise").empty());
+}
+
+TEST_P(Foxglove, AViewerThatDoesNotReadHoldsUpNobody) {
+  const auto client = viewer();
+  for (int number = 0; number < 50; ++number) server_->show(frame(number));
+  while (server_->health().depth > 0) std::this_thread::yield();
+  const QueueHealth health = server_->health();
+  EXPECT_EQ(health.pushed, health.popped + health.dropped);
+  EXPECT_EQ(health.capacity, 1u);
+}
+
+TEST_P(Foxglove, TheProtocolIsAgreedOn) {
+  test::RawClient client(port());
+  client.send("GET / HTTP/1.1\r\n" +
+              test::upgrade("Host: localhost\r\nSec-WebSocket-Protocol: other, " + std::string(GetParam()) + "\r\n") +
+              "\r\n");
+  EXPECT_THAT(client.read(false), HasSubstr("Sec-WebSocket-Protocol: " + std::string(GetParam()) + "\r\n"));
+}
+INSTANTIATE_TEST_SUITE_P(Protocols, Foxglove, testing::ValuesIn(kFoxgloveProtocols),
+                         [](const auto& one) { return one.index == 0 ? "Sdk" : "WebSocket"; });
+
+class FoxgloveServer : public Foxglove {};
+INSTANTIATE_TEST_SUITE_P(All, FoxgloveServer, testing::Values(""));
+
+TEST_P(FoxgloveServer, OtherProtocolsAndOriginsAreRefused) {
+  for (const std::string protocol : {"", "Sec-WebSocket-Protocol: mqtt\r\n"}) {
+    test::RawClient client(port());
+    client.send("GET / HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n" + protocol) + "\r\n");
+    EXPECT_NE(test::status_of(client.read(false)), 101) << protocol;
+  }
+  test::RawClient foreign(port());
+  foreign.send("GET / HTTP/1.1\r\n" +
+               test::upgrade("Host: localhost\r\nOrigin: https://example.org\r\n"
+                             "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n") +
+               "\r\n");
+  EXPECT_NE(test::status_of(foreign.read(false)), 101);
+  EXPECT_EQ(server_->clients(), 0);
+}
+
+TEST_P(FoxgloveServer, TheHandIsServedAsARobotWithItsLengths) {
+  EXPECT_EQ(test::status_of(test::answer_of(port(), "/right_hand.urdf")), 404);
+  const auto profile = std::make_shared<const HandProfile>(
+      load_profile(std::string(BAREHAND_CONFIGS) + "/hands/adult_right.json").value());
+  server_->know(profile);
+  const std::string answer = test::answer_of(port(), "/right_hand.urdf");
+  EXPECT_EQ(test::status_of(answer), 200);
+  EXPECT_THAT(answer, HasSubstr("<robot name=\"right_hand\">"));
+
+  // A frame may show it with other lengths.
+  ViewFrame::Content content;
+  content.skins[static_cast<std::size_t>(Handedness::right)] =
+      std::make_shared<const ViewSkin>(std::make_shared<const HandProfile>(scaled(*profile, 1.1)));
+  server_->show(std::make_shared<const ViewFrame>(std::move(content)));
+  const std::string larger = test::answer_of(port(), "/right_hand.urdf");
+  EXPECT_EQ(test::status_of(larger), 200);
+  EXPECT_NE(larger, answer);
+  EXPECT_EQ(test::status_of(test::answer_of(port(), "/left_hand.urdf")), 404);
+}
+
+}  // namespace
+}  // namespace barehand
