@@ -29,18 +29,21 @@ Result<void> LogRecorder::start(int user) {
   if (thread_.joinable()) thread_.join();  // of the recording before
 
   auto log = open_new();
-  const std::lock_guard lock(mutex_);
   if (!log) {
-    state_.note = "Nothing is recorded: " + log.error().message();
+    const std::string note = "Nothing is recorded: " + log.error().message();
+    log_->error(note);
+    const std::lock_guard lock(mutex_);
+    state_.note = note;
     state_.failed = true;
-    log_->error(state_.note);
     return tl::unexpected(log.error());
   }
+  log_->info("recording to {}/{}, started from the live page", options_.folder, state().file);
+
+  const std::lock_guard lock(mutex_);
   queue_ = std::make_unique<Queue>("record", options_.capacity, Overflow::drop_oldest);
   started_us_ = clock_.steady_us();
   user_ = user;
   recording_ = state_.recording = state_.writing = true;
-  log_->info("recording to {}/{}, started from the live page", state_.folder, state_.file);
   thread_ = std::thread([this, log = std::move(*log)] { run(*log); });
   return {};
 }

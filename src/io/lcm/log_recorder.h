@@ -86,7 +86,7 @@ class LogRecorder {
   std::mutex command_mutex_;  // one start or stop at a time; protects the next member. Held while a file is made
   std::thread thread_;
 
-  mutable std::mutex mutex_;      // protects the members below; never held while anything is written
+  mutable std::mutex mutex_;      // protects the members below; never held while anything is written, also to the log
   std::unique_ptr<Queue> queue_;  // of the last recording; closed: it takes nothing more
   RecorderState state_;
   std::int64_t started_us_ = 0;  // steady clock
