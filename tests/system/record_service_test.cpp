@@ -144,7 +144,7 @@ TEST_F(Record, RefusesASetThatCannotBe) {
     EXPECT_THAT(outcome.output, HasSubstr(why));
   };
   expect_refusal("a.lcmlog", {"--max-size", "1GB", "--quota", "1GB"}, "is smaller than two files");
-  expect_refusal("folder", {"--max-age", "1h"}, "only a log can continue in new files");
+  expect_refusal("folder", {"--max-age", "1h"}, "only an LCM log can continue in new files");
   expect_refusal("a.lcmlog", {"--max-age", "1 fortnight"}, "fortnight");
 }
 
