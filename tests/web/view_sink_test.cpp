@@ -50,6 +50,38 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   EXPECT_EQ(test::kinds_of(chunks_of(client.binary().value())).find('S'), std::string::npos) << "the skin comes once";
 }
 
+/// A viewer that comes later sees the hand where the bus says that it is, and not where a filter begins anew.
+TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
+  SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const PublishParams params;
+  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }}, clock);
+  HandMessageMaker bus(params);
+  const auto moved = [](int number) {
+    TrackedFrame frame = tracked(3'000'000 + 33'000 * number);
+    HandEstimate estimate = *frame.estimates[0];
+    for (SegmentState& segment : estimate.segments) segment.T_camera_segment.t.x() += 0.02 * number;
+    frame.estimates[0] = std::make_shared<const HandEstimate>(estimate);
+    return frame;
+  };
+  for (int number = 0; number < 3; ++number) {
+    ASSERT_TRUE(sink.consume(moved(number)));
+    bus.process(*moved(number).estimates[0]);
+  }
+
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send(R"({"type": "want"})");
+  client.send("?");
+  ASSERT_TRUE(client.text());
+  ASSERT_TRUE(sink.consume(moved(3)));
+  const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
+  const auto chunks = chunks_of(client.binary().value());
+  ASSERT_EQ(test::kinds_of(chunks), "SFLL");
+  EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
+}
+
 TEST(ViewSink, SaysThatNoFramesCome) {
   SystemClock clock;
   ManualClock time(1'000'000);

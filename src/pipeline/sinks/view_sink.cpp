@@ -35,7 +35,10 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
     params_ = *params;
     makers_.clear();
   }
-  if (server_.has_clients()) server_.show(make_frame(tracked));
+
+  // Also for nobody: what is shown later is smoothed with what was before, as on the bus.
+  const std::vector<HandMessages> hands = make_messages(tracked);
+  if (server_.has_clients()) server_.show(make_frame(tracked, hands));
   return idle();
 }
 
@@ -44,8 +47,14 @@ Result<void> ViewSink::idle() {
   return {};
 }
 
-ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
+std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
   while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
+  std::vector<HandMessages> hands;
+  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) hands.push_back(makers_[k].process(*tracked.estimates[k]));
+  return hands;
+}
+
+ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector<HandMessages>& hands) {
   ViewFrame::Content content;
   content.utime = tracked.frame->utime;
   content.number = tracked.frame->number;
@@ -55,10 +64,9 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked) {
     const HandEstimate& estimate = *tracked.estimates[k];
     if (estimate.has_pose())
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
-    const HandMessages messages = makers_[k].process(estimate);
-    content.messages.push_back(encoded("HAND_STATE", messages.state));
-    content.messages.push_back(encoded("GLOVE_STATE", messages.glove));
-    content.hands.push_back({messages.state, messages.glove, messages.joints});
+    content.messages.push_back(encoded("HAND_STATE", hands[k].state));
+    content.messages.push_back(encoded("GLOVE_STATE", hands[k].glove));
+    content.hands.push_back({hands[k].state, hands[k].glove, hands[k].joints});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);

@@ -32,7 +32,8 @@ class ViewSink : public Sink {
   Result<void> idle() override;
 
  private:
-  ViewFramePtr make_frame(const TrackedFrame& tracked);
+  std::vector<HandMessages> make_messages(const TrackedFrame& tracked);
+  ViewFramePtr make_frame(const TrackedFrame& tracked, const std::vector<HandMessages>& hands);
   ViewSkinPtr skin_of(const HandEstimate& estimate);
   void show_status();
 
