@@ -78,7 +78,9 @@ TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
   std::vector<std::string> twice = once;
   twice.insert(twice.end(), once.begin(), once.end());
   EXPECT_EQ(channels, twice);
-  const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
+  HandMessageMaker bus(params);
+  bus.process(*tracked(2'900'000).estimates[0]);
+  const HandMessages messages = bus.process(*frame.estimates[0]);
   EXPECT_EQ(log->read(log->entries()[1]).value(), encode_message(messages.state));
   const auto image = decode_frame_message(log->read(log->entries()[0]).value(), {}, 0);
   ASSERT_TRUE(image) << image.error().message();
@@ -107,6 +109,38 @@ TEST(ViewSink, TellsTheStateOfTheRecorderAtOnce) {
   status = nlohmann::json::parse(client.text().value());
   EXPECT_EQ(status["record"]["recording"], true);
   EXPECT_EQ(status["record"]["file"], recorder.state().file);
+}
+
+/// A viewer that comes later sees the hand where the bus says that it is, and not where a filter begins anew.
+TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
+  SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const PublishParams params;
+  ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }}, clock);
+  HandMessageMaker bus(params);
+  const auto moved = [](int number) {
+    TrackedFrame frame = tracked(3'000'000 + 33'000 * number);
+    HandEstimate estimate = *frame.estimates[0];
+    for (SegmentState& segment : estimate.segments) segment.T_camera_segment.t.x() += 0.02 * number;
+    frame.estimates[0] = std::make_shared<const HandEstimate>(estimate);
+    return frame;
+  };
+  for (int number = 0; number < 3; ++number) {
+    ASSERT_TRUE(sink.consume(moved(number)));
+    bus.process(*moved(number).estimates[0]);
+  }
+
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send(R"({"type": "want"})");
+  client.send("?");
+  ASSERT_TRUE(client.text());
+  ASSERT_TRUE(sink.consume(moved(3)));
+  const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
+  const auto chunks = chunks_of(client.binary().value());
+  ASSERT_EQ(test::kinds_of(chunks), "SFLL");
+  EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 
 TEST(ViewSink, SaysThatNoFramesCome) {

@@ -268,6 +268,10 @@ Result<void> McapWriter::finish() {
   if (!failed_ && good_ > 0)
     if (auto ended = append(ending()); !ended && result) result = ended;
   close(std::exchange(descriptor_, -1));
+  if (good_ == 0) {  // nothing that looks finished comes from nothing
+    file_.discard();
+    return result;
+  }
   const auto named = file_.finish();
   return result ? named : result;
 }

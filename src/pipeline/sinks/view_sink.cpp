@@ -37,12 +37,10 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
     makers_.clear();
   }
 
-  // Nothing is made for nobody.
-  const bool recording = input_.recorder && input_.recorder->recording();
-  if (!recording && !server_.has_clients()) return idle();
+  // Messages are made even if nobody wants them: what is shown later is smoothed with what was before, as on the bus.
   const std::vector<HandMessages> hands = make_messages(tracked);
   if (server_.has_clients()) server_.show(make_frame(tracked, hands));
-  if (recording)
+  if (input_.recorder && input_.recorder->recording())
     input_.recorder->post(tracked.frame->utime, [frame = tracked.frame, hands, prefix = input_.prefix](auto& log) {
       return record_frame(log, prefix, *frame, hands);
     });
