@@ -37,7 +37,7 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
     makers_.clear();
   }
 
-  // Nothing is made for nobody.
+  // Make messages and frames only if a client or a recording needs them.
   const bool recording = input_.recorder && input_.recorder->recording();
   if (!recording && !server_.has_clients()) return idle();
   const std::vector<HandMessages> hands = make_messages(tracked);
@@ -59,7 +59,8 @@ Result<void> ViewSink::finish() {
   return {};
 }
 
-/// Whoever pressed the button is not to wait for the next period.
+/// Whether a recording has started or ended since the last status. Then a status is sent at once, so that the user sees
+/// the effect of the button.
 bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
 std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
@@ -85,7 +86,7 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
-  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as the page is told of it
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as in the status of the page
     content.health = health_message(input_.health(), clock_.utime(), input_.source);
   return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
 }
