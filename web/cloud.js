@@ -1,9 +1,9 @@
-// The depth image as points. A point is as large as the cell of the image that it stands for.
+// Draws the depth image as points. Each point has the size of the cell of the image that it represents.
 import * as THREE from "/three/build/three.module.js";
 
 const kVertex = `
   attribute vec3 tint;
-  uniform float scale;  // of a cell: pixels of the screen per metre, over its distance from the sensor
+  uniform float scale;  // size on the screen [px] of a cell at equal distances from the sensor and the eye
   varying vec3 vTint;
   void main() {
     vTint = tint;
@@ -13,7 +13,7 @@ const kVertex = `
   }`;
 const kFragment = `varying vec3 vTint; void main() { gl_FragColor = vec4(vTint, 1.0); }`;
 
-// From near (warm) to far (cool), for frames without colour.
+// Colour of a point by its depth, from near (warm) to far (cool), for frames without colour.
 function depthTint(z, out, at) {
   const far = Math.min(Math.max((z - 0.3) / 0.9, 0), 1);
   out[at] = 0.85 - 0.55 * far;
@@ -29,7 +29,7 @@ export class Cloud {
     this.points.frustumCulled = false;
     this.points.visible = false;
     this.capacity = 0;
-    this.cell = 0;  // radians
+    this.cell = 0;  // angle between neighbouring points, seen from the sensor [rad]
     root.add(this.points);
   }
 
@@ -66,6 +66,6 @@ export class Cloud {
     this.cell = cloud.step / camera.fx;
   }
 
-  // `pixelsPerRadian` of the view.
+  // `pixelsPerRadian`: resolution of the view.
   setScale(pixelsPerRadian) { this.material.uniforms.scale.value = 0.9 * this.cell * pixelsPerRadian; }
 }

@@ -1,12 +1,12 @@
-// The WebSocket: connects again by itself, says what is wanted of every frame, and acknowledges what was shown, so that
-// a slow browser gets fewer frames instead of late ones.
+// The connection to the program over a WebSocket. It reconnects automatically, requests the parts of a frame that are
+// needed, and acknowledges frames that were shown, so that a slow browser gets fewer frames instead of late ones.
 import {decodeFrame} from "./messages.js";
 
 const kRetryMs = 1000;
-const kWindow = 2;  // frames under way
+const kWindow = 2;  // maximum number of unacknowledged frames
 
 export class Connection {
-  // onFrame(frame), onStatus(status), onError(text), onOpen(), onClose()
+  // `handlers` has onFrame(frame), onStatus(status), onError(text), onOpen() and onClose().
   constructor(handlers) {
     this.handlers = handlers;
     this.wish = {};

@@ -1,9 +1,10 @@
-// Where the proximal end of every segment may be: ellipsoids of 2 sigma.
+// Draws the uncertainty of the proximal end of every segment as an ellipsoid of two standard deviations.
 import * as THREE from "/three/build/three.module.js";
 
 const kSigmas = 2;
 
-// L with L L^T = C for a 3x3 matrix C in the first rows and columns of a 6x6 one: it maps the unit ball to the ellipsoid.
+// The Cholesky factor L (L L^T = C) of the upper left 3x3 block C of a 6x6 covariance; L maps the unit ball to the
+// ellipsoid of one standard deviation.
 function cholesky(c) {
   const at = (i, j) => c[6 * i + j];
   const root = (x) => Math.sqrt(Math.max(x, 1e-12));
@@ -26,7 +27,7 @@ export class Ellipsoids {
     });
   }
 
-  // `segments`: null hides them.
+  // Shows the ellipsoids of `segments`; null hides all.
   set(segments, smoothed) {
     this.balls.forEach((ball, s) => {
       ball.visible = segments !== null;

@@ -1,21 +1,21 @@
-// One hand's skin, bent by its 16 segments in the vertex shader (linear blend of two neighbours), coloured by confidence,
-// hatched where a segment is inferred.
+// Draws the skin of one hand. The vertex shader poses it by the hand's 16 segments (linear blend of two neighbours). It
+// is coloured by confidence, and hatched where a segment is inferred.
 import * as THREE from "/three/build/three.module.js";
 
 const kVertex = `
   uniform mat4 bones[16];
-  uniform vec2 states[16];  // confidence, seen
+  uniform vec2 states[16];  // confidence; 1 if seen, otherwise 0
   attribute vec3 inB, normalInA;
   attribute vec3 binding;  // segments a and b, weight of b
   varying vec3 vNormal;
   varying vec2 vState;
-  const float kLift = 0.008;  // m
+  const float kLift = 0.008;  // distance by which the skin is moved towards the eye [m]
   void main() {
     int a = int(binding.x + 0.5), b = int(binding.y + 0.5);
     vec4 posed = mix(bones[a] * vec4(position, 1.0), bones[b] * vec4(inB, 1.0), binding.z);
     vNormal = normalMatrix * mat3(bones[a]) * normalInA;
     vState = mix(states[a], states[b], binding.z);
-    // A little towards the eye: points that were measured on the skin do not hide it.
+    // Move the skin slightly towards the eye, so that the points measured on it do not hide it.
     vec4 seen = modelViewMatrix * posed;
     seen.xyz *= 1.0 - kLift / length(seen.xyz);
     gl_Position = projectionMatrix * seen;
@@ -65,13 +65,14 @@ export class HandMesh {
       this.mesh.geometry = geometry;
     } else {
       this.mesh = new THREE.Mesh(geometry, this.material);
-      this.mesh.frustumCulled = false;  // its bounds are not those of the unposed vertices
+      this.mesh.frustumCulled = false;  // three.js would cull by the bounds of the unposed vertices
       this.mesh.visible = false;
       this.root.add(this.mesh);
     }
   }
 
-  // `poses`: Matrix4 of every segment; null: no pose. `shares`: colours the segments instead of their confidence.
+  // `poses`: Matrix4 of every segment; null hides the hand. `shares`: values in [0, 1] that colour the segments instead
+  // of their confidence; null: none.
   setPose(poses, segments, shares) {
     if (!this.mesh) return;
     this.mesh.visible = poses !== null;

@@ -1,5 +1,5 @@
-// Decodes the LCM messages that the page needs (lcmtypes/*.lcm). LCM is big endian; a message starts with the 8 bytes of
-// its type's fingerprint.
+// Decodes the LCM messages that the page needs (lcmtypes/*.lcm). LCM is big endian; a message starts with the
+// fingerprint of its type (8 bytes).
 
 class Reader {
   constructor(view, at) { this.view = view; this.at = at; }
@@ -29,14 +29,14 @@ function segment(read) {
           confidence: read.double(), visible: read.double(), seen: read.int8() !== 0};
 }
 
-// hand_state_t; orientations are quaternions (w, x, y, z). `view`: a DataView of the whole message.
+// Decodes a hand_state_t; orientations are quaternions (w, x, y, z). `view`: a DataView of the whole message.
 export function decodeHandState(view) {
   const read = new Reader(view, 8);
   return {...header(read), has_pose: read.int8() !== 0, pose_utime: read.int64(), score: read.double(),
           joint_gap: read.double(), segments: Array.from({length: 16}, () => segment(read))};
 }
 
-// glove_state_t; angles in radians, NaN where they are not known.
+// Decodes a glove_state_t; angles are in radians, NaN if unknown.
 export function decodeGloveState(view) {
   const read = new Reader(view, 8);
   return {...header(read), joint_name: Array.from({length: 21}, () => read.string()), joint_angle: read.doubles(21),

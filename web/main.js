@@ -1,5 +1,5 @@
-// Puts the page together: what comes from the program goes to the view and the panels, what the user wants to the
-// program.
+// Connects the parts of the page: passes messages of the program to the view and the panels, and the user's commands to
+// the program.
 import {Connection} from "./connection.js";
 import {Meter, notice, showConnection, showHands, showHealth} from "./panels.js";
 import {Picture} from "./picture.js";
@@ -10,15 +10,15 @@ import {Timeline} from "./timeline.js";
 
 const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
-const kSlowFrameMs = 3000;  // after so long without a frame the page says so
+const kSlowFrameMs = 3000;  // time without a frame after which the page reports it
 
 const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
-const skins = [];  // that came before the view was there
+const skins = [];  // skins that arrived before the 3D view was ready
 let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
-let decoding = Promise.resolve();  // pictures, one after the other
+let decoding = Promise.resolve();  // chain of promises that decodes images one after the other
 
-// three.js may be missing, and a browser may lack WebGL: the rest of the page works all the same.
+// Starts the 3D view. If three.js is missing or the browser lacks WebGL, the rest of the page works without it.
 async function startScene() {
   try {
     const {Scene} = await import("./scene.js");
@@ -61,8 +61,8 @@ const connection = new Connection({
     meter.add(frame.header, status && status.live, frameAt);
     if (!state.freeze) {
       plots.add(frame);
-      await (decoding = decoding.then(() => picture.decode(frame)));  // hand and picture are those of one frame
-      if (latest) picture.release(latest);  // it was never shown
+      await (decoding = decoding.then(() => picture.decode(frame)));  // so that hand and image show the same frame
+      if (latest) picture.release(latest);  // that frame was never shown
       latest = frame;
     }
     ++unacknowledged;
@@ -71,7 +71,7 @@ const connection = new Connection({
 const timeline = new Timeline((message) => connection.send(message));
 const recorder = new Recorder((message) => connection.send(message));
 
-// Once for every picture of the display.
+// Called once for every refresh of the display.
 function loop(now) {
   if (latest) {
     if (shown) picture.release(shown);
@@ -98,7 +98,7 @@ function showPicture(frame) {
   if (scene) scene.setPicture(state.view === "camera" && frame.picture ? picture.plain : null);
 }
 
-// What the user must know, most important first; "": all is well.
+// The most important problem, as a sentence for the user; "": there is none.
 function problem() {
   const scan = status && status.scan ? status.scan.phase : "";
   if (!open && scan === "done") return "The calibration is done and the program has ended. The result stays here until you leave the page.";
@@ -114,7 +114,7 @@ function problem() {
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
 }
 
-// The room, where the program knows it.
+// Shows the room if the program knows the camera's pose in it.
 function applyRoom() {
   const room = status && status.T_world_camera || null;
   byId("floor").hidden = room === null;
@@ -164,7 +164,7 @@ async function saveScreenshot() {
 
 function onKey(event) {
   if (event.ctrlKey || event.altKey || event.metaKey || event.target.tagName === "SELECT") return;
-  if (event.key === " " && event.target.tagName === "BUTTON") return;  // presses it
+  if (event.key === " " && event.target.tagName === "BUTTON") return;  // the space bar presses the focused button
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
     c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),

@@ -1,4 +1,4 @@
-// Takes a binary message of the WebSocket apart (docs/view_protocol.md lists the chunks).
+// Decodes the binary messages of the WebSocket (docs/view_protocol.md lists their chunks).
 import {decodeGloveState, decodeHandState} from "./lcm.js";
 
 function lcmMessage(view, frame) {
@@ -35,7 +35,7 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// {header, states, gloves, skins, cloud, picture}; cloud and picture are null where none came.
+// Decodes a message to {header, states, gloves, skins, cloud, picture}; header, cloud and picture are null if missing.
 export function decodeFrame(buffer) {
   const frame = {header: null, states: [], gloves: [], skins: [], cloud: null, picture: null};
   const whole = new DataView(buffer);

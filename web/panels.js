@@ -1,4 +1,4 @@
-// What is said in words and figures: the hands, the pipeline, and notices that lie over the view.
+// The panels with text and numbers: the states of the hands, the health of the pipeline, and notices over the view.
 import {kSideNames, kStatusNames} from "./lcm.js";
 
 const byId = (id) => document.getElementById(id);
@@ -56,7 +56,7 @@ export function showHealth(status) {
           health.queues.map((q) => [q.name, String(q.depth), String(q.capacity), q.name === "view" ? String(q.dropped) : warn(q.dropped)])));
 }
 
-// One plain sentence over the view; "": none.
+// Shows a sentence over the view; "" hides it.
 export function notice(text) {
   byId("notice").hidden = text === "";
   byId("notice").textContent = text;
@@ -67,7 +67,7 @@ export function showConnection(state, text) {
   byId("connection").textContent = text;
 }
 
-// Frames a second and latency, as measured here.
+// Measures the frame rate and the latency from the depth image to the sending of the frame.
 export class Meter {
   constructor() { this.arrivals = []; }
   add(header, live, now) {

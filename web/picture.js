@@ -1,24 +1,24 @@
-// The sensor's picture with the skeleton drawn over it.
+// Shows the sensor's image with the skeleton of the hands drawn over it.
 const kFingerColours = ["#e64980", "#f59f00", "#40c057", "#228be6", "#9c5cf0"];
 
 export class Picture {
   constructor(canvas, note) {
     this.canvas = canvas;
     this.note = note;
-    this.plain = document.createElement("canvas");  // without the skeleton, for the sensor's view
+    this.plain = document.createElement("canvas");  // the image without the skeleton, for the view from the sensor
   }
 
-  // Resolves when the frame's picture can be shown.
+  // Decodes the frame's image; resolves when it can be shown.
   async decode(frame) {
     if (frame.picture) frame.picture.image = await createImageBitmap(frame.picture.jpeg).catch(() => null);
   }
 
-  // The frame will not be shown again.
+  // Frees the image of a frame that will not be shown again.
   release(frame) {
     if (frame.picture && frame.picture.image) frame.picture.image.close();
   }
 
-  // `plain`: also without the skeleton.
+  // Draws the image with the skeleton. `plain`: also draws it without the skeleton, to `this.plain`.
   show(frame, smoothed, plain) {
     const image = frame.picture && frame.picture.image;
     if (!image) return;
@@ -50,7 +50,7 @@ export class Picture {
     draw.setLineDash([]);
   }
 
-  // `kind`: what was asked for; `frame`: the last one.
+  // Shows why there is no image. `kind`: the requested kind of image; `frame`: the last frame, if any.
   explain(kind, frame) {
     const missing = kind !== "none" && frame && !frame.picture;
     this.canvas.hidden = kind === "none" || missing;

@@ -1,4 +1,4 @@
-// Running plots of the last seconds: small rows, one for each finger, channel or speed.
+// Plots of the last seconds, one small row for each finger, glove channel or speed.
 import {kGloveChannels} from "./lcm.js";
 
 const kSeconds = 10, kDegree = 180 / Math.PI;
@@ -7,7 +7,7 @@ const kFingers = ["thumb", "index", "middle", "ring", "little"];
 
 const norm = (v) => Math.hypot(...v);
 
-// Every plot: rows of {name, lines: [name, value(sample)], low, high, unit}.
+// The rows of every plot: {name, lines: [[name, value(sample)], ...], low, high, unit}.
 const kPlots = {
   joints: kFingers.map((finger, f) => ({
     name: finger, low: -30, high: 110, unit: "°",
@@ -26,12 +26,12 @@ const kPlots = {
 export class Plots {
   constructor(canvas) {
     this.canvas = canvas;
-    this.samples = [[], []];  // by side
+    this.samples = [[], []];  // by side (0: left, 1: right)
     this.kind = "joints";
     this.side = 1;
   }
 
-  // Keeps what a frame says of each hand; time going back, as when a log is wound back, starts anew.
+  // Stores the states of a frame. If time goes back, as after seeking in a log, the earlier samples are deleted.
   add(frame) {
     const time = frame.header.utime * 1e-6;
     for (const side of [0, 1]) {
@@ -99,7 +99,7 @@ export class Plots {
     draw.stroke();
   }
 
-  // Gaps where nothing is known.
+  // Draws a curve with gaps at unknown values.
   curve(draw, samples, x, y, value) {
     draw.beginPath();
     let pen = false;

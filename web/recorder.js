@@ -1,6 +1,6 @@
-// The button that records what comes live, and what is said about it over the view.
+// The button that records live frames, and the notice about the recording over the view.
 const byId = (id) => document.getElementById(id);
-const kSavedMs = 20000;  // how long the page says where the last recording is
+const kSavedMs = 20000;  // how long the page shows where a recording was saved
 const kHow = "Recording is off. Start Barehand with --view-record DIR, or barehand view --lcm with --record DIR.";
 
 const clock = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")}`;
@@ -8,7 +8,7 @@ const size = (bytes) => bytes < 1e9 ? `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 :
 const dropped = (record) => record.dropped > 0 ? `, ${record.dropped} dropped` : "";
 
 export class Recorder {
-  // send({type, on}) goes to the program.
+  // send({type, on}) sends a command to the program.
   constructor(send) {
     this.send = send;
     this.record = null;
@@ -23,7 +23,7 @@ export class Recorder {
     this.send({type: "record", on: !this.on});
   }
 
-  // `record`: of the status; null: there is nothing to record.
+  // `record`: the recorder's state in the status; null: there is nothing to record.
   show(record) {
     const before = this.record;
     this.record = record || null;
@@ -45,7 +45,7 @@ export class Recorder {
     return [record.note, where].filter(Boolean).join(" ");
   }
 
-  // A sentence over the view; "": none. `ms`: for how long, else until the next one.
+  // Shows a sentence over the view; "" hides it. `ms`: for how long; 0: until the next call.
   say(text, state = "quiet", ms = 0) {
     clearTimeout(this.timer);
     const box = byId("recording");

@@ -1,17 +1,17 @@
-// The room in which the camera stands, where the program knows it: gravity points down, a grid lies on the floor, and a
-// small frame shows where the sensor is and what it looks at.
+// Draws the room if the program knows the camera's pose in it: gravity points down, a grid lies on the floor, and a
+// small pyramid shows the position and the field of view of the sensor.
 import * as THREE from "/three/build/three.module.js";
 
-const kFloor = 4, kCell = 0.1;  // m
-const kSensor = 0.06;           // m, length of the sensor's frame
-const kLineColours = {light: [0x8b97a1, 0xc4ccd3], dark: [0x56626c, 0x2b333a]};  // middle lines, others
+const kFloor = 4, kCell = 0.1;  // size of the floor's grid and of its cells [m]
+const kSensor = 0.06;           // length of the sensor's pyramid [m]
+const kLineColours = {light: [0x8b97a1, 0xc4ccd3], dark: [0x56626c, 0x2b333a]};  // of the middle lines, of the others
 
-// The world's z is up, three.js's y.
+// Up is z in the world frame and y in three.js.
 const kThreeFromWorld = new THREE.Matrix4().set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-// three.js's cameras look along -z with y up, the sensor along z with y down.
+// Cameras of three.js look along -z with y up; the sensor looks along z with y down.
 const kSensorFromCamera = new THREE.Matrix4().makeScale(1, -1, -1);
 
-// Where the camera frame lies in the scene. `numbers`: T_world_camera, row by row; null: the room is not known.
+// The pose of the camera frame in the scene. `numbers`: T_world_camera, row-major; null: unknown.
 export function placeOf(numbers) {
   return numbers ? kThreeFromWorld.clone().multiply(new THREE.Matrix4().set(...numbers)) : kSensorFromCamera.clone();
 }
@@ -24,7 +24,8 @@ export class Room {
     this.wanted = true;
   }
 
-  // `header`: of a frame, for the sensor's field of view.
+  // `place`: pose of the camera frame in the scene; `known`: whether it is known; `header`: header of a frame, which
+  // gives the sensor's field of view.
   set(place, known, header) {
     this.known = known;
     if (this.sensor) this.scene.remove(this.sensor);
@@ -33,7 +34,7 @@ export class Room {
     this.apply();
   }
 
-  // A pyramid from the sensor to the corners of its picture.
+  // A pyramid from the sensor to the corners of its image. `h`: header of a frame.
   outline(place, h) {
     const corner = (u, v) => new THREE.Vector3((u - h.cx) / h.fx, (v - h.cy) / h.fy, 1).multiplyScalar(kSensor);
     const corners = [corner(0, 0), corner(h.width, 0), corner(h.width, h.height), corner(0, h.height)];

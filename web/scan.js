@@ -1,5 +1,5 @@
-// The panel of a calibration: what was shown of each segment and what is still to be shown, and in the end how the
-// lengths of the hand have changed.
+// The panel of a calibration: how well each segment was seen and what is still to be shown to the sensor and, at the
+// end, how the lengths of the hand have changed.
 const byId = (id) => document.getElementById(id);
 const kFingers = ["thumb", "index", "middle", "ring", "little"];
 const kDegree = 180 / Math.PI;
@@ -14,7 +14,8 @@ function element(tag, text, attributes = {}, children = []) {
 
 const words = (name) => name.replaceAll("_", " ");
 
-// "show the back of: palm, index finger": whole fingers instead of their three segments.
+// A sentence of the program in which whole fingers are named instead of their three segments: "Show the back of: palm,
+// index finger."
 function sentence(text) {
   const whole = kFingers.map((finger, f) => f === 0 ? finger : `${finger} finger`);
   let short = text.replace("thumb_metacarpal, thumb_proximal, thumb_distal", whole[0]);
@@ -27,7 +28,7 @@ function sentence(text) {
 
 const millimetres = (metres) => (metres * 1e3).toFixed(1);
 
-// [what, share that was shown, in words] of one segment.
+// What is to be seen of a segment, as a list of [name, fraction that was seen, text].
 function partsOf(segment, scan) {
   const share = (value, enough) => Math.min(1, value / enough);
   const parts = [["palm side", share(segment.palm_side, scan.enough_frames), `${segment.palm_side} of ${scan.enough_frames} frames`],
@@ -37,7 +38,7 @@ function partsOf(segment, scan) {
   return parts;
 }
 
-// The share of each segment that was shown, for the colours of the hand; null: no calibration runs.
+// The fraction of each segment that was seen, which colours the hand; null: no scan is in progress.
 export function coverage(scan) {
   if (!scan || scan.phase !== "showing") return null;
   return scan.segments.map((segment) => {
@@ -76,7 +77,7 @@ function lengths(scan) {
   return table;
 }
 
-// `scan`: of the status; null: no calibration runs.
+// Shows the panel. `scan`: the state of the scan in the status; null: there is none.
 export function showScan(scan) {
   byId("scan").hidden = scan === null;
   byId("legend_what").textContent = coverage(scan) ? "shown 0" : "confidence 0";

@@ -1,6 +1,6 @@
-// The three-dimensional view. Everything is drawn in the sensor's frame (x right, y down, z forward); `root` turns it
-// into that of three.js (y up): where the room is known, up is against gravity, else it is the top of the sensor's
-// picture. It draws when something has changed, not all the time.
+// The 3D view. Everything is drawn in the sensor's frame (x right, y down, z forward), which `root` transforms to the
+// frame of three.js (y up). If the camera's pose in the room is known, up is opposite to gravity; otherwise up is the
+// top of the sensor's image. The view is only drawn when something has changed.
 import * as THREE from "/three/build/three.module.js";
 import {OrbitControls} from "/three/examples/jsm/controls/OrbitControls.js";
 import {Cloud} from "./cloud.js";
@@ -8,10 +8,10 @@ import {Ellipsoids} from "./ellipsoids.js";
 import {HandMesh} from "./hand_mesh.js";
 import {Room, placeOf} from "./room.js";
 
-const kFieldOfView = 45;  // degrees, of the free views
-const kBeside = 0.1, kAbove = 0.12, kBack = 0.38;  // m, from the hand to the eye at first
-const kSlowMs = 40;  // where a picture takes longer than this, fewer pixels are drawn
-const kFewestPixels = 0.5;
+const kFieldOfView = 45;  // vertical field of view of the free views [degrees]
+const kBeside = 0.1, kAbove = 0.12, kBack = 0.38;  // initial offset of the eye from the hand [m]
+const kSlowMs = 40;  // if drawing takes longer than this, the resolution is reduced
+const kFewestPixels = 0.5;  // smallest pixel ratio
 
 function poseMatrix(segment, smoothed) {
   const p = smoothed ? segment.smoothed_position : segment.position;
@@ -49,7 +49,7 @@ export class Scene {
     this.view = "follow";
     this.options = {smoothed: true, ellipsoids: false, floor: true, coverage: null};
     this.ground = new THREE.Color();
-    this.picture = null;  // texture behind the sensor's view
+    this.picture = null;  // texture in the background of the view from the sensor
     this.header = null;
     this.anchored = false;
     this.pixelRatio = slow ? 1 : Math.min(window.devicePixelRatio || 1, 2);
@@ -66,7 +66,7 @@ export class Scene {
     this.change();
   }
 
-  // `numbers`: T_world_camera, row by row; null: the room is not known.
+  // `numbers`: T_world_camera, row-major; null: unknown.
   setRoom(numbers) {
     const text = JSON.stringify(numbers);
     if (text === this.roomText) return;
@@ -82,12 +82,12 @@ export class Scene {
     this.change();
   }
 
-  // Behind the sensor and above, so that the hand is seen as its owner sees it.
+  // Places the eye on the sensor's side of the hand, above it and slightly to the right.
   moveEye() {
     const up = new THREE.Vector3(0, 1, 0);
     const level = (v) => v.applyQuaternion(this.sensor.quaternion).setY(0);
     let back = level(new THREE.Vector3(0, 0, 1));
-    if (back.length() < 0.2) back = level(new THREE.Vector3(0, -1, 0));  // a sensor that looks down: its picture's lower edge
+    if (back.length() < 0.2) back = level(new THREE.Vector3(0, -1, 0));  // the sensor looks down or up
     back.normalize();
     this.controls.target.set(0, 0, 0.6).applyMatrix4(this.place);
     this.free.position.copy(this.controls.target).addScaledVector(back, kBack).addScaledVector(up, kAbove)
@@ -111,7 +111,7 @@ export class Scene {
     this.change();
   }
 
-  // The sensor's own projection, whole and centred in the view.
+  // Sets the projection of the view from the sensor: the sensor's own, with its whole image centred in the view.
   fitSensor() {
     const h = this.header;
     if (!h || !(h.fx > 0)) return;
@@ -156,7 +156,7 @@ export class Scene {
     this.change();
   }
 
-  // Moves the eye along with the middle of the hands, calmly; in the view that stays in place only once.
+  // Moves the eye smoothly with the centre of the hands; in the view "orbit", which stays in place, only once.
   follow(centres) {
     const middle = centres.reduce((sum, c) => sum.add(c), new THREE.Vector3()).multiplyScalar(1 / centres.length);
     middle.applyMatrix4(this.place);
@@ -168,10 +168,10 @@ export class Scene {
     this.controls.update();
   }
 
-  // Once a picture of the display, at the time `now` [ms].
+  // Called once for every refresh of the display, at the time `now` [ms].
   draw(now) {
     if (!this.changed) { this.drawnAt = undefined; return; }
-    if (this.drawnAt !== undefined) this.adapt(now - this.drawnAt);  // before it is drawn: another size empties the canvas
+    if (this.drawnAt !== undefined) this.adapt(now - this.drawnAt);  // before drawing, since resizing clears the canvas
     this.changed = false;
     this.render();
     this.drawnAt = now;
@@ -197,7 +197,7 @@ export class Scene {
     this.cloud.points.visible = cloudShown;
   }
 
-  // A rectangle of the picture's shape behind everything.
+  // Draws the sensor's image as a rectangle behind everything else.
   renderPicture() {
     if (!this.backdrop) {
       this.backdrop = new THREE.Scene();
@@ -212,8 +212,8 @@ export class Scene {
     this.renderer.render(this.backdrop, this.backdropCamera);
   }
 
-  // Fewer pixels where drawing is slow, as it is without a GPU. `ms`: since the picture before, while the display asked
-  // for one as soon as that was done.
+  // Reduces the resolution if drawing is slow, for example without a GPU. `ms`: time since the previous drawing, which
+  // was in the refresh before this one.
   adapt(ms) {
     if (ms > 500) return;  // the page was hidden
     this.interval = this.interval ? 0.9 * this.interval + 0.1 * ms : kSlowMs / 2;
@@ -223,9 +223,9 @@ export class Scene {
     this.resize();
   }
 
-  // A PNG of what is shown.
+  // The view as a PNG.
   screenshot() {
-    this.render();  // what was drawn before is gone from the buffer
+    this.render();  // the browser clears the drawing buffer after display, so draw again
     return new Promise((done) => this.canvas.toBlob(done, "image/png"));
   }
 }

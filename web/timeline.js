@@ -1,8 +1,8 @@
-// The time line of a log that is played: where it stands, where the hand was lost.
+// The timeline of a log that is played: its position, and where the hand was lost.
 const byId = (id) => document.getElementById(id);
 
 export class Timeline {
-  // send({type, value}) goes to the program.
+  // send({type, value}) sends a command to the program.
   constructor(send) {
     this.send = send;
     this.log = null;

@@ -10,11 +10,11 @@
 
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;  // in a radian
+constexpr double kDegrees = 57.29577951308232;  // degrees per radian
 constexpr const char* kStatus[] = {"searching", "tracking", "holding", "lost"};
 
 struct Printer {
-  long lines = -1;  // without end
+  long lines = -1;  // number of lines still to be printed; negative: no limit
 
   void print(const lcm::ReceiveBuffer*, const std::string&, const barehand::glove_state_t* glove) {
     using barehand::glove_state_t;
@@ -23,7 +23,7 @@ struct Printer {
     std::printf("frame %lld %s %s", static_cast<long long>(glove->frame_number), left ? "left" : "right",
                 known ? kStatus[glove->status] : "?");
 
-    // Without a pose every angle is NaN and flagged.
+    // Without a pose, every angle is NaN and flagged as unobservable.
     if (glove->channel_flag[glove_state_t::INDEX_MPJ] != glove_state_t::UNOBSERVABLE)
       for (const int channel : {glove_state_t::INDEX_MPJ, glove_state_t::INDEX_PIJ, glove_state_t::INDEX_DIJ})
         std::printf(" %.1f", glove->channel[channel] * kDegrees);

@@ -1,11 +1,11 @@
 // Prints the angles of the index finger from a running `barehand track`, frame by frame:
 //   node angles.mjs [LINES]
-// Node.js 18 or later, no packages. LCM_DEFAULT_URL names the network. In a browser, which has no UDP, the same decoders
-// read the WebSocket of `barehand track --view` (docs/view.md).
+// Needs Node.js 18 or later and no packages. LCM_DEFAULT_URL names the network. Browsers have no UDP; there, the same
+// decoders read the messages on the WebSocket of `barehand track --view` (docs/view.md).
 import dgram from "node:dgram";
 import {decodeGloveState, kSideNames, kStatusNames} from "../../web/lcm.js";
 
-const kShortMessage = 0x4c433032;  // LC02; hand states are never larger than one datagram
+const kShortMessage = 0x4c433032;  // "LC02": a message in one datagram; hand states always fit into one
 const kGloveState = 0x5e477470f8db147en;  // fingerprint of the type, the first 8 bytes of its messages
 const kUnobservable = 2;           // glove_state_t.UNOBSERVABLE
 const kIndexFinger = [4, 5, 6];    // channels INDEX_MPJ, INDEX_PIJ, INDEX_DIJ
@@ -14,14 +14,14 @@ let lines = Number(process.argv[2] ?? Infinity);
 
 function print(glove) {
   const words = ["frame", glove.frame_number, kSideNames[glove.handedness], kStatusNames[glove.status] ?? "?"];
-  // Without a pose every angle is NaN and flagged.
+  // Without a pose, every angle is NaN and flagged as unobservable.
   if (glove.channel_flag[kIndexFinger[0]] !== kUnobservable)
     words.push(...kIndexFinger.map((channel) => (glove.channel[channel] * 180 / Math.PI).toFixed(1)));
   console.log(words.join(" "));
   if (--lines <= 0) socket.close();
 }
 
-// A small message: magic number, message number (4 bytes each), channel, a zero byte, data.
+// Handles a datagram with a short message: magic number and message number (4 bytes each), channel, a zero byte, data.
 function receive(datagram) {
   if (lines <= 0 || datagram.length < 8 || datagram.readUInt32BE(0) !== kShortMessage) return;
   const end = datagram.indexOf(0, 8);

@@ -17,7 +17,7 @@
 namespace barehand {
 namespace {
 
-/// The first fields of an image, which tell what it is.
+/// The first fields of an image message, which are decoded without its pixels.
 struct ImageHead {
   ros::Header header;
   std::uint32_t height = 0, width = 0;
@@ -28,21 +28,21 @@ struct ImageHead {
   }
 };
 
-/// "/camera/depth/image_raw" is in "/camera/depth".
+/// The namespace of a topic: "/camera/depth" for "/camera/depth/image_raw".
 std::string namespace_of(const std::string& topic) { return topic.substr(0, topic.rfind('/')); }
 
 bool is_packed_depth(const std::string& format) { return format.find("compressedDepth") != std::string::npos; }
 
-/// Bytes of compressedDepth before its PNG.
+/// Size of the header before the PNG in an image of the format compressedDepth [bytes].
 constexpr std::size_t kPackedDepthHeader = 12;
 
-/// A number of the channel's metadata; 0: none.
+/// A number in the channel's metadata; 0 if there is none.
 double number_in(const mcap::Channel& channel, const char* key) {
   const auto found = channel.metadata.find(key);
   return found == channel.metadata.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
 }
 
-/// Metres a count: as this program noted it, else ROS's millimetres.
+/// Metres per count: the unit that this program has stored, or else a millimetre, the convention of ROS.
 double depth_unit_of(const mcap::Channel& channel) {
   const double unit = number_in(channel, ros::kDepthUnit);
   return unit >= 1e-7 && unit <= 1 ? unit : 0.001;
@@ -98,7 +98,7 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
   return stream;
 }
 
-/// A message of the file, in its order.
+/// Registers a message; called for every message in the order of the file.
 void McapSource::look(const mcap::Message& message, const mcap::Channel& channel, std::span<const std::uint8_t> bytes) {
   auto known = streams_.find(channel.topic);
   if (known == streams_.end()) known = streams_.emplace(channel.topic, begin_stream(channel, bytes)).first;
@@ -145,7 +145,7 @@ Result<void> McapSource::choose() {
   for (const std::string& topic : chosen)
     if (auto added = add_frames(topic); !added) return added;
 
-  // In the order of the file: whoever asks for several topics gets their frames as they were recorded.
+  // Sort the frames of several topics in the order in which they were recorded.
   std::stable_sort(frames_.begin(), frames_.end(), [](const Frame& a, const Frame& b) {
     return std::pair(a.depth.chunk, a.depth.offset) < std::pair(b.depth.chunk, b.depth.offset);
   });
@@ -157,7 +157,8 @@ const McapSource::Stream* McapSource::camera_of(const std::string& topic) const 
   return found == streams_.end() || found->second.cameras.empty() ? nullptr : &found->second;
 }
 
-/// Colour whose pixels are the rays of depth: of the same frame and size. None: that is said where there is other.
+/// The colour stream that is registered to a depth topic: with the same frame_id and image size. Null: there is none;
+/// if there is other colour, this adds a warning. (The size of packed depth is not known here.)
 const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
   const Stream& depth = streams_.at(topic);
   std::vector<std::string> others;
@@ -187,6 +188,7 @@ Result<void> McapSource::add_frames(const std::string& topic) {
   const Stream* colour = colour_of(topic);
   const ColourPairs pairs = pair_colour(depth.utimes, colour != nullptr ? colour->utimes : std::vector<std::int64_t>());
 
+  // Add the frames with their colour and their numbers.
   FrameOrder order(StampUnit::microseconds);
   for (std::size_t i = 0; i < depth.messages.size(); ++i) {
     Frame frame{&name, depth.messages[i], {}, depth.utimes[i], 0, {}};
@@ -239,7 +241,7 @@ Result<FramePtr> McapSource::read_frame(const Frame& item) {
   if (const auto sensor = channel.metadata.find(ros::kSensor); sensor != channel.metadata.end())
     frame->sensor = sensor->second;
 
-  // The newest intrinsics that are not younger than the image.
+  // The newest intrinsics that are not newer than the image, or the first ones if all are newer.
   if (const Stream* stream = camera_of(*item.topic)) {
     const auto after = stream->cameras.upper_bound(item.utime);
     frame->camera = (after == stream->cameras.begin() ? after : std::prev(after))->second;
@@ -250,7 +252,7 @@ Result<FramePtr> McapSource::read_frame(const Frame& item) {
     return fail("the depth image and its camera info differ in size");
   frame->depth = std::move(*depth);
 
-  // Depth is what is tracked: it goes on without colour.
+  // If the colour cannot be read, the frame is delivered without it: tracking needs depth only.
   if (!item.colour) return frame;
   if (auto colour = read_colour(item, frame->camera))
     frame->colour = std::move(*colour);

@@ -13,37 +13,39 @@
 
 namespace barehand {
 
+/// What is replayed of an MCAP file, and how.
 struct McapOptions {
-  std::string channel = {};  ///< topic of the depth images, or a glob of such (matches_glob); "": the only one
-  std::optional<std::int64_t> start = {};  ///< position of the first frame, from 0; not given: first, backwards last
+  std::string channel = {};  ///< topic of the depth images, or a pattern (matches_glob); "": the only such topic
+  std::optional<std::int64_t> start = {};  ///< first frame to play, from 0; none: the first one, or last if backwards
   std::int64_t step = 1;                   ///< every step-th frame; negative plays backwards
-  GivenIntrinsics foreign = {};            ///< where there is no camera info
+  GivenIntrinsics foreign = {};            ///< intrinsics for depth images without camera info
 };
 
-/// Replays the depth images of an MCAP file of ROS 2 messages: one that this program wrote, or a bag with depth in
+/// Replays the depth images of an MCAP file of ROS 2 messages: a file that this program wrote, or a bag with depth in
 /// 16UC1 (sensor_msgs/Image, or CompressedImage in compressedDepth). The intrinsics are those of the topic camera_info
-/// beside it; colour is taken from a topic of the same frame and size, whose pixels are then the same rays. Never drops
-/// a frame; frames that are damaged or that FrameOrder does not use come as SkippedFrame. Own frames keep their numbers
-/// as far as these rise, foreign ones get their position.
+/// in the same namespace. Colour is taken from a topic with the same frame_id and image size, which is then registered
+/// to depth: equal pixels are equal rays. No frame is dropped; frames that are damaged or that FrameOrder rejects are
+/// delivered as SkippedFrame. Frames written by this program keep their numbers as long as these increase; other frames
+/// are numbered by their position.
 class McapSource : public FrameSource {
  public:
-  /// Errors: no MCAP file; no depth images (names the topics), or on several topics and none chosen; no intrinsics; a
-  /// start outside the file, a step of 0.
+  /// Errors: the file is not MCAP; it has no depth images (the error lists its topics), or has them on several topics
+  /// of which none is chosen; there are no intrinsics; `start` lies outside the file, or `step` is 0.
   static Result<std::unique_ptr<McapSource>> open(const std::string& path, const McapOptions& options = {});
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return false; }
   std::string name() const override { return "log:" + path_; }
 
-  /// Number of events `next` will deliver before the end: for progress.
+  /// Number of events that next() will deliver before the end, for a progress display.
   std::int64_t remaining() const;
-  /// Nominal rate noted in the file [frames/s]; 0: none is.
+  /// Nominal frame rate stored in the file [1/s]; 0: none.
   double fps() const { return fps_; }
-  /// What is to be said of the file, in sentences.
+  /// Warnings about the file, in sentences.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
-  /// What the messages of one topic are, told by the first one.
+  /// The kind of the messages of one topic, determined from the first one.
   enum class Kind { depth, packed_depth, colour, packed_colour, camera, other };
   struct Stream {
     Kind kind = Kind::other;
@@ -51,8 +53,8 @@ class McapSource : public FrameSource {
     int width = 0, height = 0;
     std::vector<mcap::Message> messages;
     std::vector<std::int64_t> utimes;
-    std::map<std::int64_t, Intrinsics> cameras;  ///< by time, of Kind::camera
-    bool lens = false;                           ///< some camera info has coefficients of distortion
+    std::map<std::int64_t, Intrinsics> cameras;  ///< the intrinsics by time, for Kind::camera
+    bool lens = false;                           ///< whether any camera info has distortion coefficients
   };
   using Streams = std::map<std::string, Stream>;  ///< by topic
   struct Frame {
@@ -60,7 +62,7 @@ class McapSource : public FrameSource {
     mcap::Message depth;
     std::optional<mcap::Message> colour;
     std::int64_t utime = 0, number = 0;
-    std::string fault;  ///< why it is not used (FrameOrder); "": it is
+    std::string fault;  ///< why FrameOrder rejects the frame; "": it is used
   };
 
   McapSource(std::string path, const McapOptions& options) : path_(std::move(path)), options_(options) {}

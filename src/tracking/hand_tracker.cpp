@@ -29,12 +29,13 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   start_where_given(observation, enough_data);
   if (!enough_data) return conclude(observation, std::nullopt, evidence);
 
-  // Predict, sample and refine: the last pose is carried into this frame.
+  // Follow the hand from its last pose into this frame: predict, sample and refine.
   std::optional<Hypothesis> followed, other;
   if (track_.motion.has_pose())
     followed = follower_.follow(observation, person_.hand(), track_.motion, frame_, choice_);
 
-  // Propose others: where following fails anywhere, otherwise where it is ambiguous.
+  // Propose another pose. If the followed one is good: one near it, if it is ambiguous (Proposers::beside). If it is
+  // bad or missing: search the whole observation (Proposers::anywhere).
   const ChoiceParams& rules = context_.params.choice;
   const double score = followed ? choice_.judged_score(observation, person_.profile(), followed->refined) : INFINITY;
   if (score < track_.state.bad_threshold(evidence) && !track_.unlike_before(score, rules)) {
@@ -48,7 +49,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   }
   if (!followed || !other) return conclude(observation, followed ? followed : other, evidence);
 
-  // Choose. A hand seldom jumps, so a pose elsewhere needs a larger advantage, unless the followed one is tentative.
+  // Choose. A hand seldom jumps, so a pose in another place needs a larger advantage, unless the track is tentative.
   const bool elsewhere =
       !track_.tentative() && pose_distance(person_.profile(), followed->refined.pose, other->refined.pose) > kAlike;
   const double advantage = elsewhere ? rules.elsewhere_advantage : rules.search_advantage;
@@ -60,7 +61,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
                                      std::span<const Decision> decisions) {
   for (const Decision& decision : decisions) choice_.note(decision);
   TrackEvidence evidence = begin_frame(observation);
-  if (!found) evidence.hand_pixels = 0;  // none of the data is this hand's
+  if (!found) evidence.hand_pixels = 0;  // no pixel belongs to this hand
   return conclude(observation, found, evidence);
 }
 
@@ -71,12 +72,12 @@ std::optional<Hypothesis> HandTracker::search(const HandObservation& observation
 
 HandEstimatePtr HandTracker::conclude(const HandObservation& observation, const std::optional<Hypothesis>& best,
                                       TrackEvidence evidence) {
-  // Update the track's state, and the track itself.
+  // Update the state machine, and the track if the hand is tracked.
   const TrackStatus status = update_state(observation, best, evidence);
   const bool tracked = status == TrackStatus::tracking && best;
   if (tracked) commit(observation, *best);
 
-  // Build the estimate before learning: this frame was explained with the hand as it was.
+  // Build the estimate before learning: the pose refers to the hand model as it was in this frame.
   HandEstimatePtr estimate = estimates_.build(observation, status, best ? &*best : nullptr, person_, choice_.take());
 
   // Learn the person.
@@ -90,7 +91,7 @@ HandEstimatePtr HandTracker::conclude(const HandObservation& observation, const 
 TrackEvidence HandTracker::begin_frame(const HandObservation& observation) {
   const std::int64_t utime = observation.frame->utime;
   TrackEvidence evidence;
-  // A recording played backwards has falling stamps: what counts is the time between frames.
+  // A recording played backwards has decreasing time stamps, so take the absolute difference.
   evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * kMicro : 0.0;
   evidence.hand_pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
   evidence.noise = observation.noise;
@@ -120,7 +121,7 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
   ++frame_;
   if (std::exchange(track_.searched, false)) ++track_.search_frames;
 
-  // What does not look like the hand that was lost is no evidence for it.
+  // Collect the evidence of the best pose. If it does not look like the hand that was lost, its score does not count.
   const ChoiceParams& rules = context_.params.choice;
   if (best) {
     const double score = choice_.judged_score(observation, person_.profile(), best->refined);
@@ -129,7 +130,7 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
     if (!track_.unlike_before(score, rules)) evidence.score = score;
   }
 
-  // The transition, and what it means for the motion model.
+  // Update the state machine, and restart or clear the motion model when the phase requires it.
   const TrackPhase before = track_.state.phase(), phase = track_.state.update(evidence);
   if (phase != before)
     choice_.note({"state", to_string(phase), to_string(before), evidence.score.value_or(NAN), NAN, 0});
@@ -146,7 +147,7 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
 void HandTracker::commit(const HandObservation& observation, const Hypothesis& best) {
   if (best.prediction) return track_.continue_with(best, person_.profile(), context_.params);
 
-  // A pose that was found anew starts a track, or takes it up.
+  // A pose that was found without a prediction starts a track, or resumes one.
   if (!track_.motion.has_pose()) start_track();
   if (best.size != 1) person_.doubt_size(best.size);
   track_.motion.restart(best.refined.pose, observation.frame->utime);
@@ -157,14 +158,14 @@ void HandTracker::apply(const TrackRequest& request) {
     given_start_ = start->pose;
   } else if (std::holds_alternative<StartAnew>(request)) {
     start_anew();
-    person_.reset();  // whoever comes next may be somebody else
+    person_.reset();  // the next hand may be another person's
   } else if (const auto* other = std::get_if<UseProfile>(&request)) {
     start_anew();
     person_.use(other->profile);
   } else if (const auto* doubt = std::get_if<DoubtSize>(&request)) {
     person_.doubt_size(doubt->size);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
-    // What may throw comes first.
+    // First what may throw, so that a failure leaves everything unchanged.
     std::shared_ptr<Observer> observer = context_.observer_for(changed->params);
     person_.change(changed->params, observer);
 

@@ -13,58 +13,66 @@
 
 namespace barehand {
 
-/// What a tracker may be asked to do before its next frame.
+// Requests to a tracker, which take effect before its next frame.
+
+/// Start tracking at a given pose.
 struct StartAt {
-  HandPose pose;  ///< T_camera_segment; the next observation, if it shows a hand, is tracked from it
+  HandPose pose;  ///< T_camera_segment; the next observation, if it shows a hand, is tracked from this pose
 };
-struct StartAnew {};  ///< forgets the hand and the person, and searches
+/// Forget the hand and the person, and search.
+struct StartAnew {};
+/// Forget the hand, and search for that of another person.
 struct UseProfile {
-  std::shared_ptr<const HandProfile> profile;  ///< of another person; tracking starts anew
+  std::shared_ptr<const HandProfile> profile;  ///< of the other person
 };
+/// Continue with the same hand, from its last pose and with the person learnt so far, but with other parameters.
 struct UseParams {
-  TrackerParams params;  ///< the same hand goes on from its last pose, as fitted to the person so far
+  TrackerParams params;
 };
+/// The hand in view seems to have another size than its profile (PersonModel::doubt_size).
 struct DoubtSize {
-  double size;  ///< of the hand in view relative to its profile; said once, and no pose is certain from now on
+  double size;  ///< size of the hand in view relative to its profile
 };
 using TrackRequest = std::variant<StartAt, StartAnew, UseProfile, UseParams, DoubtSize>;
 
-/// What others may know of a track between two frames.
+/// The state of a track between two frames, for code outside the tracker.
 struct TrackView {
   TrackStatus status;                          ///< as of the last observation
   bool tentative;                              ///< a lost hand may have been found; the next frame must confirm it
-  bool doubts_size;                            ///< the hand in view seems to be of another size than the profile's
-  bool start_is_given;                         ///< a pose from outside waits for the next observation
-  const HandPose* whereabouts;                 ///< where the next observation should show the hand; null: anywhere
+  bool doubts_size;                            ///< the hand in view seems to have another size than its profile
+  bool start_is_given;                         ///< a pose given by StartAt waits for the next observation
+  const HandPose* whereabouts;                 ///< last or given pose, near which the hand is expected; null: unknown
   std::shared_ptr<const HandProfile> profile;  ///< as fitted to the person so far
-  Effort effort;                               ///< of the next search
-  int full_attempts;                           ///< that a full search is worth; a quick one is worth one
+  Effort effort;                               ///< effort of the next search
+  int full_attempts;                           ///< number of attempts of a full search
 
+  /// Number of attempts of a search with this effort; a quick search is tried once.
   int attempts(Effort of_effort) const { return of_effort == Effort::full ? full_attempts : 1; }
 };
 
 /// Tracks one hand through a sequence of observations, in order. It follows the hand from frame to frame, proposes
-/// other poses where that explains too little, chooses by one global score, keeps the track's state and learns the
-/// person. Without a hand, or after a loss, it searches. Synchronous; owns no thread, clock, file or socket. Same
-/// observations and seed, same estimates. Which parts decide something: docs/architecture.md.
+/// other poses if the followed one explains the frame badly, chooses by one global score, keeps the track's state and
+/// learns the person's hand. Before the first hand and after a loss it searches. Synchronous; owns no thread, clock,
+/// file or socket. The same observations and seed give the same estimates. docs/architecture.md lists the parts that
+/// make decisions.
 class HandTracker {
  public:
-  /// `workers` outlives it; `log` hears what compares samples with the data, what is learnt and what seems wrong.
+  /// `workers` must outlive the tracker. `log` receives whether the CPU or the GPU compares samples with the data, what
+  /// is learnt of the person, and warnings.
   HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
               Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger(), HandIds ids = {});
   HandTracker(const HandTracker&) = delete;
   HandTracker& operator=(const HandTracker&) = delete;
 
-  /// One frame. Never null; says searching or lost where there is no hand.
+  /// Processes one frame. The result is never null; its status says whether the hand is tracked.
   HandEstimatePtr process(const HandObservation& observation);
-  /// One frame of which somebody else decided whether it shows this hand: `found` by search(), or nothing.
-  /// `decisions`: how that was decided.
+  /// Processes one frame for which the caller has decided whether it shows this hand: `found` is the result of
+  /// search(), or none if it does not. `decisions`: how the caller decided.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Hypothesis> found,
                           std::span<const Decision> decisions = {});
-  /// The best pose that up to `attempts` searches find in the next observation, if that shows enough of a hand; fewer
-  /// do where they settle it (RestartConsensus).
+  /// Returns the best pose that up to `attempts` searches find in the next observation (Proposers::anywhere).
   std::optional<Hypothesis> search(const HandObservation& observation, Effort effort, int attempts);
-  /// Before the next frame. UseParams may throw; then everything is as before.
+  /// Executes a request between two frames. UseParams may throw; then nothing has changed.
   void apply(const TrackRequest& request);
   TrackView view() const;
 
@@ -87,8 +95,8 @@ class HandTracker {
   Track track_;
   EstimateBuilder estimates_;
   std::optional<HandPose> given_start_;
-  std::uint32_t frame_ = 1;      // of the next observation: keys the random numbers
-  std::int64_t last_utime_ = 0;  // [us]
+  std::uint32_t frame_ = 1;      // number of the next observation, which keys the random numbers
+  std::int64_t last_utime_ = 0;  // time stamp of the last observation [us]; 0: none yet
 };
 
 }  // namespace barehand

@@ -7,6 +7,7 @@ namespace barehand {
 
 namespace {
 
+/// A threshold on the global score, scaled with the size of the hand and raised by the sensor's noise [m].
 double threshold(double score, const LossParams& params, const TrackEvidence& evidence) {
   const double scaled = score * evidence.hand_length / TrackState::kReferenceHandLength;
   return std::hypot(scaled, params.noise_factor * evidence.noise);
@@ -66,7 +67,8 @@ TrackState::Kind TrackState::kind_of(const TrackEvidence& evidence) const {
 }
 
 TrackPhase TrackState::update(const TrackEvidence& evidence) {
-  // Missing and undecided frames neither add to a run of bad frames nor end it.
+  // Count consecutive good and bad frames. Frames without data and undecided ones neither extend a run of bad frames
+  // nor end it.
   const Kind kind = kind_of(evidence);
   good_ = kind == Kind::good ? good_ + 1 : 0;
   if (kind == Kind::bad || kind == Kind::to_be_confirmed) ++bad_;
@@ -96,8 +98,8 @@ TrackPhase TrackState::next_while_lost(Kind kind, double dt) {
 }
 
 void TrackState::enter(TrackPhase phase) {
-  // A run of bad frames outlives the change between tracking and holding, what is counted of a loss that between lost
-  // and tentative.
+  // The count of bad frames continues between tracking and holding; the count of good frames and the time since the
+  // loss continue between lost and tentative. When holding begins, the time without data is already being counted.
   const bool same_track = tracked(phase) && tracked(phase_), same_loss = lost(phase) && lost(phase_);
   if (!same_track) bad_ = 0;
   if (!same_loss) good_ = 0;

@@ -7,14 +7,14 @@
 
 namespace barehand {
 
-/// When a hand counts as tracked. The global score is the mean mismatch of model and data [m].
+/// Thresholds of the track's state machine (TrackState). The global score is the mean mismatch of model and data [m].
 struct LossParams {
   double lost_score = 0.005;
   double recovered_score = 0.004;
   double noise_factor = 1.0;
   int bad_frames = 4;
   int good_frames = 1;
-  int min_hand_pixels = 200;  ///< fewer are no data: the pose is held
+  int min_hand_pixels = 200;  ///< a frame with fewer hand pixels counts as one without data
   double hold_time = 0.5;
   double forget_time = 3.0;
   bool operator==(const LossParams&) const = default;
@@ -39,19 +39,19 @@ void visit(V& v, LossParams& p) {
 
 /// What one frame says about the tracked hand.
 struct TrackEvidence {
-  double dt = 0;                 ///< since the frame before [s]
-  int hand_pixels = 0;           ///< that may be this hand; 0 where none are
+  double dt = 0;                 ///< time since the previous frame [s]
+  int hand_pixels = 0;           ///< number of pixels that may belong to this hand
   std::optional<double> score;   ///< global score of the best pose [m]; none: no pose was found or tried
   double noise = 0;              ///< HandObservation::noise [m]
   double hand_length = 0;        ///< HandProfile::hand_length() [m]
   bool to_be_confirmed = false;  ///< the score counts only if the next frame confirms the pose
 };
 
-/// Where a track stands: a TrackStatus, or tentative, which is published as lost.
+/// The phases of a track: those of TrackStatus, and tentative, which is published as lost.
 enum class TrackPhase { searching, tracking, holding, lost, tentative };
 std::string_view to_string(TrackPhase phase);
 
-/// The state machine of a track. It sorts every frame into one of five kinds and takes one transition:
+/// The state machine of a track. It classifies every frame as one of five kinds and makes one transition:
 ///
 ///   from      | no data      | bad           | undecided | good          | to be confirmed
 ///   ----------|--------------|---------------|-----------|---------------|----------------
@@ -61,27 +61,28 @@ std::string_view to_string(TrackPhase phase);
 ///   lost      | lost (4)     | lost (4)      | lost (4)  | tracking (1)  | tentative (4)
 ///   tentative | lost (4)     | lost (4)      | lost (4)  | tracking (1)  | tentative (4)
 ///
-/// (1) after `good_frames` good ones in a row, until then as if undecided; (2) lost after `bad_frames` bad ones;
-/// (3) lost after `hold_time`; (4) searching after `forget_time`. While holding, the pose is kept. While lost, the
-/// last good pose is one of the starts of the search. While tentative, a pose was found that the next frame must
+/// (1) after `good_frames` consecutive good frames, until then as if undecided; (2) lost after `bad_frames` bad frames;
+/// (3) lost after `hold_time`; (4) searching after `forget_time`. While holding, the last pose is kept. While lost, the
+/// last good pose is one of the starts of the search. Tentative means that a pose was found which the next frame must
 /// confirm.
 class TrackState {
  public:
-  static constexpr double kReferenceHandLength = 0.19;  ///< [m]
+  static constexpr double kReferenceHandLength = 0.19;  ///< hand length for which the thresholds are given [m]
 
   explicit TrackState(const LossParams& params) : params_(params) {}
 
-  /// The phase after this frame.
+  /// Processes one frame and returns the new phase.
   TrackPhase update(const TrackEvidence& evidence);
   TrackPhase phase() const { return phase_; }
   /// The phase as it is published.
   TrackStatus status() const;
-  /// A pose was given from outside: tracking until the scores say otherwise.
+  /// Starts tracking from a pose that was given from outside; it ends as usual if the scores are bad.
   void start_tracking() { enter(TrackPhase::tracking); }
   void reset() { enter(TrackPhase::searching); }
 
-  /// Score [m] above which a frame with this noise and hand is bad; below `good_threshold` it is good.
+  /// Global score [m] above which a frame with this noise and hand length is bad.
   double bad_threshold(const TrackEvidence& evidence) const;
+  /// Global score [m] below which it is good.
   double good_threshold(const TrackEvidence& evidence) const;
 
  private:
@@ -94,7 +95,7 @@ class TrackState {
   LossParams params_;
   TrackPhase phase_ = TrackPhase::searching;
   int good_ = 0, bad_ = 0;    // consecutive frames
-  double time_in_phase_ = 0;  // [s] holding, or lost and tentative together
+  double time_in_phase_ = 0;  // time in the phase holding, or in lost and tentative together [s]
 };
 
 }  // namespace barehand

@@ -6,7 +6,8 @@
 namespace barehand {
 namespace {
 
-/// Of every column or row of the view: the nearest one of the frame, -1 outside.
+/// For each of the `count` columns (or rows) of a view, the nearest column (or row) of the frame; -1 if that lies
+/// outside the frame's `limit`.
 std::vector<int> nearest(int count, double middle, double step, int limit) {
   std::vector<int> result(count);
   for (int i = 0; i < count; ++i) {

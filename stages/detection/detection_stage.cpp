@@ -8,18 +8,19 @@
 namespace barehand {
 namespace {
 
-// Beside a tracked hand the other one is searched for in every so many frames only, as the tracker does.
+// While one hand is tracked, the networks look for the other one only in every n-th frame, like TwoHandTracker
+// (kSearchEvery).
 constexpr int kBesideTracked = 3;
-constexpr double kLongestPrediction = 0.2;  // s
+constexpr double kLongestPrediction = 0.2;  // longest time over which a palm's motion is extrapolated [s]
 
 bool is_tracked(const HandEstimatePtr& earlier) { return earlier && earlier->status == TrackStatus::tracking; }
 
-/// Where the palm of a tracked hand should be in a frame.
+/// Predicts where the palm of a tracked hand is in a frame, by constant velocity.
 HandDetector::Expected expected(const HandEstimate& earlier, const RgbdFrame& frame) {
   const SegmentState& palm = earlier.segments[kPalm];
   const Eigen::Vector3d bone = earlier.profile ? earlier.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
   const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - earlier.utime)) * 1e-6);
-  // A velocity that is not known (NaN) moves nothing.
+  // An unknown velocity (NaN) counts as zero.
   const Eigen::Vector3d velocity =
       palm.velocity.allFinite() ? Eigen::Vector3d(palm.velocity.head<3>()) : Eigen::Vector3d::Zero();
   return {palm.T_camera_segment * (0.5 * bone) + age * velocity, earlier.handedness};
@@ -43,7 +44,9 @@ DetectionStage::DetectionStage(const DetectionParams& params, const std::string&
 DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
   const bool valid =
       frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
-  if (!detector_ || !valid) return nullptr;  // preprocessing says what is wrong with the frame
+  if (!detector_ || !valid) return nullptr;  // preprocessing reports what is wrong with the frame
+
+  // Decide whether this frame is searched as a whole, around the tracked hands, or not at all.
   const std::int64_t turn = frame_++;
   const auto tracked = std::ranges::count_if(feedback, is_tracked);
   const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
@@ -61,7 +64,8 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
     detector_.reset();
     return nullptr;
   }
-  // Between two looks at the whole frame, nothing else is taken for the hand that is searched for.
+  // Also set between two searches of the whole frame, so that meanwhile nothing undetected is taken for the missing
+  // hand.
   detection->whole_frame = !all_tracked;
   return std::make_shared<const Detection>(std::move(*detection));
 }

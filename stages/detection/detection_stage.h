@@ -11,18 +11,20 @@
 
 namespace barehand {
 
-/// Decides, frame by frame, where detection is worth its time, and runs it: in the whole frame while a hand is searched
-/// for, around each tracked hand where no colour tells it from the arm, and else not at all. Decisions depend on the
-/// frames and the feedback alone, never on time, so that the same recording gives the same results everywhere.
-/// Synchronous; frames come in order. Without usable networks it says so once in the log, and nothing is detected.
+/// Decides for every frame where to run the detection networks, and runs them: on the whole frame while a hand is
+/// missing; around each tracked hand if no colour is available that would tell it from the arm; otherwise not at all.
+/// The decision depends on the frames and the feedback only, not on time, so that a recording gives the same results on
+/// every machine. Synchronous; frames must come in order. If the networks cannot be used, a warning is logged once and
+/// nothing is detected.
 class DetectionStage {
  public:
-  /// `folder`: of the networks. `use_colour`: whether preprocessing uses colour where there is some.
+  /// `folder`: contains the networks. `use_colour`: whether preprocessing uses colour if the frame has it.
   DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
                  std::shared_ptr<spdlog::logger> log);
 
-  /// `feedback`: estimates of an earlier frame, one per hand, as preprocessing gets them; empty while nothing is
-  /// tracked. Null: detection is off, or not worth its time in this frame, and says nothing.
+  /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
+  /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
+  /// says nothing about where hands are.
   DetectionPtr process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
  private:
@@ -31,8 +33,8 @@ class DetectionStage {
   DetectionParams params_;
   bool use_colour_;
   std::shared_ptr<spdlog::logger> log_;
-  std::optional<HandDetector> detector_;  // none: off
-  std::int64_t frame_ = 0;
+  std::optional<HandDetector> detector_;        // none: detection is off
+  std::int64_t frame_ = 0;                      // number of valid frames so far
   std::vector<HandDetector::Expected> places_;  // scratch
 };
 

@@ -10,12 +10,12 @@
 namespace barehand {
 namespace {
 
-constexpr int kPalmRadius = 8;            // pixels around a peak: where the palm's depth is taken from
-constexpr double kApart = 0.09;           // m between two hands' palms
-constexpr double kRecentre = 0.03;        // m: a window that is off by more is looked at again
-constexpr double kSmallestHand = 0.0012;  // m^2 facing the camera that a window shows of a hand
+constexpr int kPalmRadius = 8;            // half the size of the square around a peak that gives the palm's depth [px]
+constexpr double kApart = 0.09;           // minimum distance between two hands' palms [m]
+constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
+constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
 
-/// Median depth of what is labelled a hand near a peak [m]; 0: nothing is.
+/// Median depth [m] of the pixels near a peak that are labelled as hand; 0 if there are none.
 double palm_depth(const Image<float>& depth, const NetworkOutput& output, double u, double v) {
   std::vector<float> found;
   const int centre_u = static_cast<int>(std::lround(u)), centre_v = static_cast<int>(std::lround(v));
@@ -35,7 +35,7 @@ double palm_depth(const Image<float>& depth, const NetworkOutput& output, double
   return *middle;
 }
 
-/// Area of the hand's pixels in a window [m^2], facing the camera.
+/// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
 double hand_area(const LabelMap& labels, const DepthView& view, const Image<float>& depth, const Intrinsics& camera) {
   double area = 0;
   for (int v = 0; v < depth.height(); ++v)
@@ -89,7 +89,8 @@ Result<void> HandDetector::find_palms(const RgbdFrame& frame, Detection& out) {
   return {};
 }
 
-/// One window. `mirrored`: seen in a mirror, as a left hand looks like the right ones that the network knows.
+/// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
+/// into a right one; the network was trained with right hands.
 Result<HandDetector::Window> HandDetector::look(const RgbdFrame& frame, const Eigen::Vector3d& centre, bool mirrored) {
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
@@ -108,7 +109,8 @@ Result<HandDetector::Window> HandDetector::look(const RgbdFrame& frame, const Ei
   return window;
 }
 
-/// Looks at a place until the hand is in the middle of the window and of the side that the window is made for.
+/// Runs the second network at a place, and once more if the hand is off the window's centre or of the other side than
+/// the window was mirrored for.
 Result<std::optional<DetectedHand>> HandDetector::examine(const RgbdFrame& frame, const Expected& place) {
   bool mirrored = place.side == Handedness::left;
   auto window = look(frame, place.centre, mirrored);
@@ -122,7 +124,8 @@ Result<std::optional<DetectedHand>> HandDetector::examine(const RgbdFrame& frame
     if (!window) return tl::unexpected(window.error());
   }
 
-  // Both windows say the other one: the average decides, and its joints count.
+  // If the window still shows the other side, try the other mirroring, too. The average of the log odds decides the
+  // side, and the window of that side gives the joints.
   if (other_side() && window->hand.centre.z() > 0) {
     auto other = look(frame, window->hand.centre, !mirrored);
     if (!other) return tl::unexpected(other.error());

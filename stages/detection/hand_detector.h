@@ -13,16 +13,16 @@ namespace barehand {
 
 struct DepthView;
 
-/// Finds hands in a depth image, of any size and focal length, without knowing where they are: one network finds palms
-/// in the whole frame, a second one looks at a window around each and tells joints, side and labels. It looks at one
-/// frame at a time and keeps nothing of it. Synchronous, on the calling thread; the result does not depend on the
-/// number of threads OpenCV is allowed. Not for two threads at once.
+/// Finds hands in a depth image of any size and focal length without prior knowledge of their positions: one network
+/// finds palms in the whole frame; a second one is applied to a window around each palm and estimates the joints, the
+/// side (left or right) and labels of the surface. Every frame is processed independently. Synchronous, on the calling
+/// thread; the result does not depend on OpenCV's number of threads. Not thread-safe.
 class HandDetector {
  public:
-  /// Networks from `folder` (docs/nets.md). Errors: missing, foreign or damaged files.
+  /// Loads the networks from `folder` (docs/nets.md). Errors: files that are missing, damaged or not these networks.
   static Result<HandDetector> load(const std::string& folder, const DetectionParams& params);
 
-  /// All hands of the frame, up to kMostHands. Error: a network gives values that are not finite.
+  /// Finds all hands of the frame, at most kMostHands. Error: a network returns values that are not finite.
   Result<Detection> detect(const RgbdFrame& frame);
 
   /// A place where a hand is expected.
@@ -30,7 +30,7 @@ class HandDetector {
     Eigen::Vector3d centre;          ///< of the palm, camera frame [m]
     std::optional<Handedness> side;  ///< none: either
   };
-  /// The hands at these places, without a look at the rest of the frame; nothing where no hand is seen there.
+  /// Finds the hands at the given places without searching the rest of the frame. Places without a hand are left out.
   Result<Detection> detect_at(const RgbdFrame& frame, std::span<const Expected> places);
 
   const std::string& version() const { return version_; }
@@ -38,10 +38,10 @@ class HandDetector {
   static constexpr int kMostHands = 4;
 
  private:
-  /// What one window shows.
+  /// The result of the second network for one window.
   struct Window {
     DetectedHand hand;
-    double hand_area = 0;  // m^2 facing the camera
+    double hand_area = 0;  // area of the pixels labelled as hand, projected onto a plane facing the camera [m^2]
   };
   HandDetector(Network full, Network crop, std::string version, const DetectionParams& params);
   Result<void> find_palms(const RgbdFrame& frame, Detection& out);
@@ -54,13 +54,13 @@ class HandDetector {
   std::string version_;
   DetectionParams params_;
 
-  /// A palm that the heat map shows.
+  /// A peak of the first network's heat map.
   struct Palm {
     Eigen::Vector3d centre;
     double probability;
   };
-  std::vector<Palm> palms_;  // of the current frame
-  Image<float> depth_;       // scratch: what a view sees
+  std::vector<Palm> palms_;  // of the current frame, most probable first
+  Image<float> depth_;       // scratch: depth image of the current view
   NetworkInput input_;       // scratch
 };
 

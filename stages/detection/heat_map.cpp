@@ -11,7 +11,7 @@ bool is_peak(const HeatMap& map, int column, int row) {
   for (int r = std::max(0, row - 1); r <= std::min(map.height - 1, row + 1); ++r)
     for (int c = std::max(0, column - 1); c <= std::min(map.width - 1, column + 1); ++c) {
       const float other = map.logit[r * map.width + c];
-      const bool before = r < row || (r == row && c < column);  // of equals the first one is the peak
+      const bool before = r < row || (r == row && c < column);  // of equal cells, the first one is the peak
       if (before ? other >= own : other > own) return false;
     }
   return true;

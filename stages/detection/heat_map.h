@@ -6,27 +6,29 @@
 
 namespace barehand {
 
-/// A map of logits, row-major.
+/// A heat map as a network returns it: logits, row-major.
 struct HeatMap {
   const float* logit;
   int width, height;
 };
 
+/// A local maximum of a heat map; its probability is the logistic function of the logit.
 struct HeatPeak {
   int column = 0, row = 0;
   double probability = 0;
 };
 
-/// Cells that are the highest among their eight neighbours and more probable than `least`, the most probable first;
-/// of equals the first in the map.
+/// The cells that are higher than their eight neighbours and more probable than `least`, the most probable first. Of
+/// neighbouring cells with equal values, the first one in row-major order is the peak.
 std::vector<HeatPeak> find_peaks(const HeatMap& map, double least);
 
-/// The distribution over the cells that a map stands for (softmax), summed up.
+/// Moments of the probability distribution over the cells that is the softmax of a heat map.
 struct HeatMoments {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();        ///< column, row [cells]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< [cells^2]
-  double value_mean = 0, value_variance = 0;             ///< of a second map, weighted with the first
+  double value_mean = 0, value_variance = 0;             ///< mean and variance of `values` under this distribution
 };
+/// `values`: a second map of the same size.
 HeatMoments heat_moments(const HeatMap& map, const float* values);
 
 }  // namespace barehand

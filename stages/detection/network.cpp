@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kRemedy = "use the networks that came with this version of Barehand";
 
-/// OpenCV prints what it throws; the error that is returned says it once.
+/// Silences OpenCV while it lives: OpenCV would log every exception, which is reported by the returned error anyway.
 class QuietOpenCv {
  public:
   QuietOpenCv() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
@@ -62,7 +62,7 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
   }
   Network network(std::move(net), name, shape);
 
-  // A first run tells whether the shapes fit and the weights are finite.
+  // A first run shows whether the shapes are right and the outputs are finite.
   NetworkInput nothing;
   nothing.depth.reset(shape.width, shape.height, 1.f);
   nothing.valid.reset(shape.width, shape.height, 0.f);

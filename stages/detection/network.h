@@ -9,41 +9,40 @@
 
 namespace barehand {
 
-/// A window of depth as the networks see it, two channels of equal size.
+/// The input of a network: a part of a depth image in two channels of equal size.
 struct NetworkInput {
-  Image<float> depth;  ///< scaled and clipped as the network was trained
+  Image<float> depth;  ///< scaled and clipped as in the training
   Image<float> valid;  ///< 1 = measured, 0 = not
 };
 
-/// What a network gives back: `maps` planes at a quarter of the input's size, one plane a label at half of it, and the
-/// log odds of a right hand. The planes lie one after the other, row-major; they live until the next call.
+/// The output of a network. The planes are stored one after the other, row-major; they are valid until the next call.
 struct NetworkOutput {
-  int maps = 0, map_width = 0, map_height = 0;
+  int maps = 0, map_width = 0, map_height = 0;  ///< number of heat maps, and their size: a quarter of the input's
   const float* map = nullptr;
-  int label_width = 0, label_height = 0;
-  const float* label = nullptr;
-  float side = 0;
+  int label_width = 0, label_height = 0;  ///< size of the label planes: half of the input's
+  const float* label = nullptr;           ///< logits, one plane per SurfaceLabel
+  float side = 0;                         ///< log odds of a right hand
 
   const float* map_plane(int i) const { return map + static_cast<std::size_t>(i) * map_width * map_height; }
   const float* label_plane(int i) const { return label + static_cast<std::size_t>(i) * label_width * label_height; }
 };
 
-/// What the outputs must look like.
+/// The input size and the number of heat maps that a network must have.
 struct NetworkShape {
   int width = 0, height = 0, maps = 0;
 };
 
-/// One network with its weights, run by OpenCV on the calling thread (cv::setNumThreads). Not for two threads at once.
+/// One network with its weights, run by OpenCV on the calling thread (cv::setNumThreads). Not thread-safe.
 class Network {
  public:
-  /// From the bytes of an ONNX file; `name` is for messages. Errors: no network, another shape, weights that are not
-  /// finite.
+  /// Loads a network from the bytes of an ONNX file; `name` is for error messages. Errors: OpenCV cannot read it; it
+  /// has another shape; it returns values that are not finite.
   static Result<Network> load(const std::string& bytes, const std::string& name, const NetworkShape& shape);
   Network(Network&&) noexcept;
   Network& operator=(Network&&) noexcept;
   ~Network();
 
-  /// Error: the network gives values that are not finite.
+  /// Error: the network returns values that are not finite.
   Result<NetworkOutput> run(const NetworkInput& input);
 
  private:

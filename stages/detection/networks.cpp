@@ -8,21 +8,23 @@
 namespace barehand {
 namespace {
 
-// Pixels unless said otherwise.
+// Longest and shortest focal length of a view for `full` [px of the view].
 constexpr double kFullFocal = 131.25, kShortestFocal = 105;
-constexpr float kMiddleDepth = 1, kFullNear = -1, kFullFar = 1.5;  // m
-constexpr double kWindow = 0.34;                                   // m across, at the palm's depth
-constexpr float kWindowDepth = 0.15;                               // m before and behind it
-// A heat map is wider than its joint is uncertain: its tails lie over the whole hand.
+// Depth that is 0 in the input of `full`, and the limits to which the difference from it is clipped [m].
+constexpr float kMiddleDepth = 1, kFullNear = -1, kFullFar = 1.5;
+constexpr double kWindow = 0.34;      // width of the window of `crop` at the palm's depth [m]
+constexpr float kWindowDepth = 0.15;  // depth range of that window, in front of the palm and behind it [m]
+// Factor from the standard deviation of a heat map to that of its joint. The map is wider than the joint is uncertain,
+// since its tails cover the whole hand.
 constexpr double kSpreadShare = 0.4;
-constexpr double kLeastDeviation = 0.004;  // m
+constexpr double kLeastDeviation = 0.004;  // minimum standard deviation of a joint [m]
 
 double square(double x) { return x * x; }
 
 }  // namespace
 
-/// Views that cover the frame together: one, unless its angle of view is wider than any that was trained with.
 std::vector<DepthView> frame_views(const Intrinsics& camera) {
+  // Choose the focal length with which one view covers the frame, within the limits; then count the views.
   const double wide =
       std::max(camera.width / (camera.fx * kFullShape.width), camera.height / (camera.fy * kFullShape.height));
   const double focal = std::clamp(1 / wide, kShortestFocal, kFullFocal);
@@ -32,7 +34,7 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
   const int columns = count(camera.width, camera.fx, kFullShape.width),
             rows = count(camera.height, camera.fy, kFullShape.height);
 
-  // Several ones are spread evenly and overlap.
+  // Several views are spaced evenly and overlap.
   const auto middle = [](int i, int n, int pixels, double covered) {
     return n == 1 ? 0.5 * (pixels - 1) : 0.5 * (covered - 1) + i * (pixels - covered) / (n - 1);
   };
@@ -75,7 +77,7 @@ void fill_crop(const Image<float>& depth, double middle, bool mirrored, NetworkI
     }
 }
 
-// Cell (c, r) is input pixel (2c, 2r).
+// Cell (c, r) of the label planes lies at input pixel (2c, 2r).
 void read_labels(const NetworkOutput& output, const DepthView& view, bool mirrored, LabelMap& out) {
   const int width = output.label_width, height = output.label_height;
   out.label.reset(width, height);
@@ -110,10 +112,11 @@ DetectedJoint read_joint(const NetworkOutput& output, int joint, const DepthView
   const Eigen::Vector2d pixel = view.frame_pixel(u, kMapStep * heat.mean.y() + kMapOffset);
   const double z = middle + kWindowDepth * heat.value_mean;
 
-  // Across: how wide the map is. In depth: how much the depths differ there, and no better than across.
+  // The covariance across the ray follows from the width of the heat map. The variance along the ray follows from the
+  // variance of the depths under the map, and is at least the mean variance across.
   DetectedJoint result;
   result.position = camera.unproject(pixel.x(), pixel.y(), z);
-  const double metres = kMapStep * z / view.focal;  // per cell
+  const double metres = kMapStep * z / view.focal;  // size of a cell at the joint's depth
   Eigen::Matrix2d across = square(kSpreadShare * metres) * heat.covariance;
   if (mirrored) across(0, 1) = across(1, 0) = -across(0, 1);
   const double depth_variance = square(kSpreadShare * kWindowDepth) * heat.value_variance + 0.5 * across.trace();

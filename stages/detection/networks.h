@@ -8,23 +8,28 @@
 
 namespace barehand {
 
-/// How the two networks are fed and read, as they were trained (docs/nets.md). Input pixels unless a name says
-/// otherwise.
-inline constexpr NetworkShape kFullShape{160, 120, 2}, kCropShape{96, 96, 2 * kLandmarkCount};
-inline constexpr double kMapStep = 4, kMapOffset = 1.5;  ///< cell i of a heat map is pixel i * step + offset
+// Inputs and outputs of the two detection networks (docs/nets.md): `full` finds palms in the whole frame, `crop` finds
+// the joints of a hand in a window. Inputs must be made as in the training.
 
-/// Views for `full` that cover the frame together: one, unless its angle of view is wider than any that was trained
-/// with.
+inline constexpr NetworkShape kFullShape{160, 120, 2}, kCropShape{96, 96, 2 * kLandmarkCount};
+/// Cell i of a heat map lies at input pixel i * kMapStep + kMapOffset.
+inline constexpr double kMapStep = 4, kMapOffset = 1.5;
+
+/// Views for `full` that together cover the frame: one, unless the camera's angle of view is wider than any in the
+/// training.
 std::vector<DepthView> frame_views(const Intrinsics& camera);
-/// The view for `crop` around a point of the camera frame with z > 0.
+/// The view for `crop` around a point in the camera frame [m] with z > 0.
 DepthView window_around(const Eigen::Vector3d& centre, const Intrinsics& camera);
 
+/// Makes the input of `full` from the depth image of a view [m].
 void fill_full(const Image<float>& depth, NetworkInput& input);
-/// `middle`: depth of the window [m]. `mirrored`: as seen in a mirror, where a left hand is a right one.
+/// Makes the input of `crop` from the depth image of a view [m]. `middle`: depth of the window's centre [m].
+/// `mirrored`: the input is mirrored left to right, which turns a left hand into a right one.
 void fill_crop(const Image<float>& depth, double middle, bool mirrored, NetworkInput& input);
 
+/// Reads the labels of either network. `mirrored`: whether the input was mirrored.
 void read_labels(const NetworkOutput& output, const DepthView& view, bool mirrored, LabelMap& out);
-/// One joint of `crop` with its spread.
+/// Reads one joint, with its covariance, from the output of `crop`. `middle` and `mirrored` as for fill_crop().
 DetectedJoint read_joint(const NetworkOutput& output, int joint, const DepthView& view, double middle, bool mirrored,
                          const Intrinsics& camera);
 

@@ -4,7 +4,7 @@
 
 namespace barehand {
 
-/// How hands are detected without knowing where they are.
+/// Parameters of the detection of hands by networks.
 struct DetectionParams {
   bool enabled = true;
   std::string networks = "nets";

@@ -9,9 +9,10 @@
 namespace barehand {
 namespace {
 
-constexpr const char* kInterface = "1";  // of the networks: what goes in and comes out (docs/nets.md)
+constexpr const char* kInterface = "1";  // version of the networks' inputs and outputs (docs/nets.md)
 constexpr const char* kRemedy = "install Barehand again, or correct the checksum in nets.json";
 
+/// Reads the file that nets.json names under `key`, and compares its checksum.
 Result<std::string> checked_file(const std::string& folder, const json_fields::Object& manifest, const char* key) {
   if (!manifest.has(key)) return fail("has no entry for \"" + std::string(key) + "\"", manifest.where, kRemedy);
   const json_fields::Object entry{manifest.json[key], manifest.where + ": " + key};

@@ -6,15 +6,15 @@
 
 namespace barehand {
 
-/// The two networks' files, as a folder of weights holds them.
+/// The contents of a folder with the weights of the two networks.
 struct DetectionWeights {
   std::string version;
   std::string full, crop;            ///< bytes of the ONNX files
-  std::string full_path, crop_path;  ///< for messages
+  std::string full_path, crop_path;  ///< names of the networks in error messages
 };
 
-/// Reads `folder`/nets.json and the files it names. Errors: a file that is missing or is not the one of nets.json
-/// (size, CRC-32), an interface that this program does not know.
+/// Reads `folder`/nets.json and the files that it names. Errors: a file is missing or does not have the CRC-32 that
+/// nets.json states; the networks have an interface that this program does not know.
 Result<DetectionWeights> load_weights(const std::string& folder);
 
 }  // namespace barehand

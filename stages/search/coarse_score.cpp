@@ -10,13 +10,15 @@ namespace barehand {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kCloseToHand = 0.008f;  // [m] holes and missing borders this close to the hand may be hand
-constexpr float kCloseCost = 0.1f;
-constexpr float kNearest = 0.02f;  // [m] points nearer to the camera plane are not drawn
-constexpr int kBorder = 1;
-constexpr std::size_t kLanes = 8;
-// A splat covers 2 x 2 cells: on average one cell more than belongs to the silhouette, less what cells that are hand
-// by a third add to the data. Points are pulled inwards by this fraction of a cell to make up for it.
+// Pixels without depth that are this close to the hand may belong to it: sensors lose depth at its border [m].
+constexpr float kCloseToHand = 0.008f;
+constexpr float kCloseCost = 0.1f;  // cost of a model cell there, and of a forearm cell without measured depth
+constexpr float kNearest = 0.02f;   // points nearer to the camera plane are not drawn [m]
+constexpr int kBorder = 1;          // width of the border around the grid [cells]
+constexpr std::size_t kLanes = 8;   // number of partial sums, so that the summation can be vectorised
+// A splat covers 2 x 2 cells, which makes the model's silhouette about one cell too wide. The silhouette of the data is
+// too wide by less, since a cell counts as hand from a third of its pixels on. Points are pulled inwards by this
+// fraction of a cell to compensate for the difference.
 constexpr double kShrink = 0.8;
 
 /// Rigid transform from a segment to the camera, in single precision.
@@ -26,9 +28,10 @@ struct Transform {
   Eigen::Vector3f t;
 };
 
-// Plain arrays that are said not to overlap, and sums written out: the compiler vectorises both loops.
+// The next two functions use plain arrays, declared as not overlapping, and written-out sums, so that the compiler
+// vectorises their loops.
 
-/// Depth, and a value that is negative where the skin faces the camera.
+/// Computes the depth [m] of every point, and a value that is negative if the skin there faces the camera.
 void depth_and_facing(const CoarseSkin::Part& part, const Transform& T, float* __restrict depth,
                       float* __restrict facing) {
   const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
@@ -42,7 +45,7 @@ void depth_and_facing(const CoarseSkin::Part& part, const Transform& T, float* _
   }
 }
 
-/// Pixels of the points, which are first pulled inwards along their normals by `shrink` [m].
+/// Projects the points to pixels, after pulling them inwards along their normals by `shrink` [m].
 void pixels(const CoarseSkin::Part& part, const Transform& T, const Intrinsics& camera, float shrink,
             const float* __restrict depth, float* __restrict u, float* __restrict v) {
   const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
@@ -98,7 +101,7 @@ void CoarseScorer::prepare_cell(const ScoreGrid& grid, std::size_t from, std::si
   const float background = static_cast<float>(params_.background) * distance;
   const bool measured = grid.depth[from] > 0;
   costs_.data[to] = grid.depth[from];
-  // Skin of the arm or a sleeve may be where the forearm is, or something in front of it; not empty space.
+  // The data at a forearm cell may be skin, a sleeve or something in front of it; a surface behind it costs no_forearm.
   costs_.bare[to] = measured ? static_cast<float>(params_.no_forearm) : 0.0f;
   costs_.forearm[to] = measured ? 0.0f : kCloseCost;
   switch (grid.label[from]) {
@@ -130,15 +133,17 @@ double CoarseScorer::operator()(const HandPose& pose) {
     splat(part, pose[part.segment], hand_z_);
     outside += outside_cost(part);
   }
-  splat(skin_.forearm, pose[kPalm], forearm_z_);  // may leave the region of interest without cost
+  splat(skin_.forearm, pose[kPalm], forearm_z_);  // no outside_cost: the forearm may leave the region of interest
   return (outside + sum_of_costs()) / hand_cells_;
 }
 
-/// Fixed order of summation: lanes first, then across, whatever the compiler makes of it.
+/// Sums the costs of all cells. The order of summation is fixed (within each lane, then over the lanes), so that the
+/// result does not depend on how the compiler vectorises.
 double CoarseScorer::sum_of_costs() const {
   const float cap = static_cast<float>(params_.depth_cap), sleeve = static_cast<float>(params_.sleeve_depth);
   const float *hand_z = hand_z_.data() + before_grid(), *forearm_z = forearm_z_.data() + before_grid();
-  // A point covers 2 x 2 cells, of which the z-buffers hold the first.
+  // A skin point covers 2 x 2 cells, but splat() stores its depth only in the top left one. A cell therefore takes the
+  // nearest of itself and its left, upper and upper left neighbours.
   const std::size_t above = camera_.width;
   const auto covering = [above](const float* z) {
     return std::min(std::min(*z, *(z - 1)), std::min(*(z - above), *(z - above - 1)));
@@ -149,7 +154,7 @@ double CoarseScorer::sum_of_costs() const {
   std::array<float, kLanes> sum{};
   for (std::size_t block = 0; block < costs_.data.size(); block += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      // Everything is loaded before it is chosen from: the loop stays free of branches.
+      // All values are loaded before one is selected, so that the loop has no branches.
       const std::size_t i = block + lane;
       const float z = covering(hand_z + i), f = covering(forearm_z + i), d = data[i], per_metre = slope[i];
       const float in_front = front[i], hidden = behind[i], no_model = empty[i], arm = forearm[i], no_sleeve = bare[i];
@@ -167,7 +172,7 @@ double CoarseScorer::sum_of_costs() const {
 }
 
 double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
-  if (!leaves_grid_) return 0;  // nearly always
+  if (!leaves_grid_) return 0;  // the usual case
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   double beyond_region = 0;
   int beyond_image = 0;
@@ -182,8 +187,8 @@ double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
   return beyond_region + params_.outside * beyond_image;
 }
 
-/// Beyond the region of interest, yet in the image, no hand was found: what lies at the region's border goes on there,
-/// be it background or an object that hides the hand.
+/// Cost of a point inside the image but outside the region of interest, where no hand was found. The background or
+/// object at the nearest cell of the region's border is assumed to continue there.
 double CoarseScorer::border_cost(float u, float v, float z) const {
   const int i = std::clamp(static_cast<int>(std::lround(u)), kBorder, camera_.width - 1 - kBorder);
   const int j = std::clamp(static_cast<int>(std::lround(v)), kBorder, camera_.height - 1 - kBorder);
@@ -191,8 +196,8 @@ double CoarseScorer::border_cost(float u, float v, float z) const {
   return z < costs_.data[cell] ? costs_.front[cell] : costs_.behind[cell];
 }
 
-/// Which points are drawn, and where; true if any that faces the camera comes off the grid. Apart from what follows:
-/// it vectorises.
+/// Marks the points to draw and computes their cells; returns whether a point that faces the camera leaves the grid.
+/// Kept separate so that it vectorises.
 bool CoarseScorer::judge(std::size_t count) {
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   const std::int32_t stride = camera_.width, start = static_cast<std::int32_t>(before_grid());

@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-/// Weights of the quick score of a whole pose; each is the cost of one cell.
+/// Weights of the coarse score of a whole pose (CoarseScorer). Costs are per cell of the grid.
 struct CoarseScoreParams {
   double depth_cap = 0.05;
   double background = 1.2;
@@ -36,18 +36,21 @@ void visit(V& v, CoarseScoreParams& p) {
 
 /// Silhouette and depth score of a whole pose on a coarse grid: the skin is splatted into a z-buffer of cells; every
 /// covered cell costs its capped depth difference (hand), or its distance to the hand (background); hand cells that
-/// stay uncovered cost too. 0 = perfect; about 1 = as good as no model at all. Refers to the skin; one per thread.
+/// stay uncovered cost too. 0 = perfect; about 1 = as good as no model at all. Not thread-safe.
 class CoarseScorer {
  public:
+  /// `skin` must outlive the scorer; `grid` is copied.
   CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params);
 
-  /// Sum of the costs per hand cell; infinity when the grid is empty or the pose is not finite.
+  /// Sum of the costs of all cells divided by the number of hand cells; infinity if the grid is empty or the pose is
+  /// not finite.
   double operator()(const HandPose& pose);
 
  private:
-  /// Cost of model depth z over a cell: slope min(|z - data|, cap) + (z < data ? front : behind); without model
-  /// `empty`. Of forearm depth: the first term + forearm + (z is in front by more than sleeve_depth ? bare : 0).
-  /// Arrays over the cells with a border of one cell, so that splats need no range check.
+  /// Coefficients of the cost of every cell. If the model covers a cell at depth z, the cost is
+  /// slope * min(|z - data|, depth_cap) + (z < data ? front : behind); if it does not, `empty`. If the forearm covers
+  /// it at depth z, the cost is slope * min(|z - data|, depth_cap) + forearm + (z < data - sleeve_depth ? bare : 0).
+  /// The arrays have a border of one cell around the grid.
   struct CellCosts {
     std::vector<float> data, slope, front, behind, empty, forearm, bare;
   };
@@ -58,21 +61,25 @@ class CoarseScorer {
   double outside_cost(const CoarseSkin::Part& part) const;
   double border_cost(float u, float v, float z) const;
   double sum_of_costs() const;
-  /// Empty cells in front of the z-buffers' first, so that each has three neighbours.
+  /// Number of empty cells before the first cell of the z-buffers, so that every cell has a left, an upper and an upper
+  /// left neighbour.
   std::size_t before_grid() const { return static_cast<std::size_t>(camera_.width) + 1; }
 
   const CoarseSkin& skin_;
   CoarseScoreParams params_;
-  Intrinsics camera_;  // of the bordered cells
-  float shrink_ = 0;   // [m]
+  Intrinsics camera_;  // whose pixels are the cells, including the border
+  float shrink_ = 0;   // distance by which the points are pulled inwards [m]
   float image_lo_u_ = 0, image_lo_v_ = 0, image_hi_u_ = 0, image_hi_v_ = 0;
   int hand_cells_ = 0;
   CellCosts costs_;
-  /// z-buffers of the first of the 2 x 2 cells that a point covers; infinite where nothing was drawn.
+  /// z-buffers. A point covers 2 x 2 cells, but its depth is stored only in the top left one; infinite if nothing was
+  /// drawn.
   std::vector<float> hand_z_, forearm_z_;
-  std::vector<float> u_, v_, z_, facing_;             // of the part being splatted; facing < 0: towards the camera
-  std::vector<std::int32_t> drawn_, visible_, cell_;  // of that part: 1 where it is drawn; indices of those; where
-  bool leaves_grid_ = false;
+  // Of the points of the part that is being splatted.
+  std::vector<float> u_, v_, z_, facing_;  // pixel, depth, and a number that is negative if it faces the camera
+  // 1 if the point is drawn, otherwise 0; indices of the drawn points; cell of each point.
+  std::vector<std::int32_t> drawn_, visible_, cell_;
+  bool leaves_grid_ = false;  // whether a point that faces the camera lies outside the grid
 };
 
 }  // namespace barehand

@@ -10,7 +10,7 @@ namespace barehand {
 
 namespace {
 
-constexpr double kForearmLength = 0.035;  // [m] short, because the wrist may be bent
+constexpr double kForearmLength = 0.035;  // length of the forearm stub [m]; short, because the wrist may be bent
 
 void add(CoarseSkin::Part& part, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
   part.x.push_back(static_cast<float>(p.x())), part.y.push_back(static_cast<float>(p.y()));
@@ -18,7 +18,8 @@ void add(CoarseSkin::Part& part, const Eigen::Vector3d& p, const Eigen::Vector3d
   part.ny.push_back(static_cast<float>(n.y())), part.nz.push_back(static_cast<float>(n.z()));
 }
 
-/// Jitter within equal strata: a fixed stride would beat against the spiral in which surfaces are sampled.
+/// Thins the skin to about one point per `spacing` x `spacing` [m] by stratified random sampling. A fixed stride would
+/// give moiré patterns with the spiral in which the surface points are ordered.
 CoarseSkin::Part thinned(const SegmentSurface& skin, int segment, double spacing) {
   double area = 0;
   for (const float a : skin.area) area += a;
@@ -36,7 +37,7 @@ CoarseSkin::Part thinned(const SegmentSurface& skin, int segment, double spacing
   return part;
 }
 
-/// Elliptic cylinder that continues the proximal end of the palm.
+/// Points on an elliptic cylinder that continues the palm beyond its proximal end.
 CoarseSkin::Part forearm_stub(const SegmentProfile& palm, double spacing) {
   const double a = palm.half_width[0], b = palm.half_thickness[0];
   const int around = std::max(6, static_cast<int>(std::lround(std::numbers::pi * (a + b) / spacing)));

@@ -9,14 +9,14 @@ namespace barehand {
 /// The skin thinned to about one point per `spacing` x `spacing` [m], laid out for SIMD, plus a stub of forearm.
 struct CoarseSkin {
   struct Part {
-    int segment = 0;  ///< whose frame the points are in
-    float width = 0;  ///< [m] side of the square of skin for which a point stands
+    int segment = 0;  ///< the points are in the frame of this segment
+    float width = 0;  ///< side length of the square of skin that one point represents [m]
     std::vector<float> x, y, z, nx, ny, nz;
     std::size_t size() const { return x.size(); }
   };
   std::vector<Part> parts;  ///< one for every segment
-  /// Beginning of the forearm, in the palm's frame. A hand never ends in the air at its wrist: this tells the wrist
-  /// from the fingers where the silhouette alone does not.
+  /// Beginning of the forearm, in the palm's frame. A hand never ends at its wrist, so the forearm distinguishes the
+  /// wrist from the fingers if the silhouette alone does not.
   Part forearm;
 };
 

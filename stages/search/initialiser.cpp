@@ -15,15 +15,18 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMaxPitch = 0.9;    // [rad]
-constexpr double kSkinCell = 0.004;  // [m]
-constexpr int kSkinPoints = 600;     // per segment: dense enough for the palm at the fine cell
-constexpr int kLastGoodTurns = 8;
-constexpr double kPalmCentre = 0.6, kHeel = 0.3;  // of the palm's bone
+constexpr double kMaxPitch = 0.9;    // largest tilt of a template towards the camera or away from it [rad]
+constexpr double kSkinCell = 0.004;  // resolution of the skin from which surface points are drawn [m]
+constexpr int kSkinPoints = 600;     // surface points per segment: dense enough for the palm on the fine grid
+constexpr int kLastGoodTurns = 8;    // in-plane rotations in which the last good pose is tried
+// Centre and heel of the palm, as fractions of the palm's bone from the wrist.
+constexpr double kPalmCentre = 0.6, kHeel = 0.3;
+// Number of trials in one parallel task, for templates and for changed fingers.
 constexpr int kPlacedTogether = 24, kChangedTogether = 6;
-constexpr double kNearDistinct = 0.25;  // of the distance between results: one finger is a fifth of a hand
+// Factor on `distinct` in the search near a pose, where trials differ in one finger, a fifth of the hand.
+constexpr double kNearDistinct = 0.25;
 
-/// Mean of the points that face a camera looking along `view`, weighted by the area they show.
+/// Mean of the points that face a camera looking along `view`, weighted by their projected area.
 Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
   Vector3d sum = Vector3d::Zero();
   double weight = 0;
@@ -46,10 +49,11 @@ Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector
 
 }  // namespace
 
+/// A pose that is tried, with its cost once that is known.
 struct Initialiser::Trial {
-  std::string name;
+  std::string name;  ///< of the template
   ScoredPose scored;
-  bool stays = false;  ///< is tried where it is
+  bool stays = false;  ///< scored at its own position instead of being moved onto the data
 };
 
 double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b) {
@@ -80,17 +84,23 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   const PoseCost fine_cost(*profile_, fine, fine_skin_, score, params_.search.shape_prior);
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
 
+  // Lay all templates over the data and keep the best. In a quick search, the in-plane rotations are shifted from frame
+  // to frame by the golden ratio, so that successive frames cover different ones.
   const double turn = effort == Effort::quick ? std::fmod(0.6180339887 * frame, 1.0) : 0.0;
   Trials trials = template_shapes(work, turn);
   if (last_good) std::ranges::move(last_good_shapes(*last_good), std::back_inserter(trials));
   for_each_trial(trials, coarse_cost, kPlacedTogether, workers,
                  [&](Trial& trial, std::uint32_t, PoseCost& cost) { place(trial, coarse, cost); });
   trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct, work.elsewhere);
+
+  // First round: improve these on the coarse grid.
   for_each_trial(trials, coarse_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     const KeyedRandom random(seed, frame, 1, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.first_evaluations, random, params_.search);
   });
   trials = most_promising(std::move(trials), work.second_survivors, params_.distinct, work.elsewhere);
+
+  // Second round: align the best to the points by ICP, and improve them on the fine grid.
   const ObservedCloud cloud(observation);
   for_each_trial(trials, fine_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     trial.scored.cost = cost(trial.scored.articulated);
@@ -109,11 +119,14 @@ std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& obs
   const PoseCost cost(*profile_, grid, fine_skin_, params_.score, params_.search.shape_prior);
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
 
+  // Try the pose with each finger changed, and keep the best.
   Trials trials = changed_fingers(followed);
   for_each_trial(trials, cost, kChangedTogether, workers,
                  [&](Trial& trial, std::uint32_t, PoseCost& own) { place(trial, grid, own); });
   const double distinct = kNearDistinct * params_.distinct;
   trials = most_promising(std::move(trials), params_.near_survivors, distinct, 0);
+
+  // Improve these by local search.
   for_each_trial(trials, cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& own) {
     const KeyedRandom random(seed, frame, 3, number);
     trial.scored = search_pose(trial.scored, own, limits_, params_.near_evaluations, random, params_.search);
@@ -128,7 +141,7 @@ std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct, 
   return result;
 }
 
-/// The pose itself, and with one finger bent as in one of the templates.
+/// The pose itself, and the pose with each finger bent as in each of the templates.
 Initialiser::Trials Initialiser::changed_fingers(const HandPose& pose) const {
   const ArticulatedPose original = articulated_from(*profile_, pose, limits_);
   Trials trials{{"followed", {original, 0}, true}};
@@ -146,7 +159,8 @@ Initialiser::Trials Initialiser::changed_fingers(const HandPose& pose) const {
   return trials;
 }
 
-/// Calls visit(trial, its number, a cost of its thread's own) for every trial; `together` of them share one task.
+/// Calls visit(trial, number of the trial, cost function) for every trial, in parallel. Every task has its own copy of
+/// the cost function and visits `together` trials.
 template <class Visit>
 void Initialiser::for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers,
                                  const Visit& visit) {
@@ -158,9 +172,10 @@ void Initialiser::for_each_trial(Trials& trials, const PoseCost& cost, int toget
   });
 }
 
-/// The templates in all orientations, not yet placed.
+/// The templates in all orientations, without a position. `turn`: offset of the in-plane rotations, as a fraction of
+/// their step.
 Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, double turn) const {
-  // Few shapes are spread over all templates, so that open and closed hands both stay.
+  // If only some shapes are used, they are spread over all templates, so that open and closed hands are among them.
   const std::size_t count = std::min<std::size_t>(effort.shapes, shapes_.size());
   Trials trials;
   for (std::size_t n = 0; n < count; ++n) {
@@ -181,8 +196,9 @@ Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, dou
   return trials;
 }
 
-/// Lays a hand over the data in three ways: visible skin on the centroid; palm on the widest place of the hand, which
-/// holds when fingers are hidden; its heel there, if half the palm is hidden, too. The best one is kept.
+/// Moves a trial onto the data in three ways and keeps the best one: the mean of the visible skin on the centroid of
+/// the hand; the centre of the palm on the widest place of the hand, which is right even if fingers are hidden; the
+/// heel of the palm there, in case half of the palm is hidden, too.
 void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const {
   const ArticulatedPose shape = trial.scored.articulated;
   if (trial.stays) {
@@ -205,7 +221,7 @@ void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) con
   }
 }
 
-/// The pose as it is, and in several in-plane rotations.
+/// The last good pose at its own position, and several in-plane rotations of it to be moved onto the data.
 Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) const {
   ArticulatedPose pose = articulated_from(*profile_, last_good, limits_);
   Trials trials{{"last", {pose, 0}, true}};
@@ -218,15 +234,17 @@ Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) con
   return trials;
 }
 
-/// The best `count` trials of which no two are closer than `distinct`, ranked. The last `elsewhere` of them, as a part
-/// of `count`, are the best far from all others, if there are such: variants of one pose leave room for another one.
+/// The best `count` trials of which no two are closer than `distinct` [m], ranked. A fraction `elsewhere` of them is
+/// reserved for the best trials that are farther than params_.apart from all others, if there are any, so that variants
+/// of one pose do not displace all other poses.
 Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct, double elsewhere) const {
   const auto by_cost = [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; };
   std::ranges::stable_sort(trials, by_cost);
   Trials chosen;
   std::vector<HandPose> poses;
   std::vector<bool> taken(trials.size());
-  // Returns where it stopped: whatever lies before that is chosen, or closer than `apart` to what is.
+  // Chooses trials from index `from` on that are at least `apart` away from all chosen ones, until `up_to` are chosen.
+  // Returns the index at which it stopped.
   const auto choose = [&](std::size_t from, int up_to, double apart) {
     std::size_t i = from;
     for (; i < trials.size() && static_cast<int>(chosen.size()) < up_to; ++i) {
@@ -248,7 +266,7 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
   return chosen;
 }
 
-/// Rigid alignment to the cloud, taken if the score agrees.
+/// Aligns a trial rigidly to the observed points by ICP; the result is kept if it lowers the cost.
 void Initialiser::align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud,
                         PoseCost& cost) const {
   const HandPose pose = posed(*profile_, trial.scored.articulated);

@@ -10,7 +10,8 @@
 
 namespace barehand {
 
-/// How much is searched: templates are scored on a coarse grid, the best are improved in two rounds.
+/// Effort of a search: how many templates are scored on the coarse grid, and how many are improved in the two rounds
+/// that follow.
 struct SearchEffort {
   int in_plane = 16;
   int rolls = 8;
@@ -39,11 +40,12 @@ void visit(V& v, SearchEffort& p) {
     "fraction of the poses kept each time that must differ from the rest by `apart`");
 }
 
+/// Parameters of the search for a start pose (Initialiser).
 struct InitialiserParams {
   double coarse_cell = 0.008;
   double fine_cell = 0.005;
   double widening = 0.17;
-  int min_hand_pixels = 200;  ///< fewer: no start is proposed
+  int min_hand_pixels = 200;  ///< with fewer hand pixels, no start pose is proposed
   int results = 12;
   double distinct = 0.012;
   double apart = 0.06;
@@ -76,35 +78,37 @@ void visit(V& v, InitialiserParams& p) {
   v("icp", p.icp, "rigid alignment of the survivors");
 }
 
-/// A proposed start, joints closed.
+/// A proposed start pose; its joints are closed.
 struct StartCandidate {
-  std::string name;  ///< template it grew from, for example "open" or "last"
+  std::string name;  ///< the template that it was made from, for example "open" or "last"
   HandPose pose;
   double cost = 0;  ///< coarse score with shape prior; comparable within one observation
 };
 
 enum class Effort { quick, full };
 
-/// What a finger behind an object costs: a little, which is right when most of the hand is seen, or nothing.
+/// Cost of model cells hidden behind an object: `costs` is a small cost, right if most of the hand is visible; `free`
+/// is no cost.
 enum class Hiding { costs, free };
 
-/// Start poses from one observation alone (not in the paper, whose start is manual; Sec. 5.2). Hand shape templates
-/// at many orientations are laid over the hand's pixels, scored by silhouette and depth, and the best are improved.
-/// Handedness is the profile's. Const and deterministic: (observation, seed) decide the result, not the workers.
+/// Proposes start poses from a single observation. (Not in the paper, whose start is manual; Sec. 5.2.) Templates of
+/// hand shapes are laid over the hand's pixels in many orientations, scored by silhouette and depth, and the best are
+/// improved. The handedness is that of the profile. Deterministic: the result depends on the arguments only, not on the
+/// number of threads.
 class Initialiser {
  public:
   Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params);
 
-  /// Ranked, best first; empty when the observation shows too little of a hand. `last_good`: pose before a loss, tried
-  /// where it was and at the hand's centroid in several in-plane rotations. The quick search turns its template
-  /// orientations from frame to frame, so that successive lost frames cover what one leaves out.
-  /// `hiding`: free where the hand is seen so little that the smallest hidden shape would win.
+  /// Returns start poses, best first; none if the observation shows too little of a hand. `last_good`: last good pose
+  /// before a loss, which is tried at its own position and, in several in-plane rotations, moved onto the data. A quick
+  /// search uses other orientations of the templates in every frame, so that successive frames complement each other.
+  /// `hiding`: should be `free` if so little of the hand is visible that otherwise the most compact shape would win.
   std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
                                       Workers& workers, Hiding hiding = Hiding::costs,
                                       const HandPose* last_good = nullptr) const;
 
-  /// Ranked start poses near `followed`, whose palm is about right: it and what single fingers of the templates make of
-  /// it, the best improved on the fine grid.
+  /// Returns start poses near `followed`, best first. The palm of `followed` must be about right: tried are the pose
+  /// itself and the pose with a single finger bent as in a template; the best are improved on the fine grid.
   std::vector<StartCandidate> propose_near(const HandObservation& observation, const HandPose& followed,
                                            std::uint64_t seed, Workers& workers) const;
 
@@ -129,7 +133,7 @@ class Initialiser {
   CoarseSkin coarse_skin_, fine_skin_;
 };
 
-/// Mean distance of the 16 distal ends of two poses [m].
+/// Mean distance between the distal ends of the 16 segments in two poses [m].
 double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b);
 
 }  // namespace barehand

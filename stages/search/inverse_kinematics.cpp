@@ -14,17 +14,18 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kIterations = 12;
-constexpr double kDamping = 1e-3;
-constexpr double kOutlier = 3;                   // standard deviations: a joint that is off by more pulls less
-constexpr double kGapDeviation = 0.001;          // m, of soft joints
-constexpr double kLimitDeviation = 4 * kDegree;  // of angles beyond their limits, and of twist
-constexpr double kLimitWidening = 10 * kDegree;
-constexpr double kRestFlexion = 20 * kDegree;  // where nothing else is known
-constexpr double kRestDeviation = 50 * kDegree;
-constexpr double kLongestTurn = 30 * kDegree, kLongestStep = 0.05;  // m, of one iteration
+constexpr int kIterations = 12;                  // Gauss-Newton steps
+constexpr double kDamping = 1e-3;                // Levenberg-Marquardt factor on the diagonal
+constexpr double kOutlier = 3;                   // scale of the Cauchy cost of a detected joint [standard deviations]
+constexpr double kGapDeviation = 0.001;          // standard deviation of the gap at a soft joint [m]
+constexpr double kLimitDeviation = 4 * kDegree;  // standard deviation of angles beyond their limits, and of twist
+constexpr double kLimitWidening = 10 * kDegree;  // by which the profile's joint limits are widened
+constexpr double kRestFlexion = 20 * kDegree;    // prior mean of every flexion angle
+constexpr double kRestDeviation = 50 * kDegree;  // its standard deviation
+constexpr double kLongestTurn = 30 * kDegree,    // largest rotation of a segment in one iteration
+    kLongestStep = 0.05;                         // largest translation of a segment in one iteration [m]
 
-/// What a landmark is a point of: the proximal or the distal end of a segment.
+/// The point of the hand at which a landmark lies: the proximal or the distal end of a segment.
 struct Attachment {
   int segment;
   bool distal;
@@ -38,7 +39,7 @@ Attachment attachment(int landmark) {
 
 double square(double x) { return x * x; }
 
-/// A residual r with information W that depends on a child, its parent and the logarithm of the scale.
+/// Adds a residual r with information matrix W that depends on segment s, its parent and the logarithm of the scale.
 void add_with_scale(int s, const JointJacobians& J, const Vector3d& J_scale, const Vector3d& r, const Matrix3d& W,
                     KinematicEquations& out) {
   out.tree.add<3>(s, J.child, J.parent, r, W);
@@ -93,7 +94,8 @@ void add_joints(const HandProfile& profile, const std::array<JointLimits, kSegme
   }
 }
 
-/// Rigid motion that lays the palm at rest onto the detected wrist and knuckles; the scale is that of their extent.
+/// Pose of the palm whose wrist and knuckles fit the detected ones best (least squares, closed form). None: the
+/// detected points lie on one line.
 std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& joints) {
   std::array<Vector3d, 6> model, data;
   model[0] = Vector3d::Zero();
@@ -108,7 +110,7 @@ std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& j
   for (int i = 0; i < 6; ++i) covariance += (data[i] - data_mean) * (model[i] - model_mean).transpose();
 
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(svd.singularValues()(1) > 1e-6)) return std::nullopt;  // m^2: all on one line
+  if (!(svd.singularValues()(1) > 1e-6)) return std::nullopt;  // [m^2]; all points lie on one line
   Matrix3d reflection = Matrix3d::Identity();
   reflection(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   SE3 T;
@@ -117,7 +119,7 @@ std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& j
   return T;
 }
 
-/// Joint angles that point each bone where its detected ends lie, within the limits.
+/// A first pose: the joint angles, within the limits, that give each bone the direction between its detected ends.
 HandPose posed_by_bones(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                         const DetectedJoints& joints, const SE3& T_camera_palm) {
   std::array<JointAngles, kSegmentCount> angles{};
@@ -137,12 +139,13 @@ HandPose posed_by_bones(const HandProfile& profile, const std::array<JointLimits
   return pose;
 }
 
-/// One Gauss-Newton step; the scale couples all segments, so the tree is solved with it eliminated last.
+/// Makes one Gauss-Newton step. The scale couples all segments, so it is eliminated last: the tree is solved first
+/// without it and then for the change that it causes. Returns false if the equations are singular.
 bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double& scale) {
   GaussianTree& tree = equations.tree;
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s].diagonal() *= 1 + kDamping;
-    tree.H_self[s].diagonal().array() += 1e-3;  // keeps an unconstrained direction finite
+    tree.H_self[s].diagonal().array() += 1e-3;  // keeps the step finite in unconstrained directions
   }
   std::array<Vector6d, kSegmentCount> x, by_scale;
   if (!tree.solve(x)) return false;
@@ -160,7 +163,8 @@ bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double
     for (int s = 0; s < kSegmentCount; ++s) x[s] -= scale_step * by_scale[s];
   }
 
-  double shortened = 1;  // all of it, so that the joints stay closed
+  // Limit the step. All segments get the same factor, so that the joints stay closed.
+  double shortened = 1;
   for (const Vector6d& twist : x) {
     shortened = std::min(shortened, kLongestStep / std::max(twist.head<3>().norm(), 1e-12));
     shortened = std::min(shortened, kLongestTurn / std::max(twist.tail<3>().norm(), 1e-12));
@@ -173,7 +177,7 @@ bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double
   return true;
 }
 
-/// The same joint angles with the profile in its own size, its palm where the fitted one is.
+/// The pose of the unscaled profile that has the same joint angles, without twist, and the same centre of the palm.
 HandPose in_own_size(const HandProfile& profile, const HandPose& pose, double scale) {
   std::array<JointAngles, kSegmentCount> angles{};
   for (int s = 1; s < kSegmentCount; ++s) {

@@ -20,7 +20,8 @@ double shape_roughness(const std::array<JointAngles, kSegmentCount>& angles) {
   return sum;
 }
 
-/// Draws one changed pose; a move changes one block of degrees of freedom that belong together.
+/// Draws random changes of a pose. Each changes one group of degrees of freedom: the position, the orientation, the
+/// flexion of all fingers, or one finger.
 class MoveMaker {
  public:
   MoveMaker(KeyedRandom& random, const PoseSearchParams& params, const Vector3d& pivot_in_palm)
@@ -47,7 +48,7 @@ class MoveMaker {
     return {x, y, z};
   }
 
-  /// About the middle of the palm, so that the hand stays where it is.
+  /// Rotates about the centre of the palm, so that the hand stays where it is.
   void rotate(SE3& T, const Vector3d& w) const {
     const Vector3d centre = T * pivot_;
     T.R = exp_so3(w) * T.R;
@@ -72,7 +73,7 @@ class MoveMaker {
       pose.angles[segment_of(finger, 2)].flexion += 0.67 * angle;
     } else {
       base.abduction += scale * params_.abduction * random_.normal() * (finger == 0 ? 2 : 1);
-      middle.abduction += scale * params_.abduction * random_.normal();  // the clamp keeps it to the thumb
+      middle.abduction += scale * params_.abduction * random_.normal();  // clamp_angles() undoes it except on the thumb
     }
   }
 

@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// Random local search over palm pose and joint angles with shrinking steps: improves a template until its
-/// silhouette and depth fit. Only better poses are kept.
+/// Parameters of the random local search over palm pose and joint angles (search_pose). Its steps shrink, and only
+/// better poses are kept.
 struct PoseSearchParams {
   double translation = 0.012;
   double rotation = 0.2;
@@ -34,9 +34,11 @@ struct ScoredPose {
   double cost = 0;  ///< coarse score plus shape prior; lower is better
 };
 
-/// Cost of a pose in the search: coarse score plus the prior on hidden fingers.
+/// Cost of a pose in the search: coarse score plus a prior that neighbouring fingers bend alike, which decides where
+/// fingers are hidden. Not thread-safe; copies are independent.
 class PoseCost {
  public:
+  /// `profile` and `skin` must outlive the object.
   PoseCost(const HandProfile& profile, const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& score,
            double shape_prior)
       : profile_(profile), scorer_(grid, skin, score), shape_prior_(shape_prior) {}
@@ -48,7 +50,7 @@ class PoseCost {
   double shape_prior_;
 };
 
-/// `evaluations` trials from `start`, whose cost is known. `random` decides the trials alone.
+/// Improves `start`, whose cost must be set, by `evaluations` random trials. The trials depend on `random` only.
 ScoredPose search_pose(ScoredPose start, PoseCost& cost, const std::array<JointLimits, kSegmentCount>& limits,
                        int evaluations, KeyedRandom random, const PoseSearchParams& params);
 

@@ -9,6 +9,7 @@ namespace barehand {
 
 namespace {
 
+/// Median depth of the hand pixels [m]; 0 if none has depth.
 double median_hand_depth(const HandObservation& observation) {
   std::vector<float> z;
   z.reserve(observation.hand_pixels.size());
@@ -25,7 +26,8 @@ struct Cell {
   float depth = 0;
 };
 
-/// Hand wins with a third of the pixels (fingers are thin), the most frequent of the other labels otherwise.
+/// The label of a block of pixels, and the mean depth of its pixels with that label. The label is hand if at least a
+/// third of the pixels are (fingers are thin), otherwise the most frequent one.
 Cell summarise(const HandObservation& observation, int u_begin, int v_begin, int size) {
   std::array<int, 4> count{}, measured{};
   std::array<double, 4> sum{};
@@ -68,6 +70,7 @@ Image<float> distance_to(const Image<PixelLabel>& label, const Predicate& is_tar
   return d;
 }
 
+/// Sets the number of hand cells, their centroid and the palm centre.
 void locate_hand(ScoreGrid& grid) {
   const Image<float> inside = distance_to(grid.label, [](PixelLabel l) { return l != PixelLabel::hand; });
   float widest = -1;
@@ -93,7 +96,8 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
   const int w = (observation.label.width() + size - 1) / size, h = (observation.label.height() + size - 1) / size;
   ScoreGrid grid;
   grid.cell = size * z / camera.fx;
-  // Cell centre i lies at pixel u0 + (i + 0.5) size - 0.5.
+
+  // The camera whose pixels are the cells: the centre of cell i lies at frame pixel u0 + (i + 0.5) * size - 0.5.
   grid.camera = {w,
                  h,
                  camera.fx / size,
@@ -102,6 +106,8 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
                  (camera.cy - observation.v0 + 0.5) / size - 0.5};
   grid.i_lo = -observation.u0 / size, grid.j_lo = -observation.v0 / size;
   grid.i_hi = (camera.width - observation.u0) / size, grid.j_hi = (camera.height - observation.v0) / size;
+
+  // Label and depth of every cell, and the quantities derived from them.
   grid.depth.reset(w, h, 0);
   grid.label.reset(w, h, PixelLabel::unknown);
   for (int j = 0; j < h; ++j) {

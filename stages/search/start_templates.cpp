@@ -27,9 +27,9 @@ constexpr std::array<Curl, 6> kCurls = {{
 
 std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
                                            const std::array<JointLimits, kSegmentCount>& limits) {
-  // A positive angle about +y of the segment leads to the right hand's thumb side.
+  // On a right hand, a positive rotation about the segment's y axis (abduction) moves a finger towards the thumb.
   const double thumbwards = side_sign(profile.handedness);
-  constexpr std::array<double, kFingerCount> kFan = {0, 1, 0, -0.7, -1.4};
+  constexpr std::array<double, kFingerCount> kFan = {0, 1, 0, -0.7, -1.4};  // abduction as a factor on the spread
   std::vector<ShapeTemplate> templates;
   for (const Curl& curl : kCurls) {
     ShapeTemplate shape{curl.name, {}};

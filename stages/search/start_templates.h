@@ -13,7 +13,7 @@ struct ShapeTemplate {
   std::string_view name;
   std::array<JointAngles, kSegmentCount> angles{};
 };
-/// Open, spread, half-open, relaxed curl, grasp and loose fist, within the limits.
+/// The shapes open, spread, half-open, relaxed curl, grasp and loose fist; their angles are clamped to the limits.
 std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
                                            const std::array<JointLimits, kSegmentCount>& limits);
 

@@ -1,5 +1,5 @@
-"""The claims behind the pages of results: what is declared in tools/measure/claims, and what was measured, in docs/measured.
-CONTRIBUTING.md ("Add a claim") describes both formats."""
+"""Reads and writes the claims behind the pages of results: their declarations in tools/measure/claims and their results
+in docs/measured. CONTRIBUTING.md ("Add a claim") describes both formats."""
 import json
 import os
 import tomllib
@@ -8,7 +8,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 class ClaimError(Exception):
-    """What is wrong with a claim or a page, where, and what to do."""
+    """A claim or a page is wrong. Says what is wrong, where, and what to do."""
 
 
 def read(path):
@@ -17,7 +17,7 @@ def read(path):
 
 
 def write(path, text):
-    """Writes the file as a whole, so that nobody sees half of it."""
+    """Writes a file so that no one sees it half-written: under another name first, which is then changed."""
     with open(path + ".unfinished", "w", encoding="utf-8") as file:
         file.write(text)
     os.replace(path + ".unfinished", path)
@@ -31,7 +31,7 @@ def read_toml(path):
 
 
 class Tree:
-    """Where things lie in a source tree."""
+    """The paths of claims, results and pages in a source tree."""
 
     def __init__(self, root):
         self.root = root
@@ -58,14 +58,14 @@ class Tree:
         return os.path.join(self.results, name + ".json")
 
     def measured(self, name):
-        """The results of a claim; a claim without any is to be measured first."""
+        """The results of a claim. Raises ClaimError if it was not measured yet."""
         path = self.results_path(name)
         if not os.path.exists(path):
             raise ClaimError(f"{path}: is missing: run tools/measure/measure.py with {name}")
         return json.loads(read(path))
 
     def store(self, name, results):
-        """Writes the results of a claim, a run per line, so that a change of a figure is a change of its line."""
+        """Writes the results of a claim, one line per run, so that a diff shows the runs whose figures have changed."""
         rows = []
         for row, runs in results["rows"].items():
             lines = [f"      {json.dumps(run)}: {json.dumps(figures)}" for run, figures in runs.items()]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Cuts the hand out of a recording: depth that a tracked hand explains becomes "no measurement". What is left, with the
-end of the arm, shows no hand. Frames in which no hand was tracked are left out.
-  tools/measure/cut_hand.py RECORDING RESULT.csv OUT      RESULT.csv: of `barehand track --result` on that recording"""
+"""Removes the hand from a recording: depth that a tracked hand explains becomes "no measurement". The result shows an
+arm, but no hand. Frames in which no hand was tracked are left out.
+  tools/measure/cut_hand.py RECORDING RESULT.csv OUT      RESULT.csv: from `barehand track --result` on RECORDING"""
 import csv
 import json
 import math
@@ -11,12 +11,12 @@ import struct
 import sys
 import zlib
 
-FINGER, PALM = 0.025, 0.055  # m, how far from a segment's axis pixels are cut
+FINGER, PALM = 0.025, 0.055  # distance from a segment's axis up to which pixels are removed [m]
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def read_depth(path):
-    """(width, height, rows of 16-bit numbers) of a grey PNG."""
+    """Reads a 16-bit grey PNG; returns (width, height, rows of numbers)."""
     data = open(path, "rb").read()
     assert data[:8] == SIGNATURE, path + " is no PNG"
     position, packed = 8, b""
@@ -30,7 +30,7 @@ def read_depth(path):
             packed += chunk
         position += 12 + length
 
-    # Each row begins with the number of its filter, which is undone byte by byte.
+    # Each row begins with the number of its PNG filter, which is reversed byte by byte.
     raw, stride, above, rows = zlib.decompress(packed), 2 * width, bytes(2 * width), []
     for v in range(height):
         kind, row = raw[v * (stride + 1)], bytearray(raw[v * (stride + 1) + 1:(v + 1) * (stride + 1)])
@@ -57,7 +57,7 @@ def write_depth(path, width, height, rows):
 
 
 def cut(rows, camera, segments):
-    """Sets the pixels to 0 whose points lie near an axis; segments: (from, to, radius) [m]."""
+    """Sets pixels to 0 whose points are within `radius` of a segment's axis; segments: (from, to, radius) [m]."""
     unit, height, width = camera["depth_units_per_metre"], len(rows), len(rows[0])
     for a, b, radius in segments:
         ab = [q - p for p, q in zip(a, b)]
@@ -84,7 +84,7 @@ def main():
         ends = [tuple(float(row[a + axis]) for axis in "xyz") for a in "pd"]
         hands.setdefault(int(row["frame"]), []).append((*ends, PALM if row["segment"] == "palm" else FINGER))
 
-    # Every frame in which the hand is known.
+    # Write every frame in which the hand was tracked.
     os.makedirs(os.path.join(out, "depth"))
     shutil.copy(os.path.join(recording, "camera.json"), out)
     frames = [line.split() for line in open(os.path.join(recording, "depth.txt")) if not line.startswith("#")]

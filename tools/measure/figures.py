@@ -1,28 +1,30 @@
-"""Reads the figures of a run from what the program writes: `eval --json`, also in the folder of `experiment`, `eval
---fingertips`, `eval --states` and `bench --json`. KNOWN lists their names."""
+"""Reads the figures (measured numbers) of a run from the JSON files of the program: those of `eval --json`, with
+`--fingertips` or `--states`, too, of `experiment`, and of `bench --json`. KNOWN lists the names of the figures."""
 import csv
 
 KNOWN = {
-    # of a result table: numbers of frames, errors in mm (or in pixels with fingertips), delays of returns in frames
+    # from a result table: numbers of frames; errors in mm (fingertips: pixels); frames until a returning hand is
+    # tracked
     "frames", "tracked", "untracked", "lost", "off", "without_hand", "mean", "median", "p90", "max", "seen", "hidden",
     "percent", "delays", "labels", "missing",
-    # of stated uncertainty: coverage in per cent, stated and actual error in mm, by what is stated (tenths of 100 %) in per cent
+    # on the stated uncertainty: coverage in per cent, stated and actual error in mm
     *(f"{kind}_{what}" for kind in ("all", "seen", "inferred") for what in ("covered", "stated", "actual")),
+    # on the stated confidence, for each tenth of its range: stated and actual probability in per cent
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
-    # of bench: frames per second, times in ms, memory in MB; of a sweep its values and the CPU times
+    # from bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times
     "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
-    # how many repetitions a range is over
+    # number of repetitions over which a range is taken
     "runs",
 }
 
 
 def named(distribution, prefix=""):
-    """The parts of a distribution that pages show."""
+    """The statistics of a distribution that pages show, with a prefix to their names."""
     return {prefix + name: distribution[name] for name in ("mean", "median", "p90", "max") if name in distribution}
 
 
 def of_run(run):
-    """Errors in mm of one table compared with the truth."""
+    """The figures of one result table compared with the truth; errors in mm."""
     tracked = run["frames"] - run["untracked"]
     figures = {"frames": run["frames"], "tracked": tracked, "untracked": run["untracked"], "lost": run["lost"],
                "off": run["lost"] - run["untracked"], "without_hand": len(run["phantom_frames"]),
@@ -38,7 +40,7 @@ def of_run(run):
 
 
 def of_reliability(reliability):
-    """Coverage in per cent, errors in mm."""
+    """The figures on stated uncertainty; coverage in per cent, errors in mm."""
     figures = {}
     for kind, coverage in reliability["intervals_90"].items():
         if coverage["intervals"]:
@@ -51,7 +53,7 @@ def of_reliability(reliability):
 
 
 def of_case(case):
-    """Times in ms and memory in MB of one case of bench."""
+    """The figures of one case of bench; times in ms, memory in MB."""
     latency = case["capture_to_publish_ms"]
     return {"fps": case["frames_per_second"], "cpu": case["cpu_ms_per_frame"], "dropped": case["dropped"],
             "peak": case["peak_mb"], "stored": case["stored_frames_mb"],
@@ -59,7 +61,7 @@ def of_case(case):
 
 
 def of_report(report, label=None):
-    """All figures that a report has: of the run, or the sweep, with the label, else of the first run."""
+    """All figures in a report: those of the run or the sweep with this label, or of the first run without a label."""
     figures = {}
     runs = [run for run in report.get("runs", []) if label in (None, run["label"])]
     if runs:
@@ -81,7 +83,7 @@ def of_report(report, label=None):
 
 
 def frames_with_rows(result):
-    """How many frames of a result table have a hand."""
+    """The number of frames in a result table that have a hand."""
     with open(result, encoding="utf-8", newline="") as file:
         return len({row["frame"] for row in csv.DictReader(file)})
 
@@ -93,7 +95,7 @@ def rounded(value):
 
 
 def together(repetitions):
-    """One run's figures from those of its repetitions: of the first, and the range over all."""
+    """Combines the repetitions of a run: the figures of the first one, and their ranges over all."""
     figures = {name: rounded(value) for name, value in repetitions[0].items()}
     if len(repetitions) > 1:
         figures["runs"] = len(repetitions)

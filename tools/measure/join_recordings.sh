@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes a recording of the first frames of one recording, and of those of another from then on. Both show one motion.
+# Joins two recordings of the same motion: OUT has the frames before FRAME from FIRST, and the others from SECOND.
 #   tools/measure/join_recordings.sh FIRST SECOND FRAME OUT
 set -eu
 first=$1 second=$2 frame=$3 out=$4

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures claims of the documentation, and writes what was found to docs/measured. Then tools/measure/pages.py makes the pages.
+"""Measures claims of the documentation and writes the results to docs/measured, from which pages.py makes the pages.
   tools/measure/measure.py RECORDINGS OUT CLAIM...             measures tools/measure/claims/CLAIM.toml
   tools/measure/measure.py RECORDINGS OUT --print [CLAIM...]   only prints the commands"""
 import argparse
@@ -14,11 +14,11 @@ import sys
 from claims import ROOT, ClaimError, Tree, read
 from runner import Runner
 
-JOINED = ("track", "eval")  # options of the claim, of a row and of a run come one after the other
+JOINED = ("track", "eval")  # keys whose values from the claim, the row and the run are concatenated
 
 
 def machine():
-    """How many cores of which processor, with which vector instructions."""
+    """A description of this machine: number of cores, processor, vector instructions."""
     about = read("/proc/cpuinfo")
     model = re.search(r"model name\s*: (.+)", about)
     flags = re.search(r"flags\s*: (.+)", about)
@@ -28,8 +28,8 @@ def machine():
 
 
 def merged(claim, row, run):
-    """What is to be done for a run of a row: what the claim, the row and the run say, with {row} and the row's other texts
-    in their places."""
+    """The settings for a run of a row: those of the claim, the row and the run together, with {row} and the other texts
+    of the row inserted for their placeholders."""
     how = {}
     for part in (claim.get("all", {}), claim["rows"][row], claim["runs"][run]):
         for key, value in part.items():
@@ -48,7 +48,7 @@ def measure(tree, runner, name):
         raise ClaimError(f"{name} is measured by hand: its commands are on its page, its figures in "
                          f"{tree.results_path(name)}")
 
-    # Run what the claim says.
+    # Run all runs of all rows.
     figure = claim.get("figure", {})
     rows = {}
     for row in claim["rows"]:
@@ -57,7 +57,7 @@ def measure(tree, runner, name):
             plots = f"--plots $OUT/runs/{name}.plots" if figure.get("run") == f"{row}.{run}" else ""
             rows[row][run] = runner.measure_run(f"{name}.{row}.{run}", merged(claim, row, run), plots)
 
-    # Store what was found, and with what, before anything else can fail; then draw the figure.
+    # Store the results, with the version and the machine, before anything else can fail; then copy the plots.
     if not runner.printing:
         version = subprocess.run([runner.program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
         measured = {"version": version, "date": datetime.date.today().isoformat(), "machine": machine()}
@@ -66,7 +66,7 @@ def measure(tree, runner, name):
 
 
 def draw(runner, name, figure):
-    """Copies the figures of a claim to the images of the pages."""
+    """Copies the plots of a claim to the images of the pages."""
     for image, plot in figure.get("plots", {}).items():
         runner.prepare_for(plot)
         runner.run(f"cp {plot.replace('$PLOTS', f'$OUT/runs/{name}.plots')} docs/images/{image}", f"$OUT/runs/{name}.cp.log")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Injects the faults of docs/reliability.md into the virtual OpenNI2 sensor while `barehand track` runs, and prints the
-table: what was published meanwhile and how long it took until the hand was tracked again.
+table: how many frames were tracked during each fault and how long it took until the hand was tracked again.
   tools/measure/measure_faults.py BUILD      BUILD: a build folder with tests, for example build/release"""
 import csv
 import os
@@ -12,7 +12,7 @@ import time
 
 SCENE = {"sim": "grasp_ball,noise=kinect", "frames": "45"}
 FAULT_SECONDS, PAUSE = 5.0, 5.0
-FAULTS = [  # name, settings while it lasts, settings afterwards
+FAULTS = [  # name, settings of the sensor during the fault, settings after it
     ("unplugged, re-plugged into another port", {"plugged": "0"}, {"plugged": "1", "uri": "virtual/2"}),
     ("stalls until it is opened again", {"fault": "stall", "cured_by_reopen": "1"},
      {"fault": "none", "cured_by_reopen": "0"}),
@@ -93,7 +93,7 @@ def main():
     print("| fault, for 5 s | tracked frames meanwhile | said after [s] | tracked again after its end [s] |")
     print("|---|---|---|---|")
     for name, begin, end in marks:
-        # The sensor polls its control file; frames already exposed still come.
+        # The sensor polls its control file, so frames that were already exposed still arrive.
         meanwhile = sum(begin + 0.1 <= t < end for t in tracked)
         words = first_after([t for t, line in said if line.startswith(("warning", "info: openni2"))], begin)
         words = f"{words:.1f}" if words is not None and words < FAULT_SECONDS else "-"

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Tracks the simulated scenes with people, with `--hand both` and the mean hands, and prints the tables of
-docs/accuracy_robustness.md: how soon, how often and how well the hand is tracked, and how often a hand is seen where
-there is none. Every second seed shows a left hand, and a time-of-flight camera's noise where there is no hand.
+docs/accuracy_robustness.md: how soon, how often and how accurately the hand is tracked, and how often a hand is
+reported in scenes without one. Even seeds show a left hand or, in scenes without a hand, have the noise of a
+time-of-flight camera.
   tools/measure/measure_people.py BAREHAND OUT FIRST_SEED LAST_SEED [--recording FOLDER ...] [SCENE ...]
-A recording, for example one from which cut_hand.py has cut the hand, counts as a scene without a hand."""
+A recording, for example one from which cut_hand.py has removed the hand, counts as a scene without a hand."""
 import csv
 import math
 import os
@@ -14,13 +15,14 @@ import sys
 
 WITH_HAND, WITHOUT_HAND = ["person", "desk", "egocentric"], ["empty_person", "empty_desk", "faces", "feet"]
 TRACKING, EARLY = 1, 5
-# Scenes without a hand: frames per second, as they change slowly, and noise of even and odd seeds.
+# Scenes without a hand: frames per second (low, since they change slowly), and the noise of even and odd seeds.
 RATE, NOISE = 2.5, ("tof", "kinect")
-SEGMENT, CONFIDENCE = 64 * 8 + 1, 62 * 8  # bytes of a segment_state_t, and of what precedes its confidence
+SEGMENT, CONFIDENCE = 64 * 8 + 1, 62 * 8  # size of a segment_state_t, and offset of its confidence [bytes]
 
 
 def states(path):
-    """(frame, right?, status, confidence of the surest segment) of every hand state of a log; an LCM log's events follow one another."""
+    """Yields (frame, whether it is a right hand, status, highest confidence of a segment) for every hand state in an
+    LCM log."""
     data, at = open(path, "rb").read(), 0
     while at < len(data):
         _, _, _, name_size, size = struct.unpack(">IqqII", data[at:at + 28])
@@ -47,7 +49,7 @@ def track(barehand, source, out):
 
 
 def table(path):
-    """Ends of the segments by frame."""
+    """The ends of all segments (proximal x, y, z, distal x, y, z) in each frame of a result table."""
     frames = {}
     for row in csv.DictReader(open(path)):
         frames.setdefault(int(row["frame"]), []).append([float(row[a + axis]) for a in "pd" for axis in "xyz"])
@@ -55,7 +57,7 @@ def table(path):
 
 
 def errors(result, truth, select):
-    """Distances [mm] of the chosen ends in frames that both have, a list for each frame."""
+    """Distances [mm] between result and truth of the ends chosen by `select`: a list for each frame that both have."""
     return [[1000 * math.dist(p[at:at + 3], q[at:at + 3]) for p, q, at in select(result[f], truth[f])]
             for f in sorted(result) if f in truth]
 
@@ -69,7 +71,7 @@ def tips(p, q):
 
 
 def hand_scene(barehand, out, scene, seed):
-    """What one seed of a scene with a hand gives."""
+    """Simulates and tracks one seed of a scene with a hand; returns its figures."""
     left = seed % 2 == 0
     folder = f"{out}/{scene}_{seed}"
     run(barehand, "sim", scene, "--seed", str(seed), "--noise", "kinect", "--hand", "left" if left else "right", "--out",
@@ -101,7 +103,7 @@ def print_hands(scene, runs):
 
 
 def print_empty(name, runs):
-    """runs: the states of every run."""
+    """Prints the table row of a scene without a hand. runs: the hand states of every run."""
     frames = sum(len({s[0] for s in states_of}) for states_of in runs)
     tracked = sum(len({s[0] for s in states_of if s[2] == TRACKING}) for states_of in runs)
     sure = sum(len({s[0] for s in states_of if s[2] == TRACKING and s[3] > 0.5}) for states_of in runs)

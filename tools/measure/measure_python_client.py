@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Does the Python client hear every frame? lcm-logplayer sends the frames of a log of hand states by UDP, again and again
-at a given rate; a client takes every outlet of every hand. Prints what was sent, heard and lost, and the client's
-processor time.
+"""Measures whether the Python client receives every frame. lcm-logplayer sends the frames of a log of hand states by
+UDP, repeatedly and at a given rate; a client evaluates every outlet of every hand. Prints the numbers of frames that
+were sent, received and lost, and the client's processor time.
   measure_python_client.py STATES.lcmlog [RATE] [SECONDS]      a log of `barehand track --states-log`; 60 Hz, 60 s
 Needs the Python package (PYTHONPATH=build/release/clients/python), lcm-logplayer and a multicast route."""
 import os
@@ -19,7 +19,7 @@ OUTLETS = ("openxr26", "webxr25", "mano21", "glove22", "joint_angles", "confiden
 
 
 def frames_of(path):
-    """The messages of each frame of a log, [(channel, bytes), ...]; a frame is what has one stamp."""
+    """The messages of each frame of a log, [(channel, bytes), ...]. Messages of one frame have the same time stamp."""
     frames = {}
     for stamp, channel, data in log.events(path, Counts()):
         if channel.endswith((b"HAND_STATE", b"GLOVE_STATE", b"HAND_JOINTS")):
@@ -28,7 +28,7 @@ def frames_of(path):
 
 
 def write_repeated(frames, path, rate, seconds):
-    """A log in which the frames follow each other at this rate."""
+    """Writes a log in which the frames repeat at the given rate; returns the number of frames."""
     count = round(rate * seconds)
     with open(path, "wb") as file:
         for number in range(count):
@@ -52,7 +52,7 @@ def main(path, rate=60.0, seconds=60.0):
                         hands_heard += 1
                     if heard == sent:
                         break
-            except barehand.Error as error:  # frames were lost: the last one never comes
+            except barehand.Error as error:  # timeout: frames were lost, so the expected number is never reached
                 print(error)
             wall, busy = time.monotonic() - start, time.process_time() - busy
             player.wait()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Injects the faults of docs/reliability.md that surround a service (network, disk, signals, configuration, commands)
-into the real program and prints the table.
-  tools/measure/measure_service.py BUILD [CYCLES]    BUILD: a build folder, for example build/release; CYCLES: of starts and stops
-Runs in a network and a mount namespace of its own (unshare): nothing outside is touched."""
+"""Exposes the program to those faults of docs/reliability.md that concern a service (network, disk, signals,
+configuration, commands), and prints the table.
+  tools/measure/measure_service.py BUILD [CYCLES]    BUILD: a build folder, for example build/release; CYCLES: starts
+Runs in its own network and mount namespaces (unshare), so that the rest of the system is not affected."""
 import csv
 import os
 import re
@@ -22,7 +22,7 @@ FAULT_SECONDS = 5.0
 
 
 class Program:
-    """`barehand` beside this script, with the time of every line it says."""
+    """A running `barehand`, with all lines of its output and their times in `said`."""
 
     def __init__(self, build, arguments):
         self.process = subprocess.Popen([os.path.join(build, "src/app/barehand"), *arguments], stdin=subprocess.DEVNULL,
@@ -254,7 +254,7 @@ def memory(build):
 
 
 def in_own_network():
-    """Runs the script anew in a network and a mount namespace of its own, unless it is there."""
+    """Restarts the script in its own network and mount namespaces, unless it already runs there."""
     if os.environ.get("BAREHAND_OWN_NETWORK") is None:
         os.environ["BAREHAND_OWN_NETWORK"] = "1"
         os.execvp("unshare", ["unshare", "-rnm", "sh", "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo && "

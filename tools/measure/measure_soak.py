@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Tracks a simulated hand at 30 Hz for a long time within 512 MB of memory, publishes on LCM, and prints what
-docs/reliability.md says of memory, files and frames over time. The frames come from the virtual OpenNI2 sensor, which has
-rendered them before, so that each one comes in time.
-  tools/measure/measure_soak.py BUILD [MINUTES]    BUILD: a build folder with tests, for example build/release; MINUTES: 60 if not given
-The network is one of its own (unshare), the limit a control group of its own (root). Exit code 1 if memory or files grow
-or a frame is unaccounted for."""
+"""Tracks a simulated hand at 30 Hz for a long time within 512 MB of memory, publishes on LCM, and prints the table of
+docs/reliability.md: memory, open files and frames over time. The frames come from the virtual OpenNI2 sensor, which
+renders them in advance, so that each one arrives in time.
+  tools/measure/measure_soak.py BUILD [MINUTES]    BUILD: a build folder with tests (build/release); MINUTES: default 60
+Runs in its own network namespace (unshare) and with its own control group for the memory limit (needs root). The exit
+code is 1 if memory, open files or threads grow, or if a frame fails or is unaccounted for."""
 import os
 import re
 import sys
@@ -19,7 +19,8 @@ ROWS = 12
 
 
 class MemoryGroup:
-    """A control group of the kernel's (version 1, or version 2 where the root's children have memory limits)."""
+    """A control group with a memory limit (version 2 if children of the root group can have one, otherwise version
+    1)."""
 
     def __init__(self):
         with open("/proc/self/cgroup") as file:
@@ -43,7 +44,7 @@ class MemoryGroup:
 
 
 def usage(pid):
-    """Resident memory [MB], open files, threads."""
+    """Resident memory [MB], number of open files and number of threads of a process."""
     with open(f"/proc/{pid}/status") as file:
         status = dict(re.findall(r"^(VmRSS|Threads):\s+(\d+)", file.read(), re.M))
     return int(status["VmRSS"]) / 1024, len(os.listdir(f"/proc/{pid}/fd")), int(status["Threads"])
@@ -77,7 +78,7 @@ def judge(program, samples):
     found = [re.match(r"(\d+) frames in .*: (\d+) published, (\d+) dropped, (\d+) failed", line) for _, line in program.said]
     captured, published, dropped, failed = map(int, next(m for m in reversed(found) if m).groups())
     unaccounted = captured - published - dropped - failed
-    settled = samples[len(samples) // 4:]  # buffers reach their size in the first quarter
+    settled = samples[len(samples) // 4:]  # buffers grow to their final size in the first quarter
     growth = settled[-1][0] - settled[0][0]
     print(f"\n{captured} frames captured = {published} published + {dropped} dropped + {failed} failed"
           f"{'' if unaccounted == 0 else f', {unaccounted} UNACCOUNTED FOR'}; exit code {program.process.returncode}; peak "

@@ -15,7 +15,7 @@ MONTHS = "January February March April May June July August September October No
 
 
 def days(dates):
-    """A day, or the first and the last one of several, which a slash parts."""
+    """A date, or a range of dates separated by a slash, in words."""
     words = []
     for date in dates.split("/"):
         year, month, day = date.split("-")
@@ -51,7 +51,7 @@ class Page:
         return f"{title}\n\n{mark}\n{rest}"
 
     def filled(self, paragraph, shown_claims):
-        """The paragraph with values for its placeholders, in lines of the usual length."""
+        """The paragraph with values inserted for its placeholders, wrapped to WIDTH."""
         text = PLACEHOLDER.sub(lambda found: self.insert_value(found, shown_claims), paragraph)
         if "{{value" not in paragraph:
             return text
@@ -78,7 +78,7 @@ class Page:
         raise ClaimError(f"{self.name}.md.in: {found[0]} means nothing: there are claim, value and measured")
 
     def value(self, argument):
-        """CLAIM.ROW.RUN.FIGURE:FORM"""
+        """The text for a placeholder {{value CLAIM.ROW.RUN.FIGURE:FORM}}."""
         path, _, form = argument.partition(":")
         claim, row, rest = path.split(".", 2)
         section = self.section(claim)
@@ -89,7 +89,7 @@ class Page:
 
     @staticmethod
     def measured(sections):
-        """With which version, when and where the tables of a page were measured; tables of one measurement stand together."""
+        """The version, date and machine with which the tables of a page were measured, grouped by measurement."""
         groups, exceptions = {}, []
         for section in sections:
             measured, title = section.results["measured"], f"*{section.claim['title']}*"
@@ -107,7 +107,7 @@ def page_names(tree):
 
 
 def rendered(tree):
-    """The text of every page by its name. Every claim stands on one page, or nobody would read it."""
+    """The text of every page by its name. Raises ClaimError if a claim is not on exactly one page."""
     texts, shown_on = {}, {}
     for name in page_names(tree):
         page = Page(tree, name)

@@ -1,4 +1,4 @@
-"""Runs what claims say: tracks, compares with the truth, and makes what several runs need."""
+"""Runs the commands of claims: tracks, compares with the truth, and prepares files that several runs need."""
 import json
 import os
 import re
@@ -12,14 +12,14 @@ MADE = re.compile(r"\$OUT/([\w.]+)")
 
 
 class Runner:
-    """Runs the lines of claims with one program."""
+    """Runs the commands of claims with one build of the program, or only prints them."""
 
     def __init__(self, tree, program, recordings, out, printing):
         self.tree, self.printing = tree, printing
         self.program, self.out = os.path.abspath(program), os.path.abspath(out)
         self.rules = read_toml(tree.prepared)
-        self.ready = set()  # what rules have made
-        self.tracked = {}  # (command without its result, kind of result): the result
+        self.ready = set()  # names that were prepared
+        self.tracked = {}  # (command without its output, kind of output): path of the output without its ending
         folder = os.path.dirname(self.program)
         self.environment = {**os.environ, "OUT": self.out, "RECORDINGS": os.path.abspath(recordings),
                             "PATH": f"{folder}:{os.environ['PATH']}"}
@@ -30,7 +30,7 @@ class Runner:
         return path.replace("$OUT", self.out).replace("$RECORDINGS", self.environment["RECORDINGS"])
 
     def run(self, line, log):
-        """Runs a line of bash, after what it needs of prepared.toml."""
+        """Runs a bash command after preparing the files that it needs (prepared.toml)."""
         self.prepare_for(line)
         print(line, flush=True)
         if self.printing:
@@ -42,12 +42,12 @@ class Runner:
             raise ClaimError(f"{self.place(log)}: the command ended with {done.returncode}: {line}")
 
     def prepare_for(self, text):
-        """Makes what the text names."""
+        """Prepares all files $OUT/NAME that occur in the text."""
         for name in MADE.findall(text):
             self.prepare(name)
 
     def prepare(self, name):
-        """Makes $OUT/NAME by the first rule that matches, unless this program has made it before."""
+        """Makes $OUT/NAME by the first matching rule, unless it is newer than the program."""
         rule = next((rule for rule in self.rules if re.fullmatch(rule, name)), None)
         if rule is None or name in self.ready:
             return
@@ -62,7 +62,8 @@ class Runner:
             os.close(os.open(mark, os.O_CREAT | os.O_TRUNC | os.O_WRONLY))
 
     def track(self, base, recording, how, output):
-        """Tracks a recording, or takes what the same command gave before; returns the path without its ending."""
+        """Tracks a recording, or reuses the result of the same command; returns the result's path without its
+        ending."""
         hand = f"--hand {how['hand']}" if "hand" in how else ""
         line = " ".join(f"barehand track --source folder:{recording} --no-publish {hand} {how.get('track', '')}".split())
         line = line.replace("$RECORDING/", recording + "/")
@@ -73,12 +74,13 @@ class Runner:
         return self.tracked[key]
 
     def compare(self, base, how, plots):
-        """Tracks, and compares with the truth, with labels of fingertips, or what is stated with the truth."""
+        """Tracks, and compares the poses or the stated uncertainty with the truth, or the poses with labelled
+        fingertips."""
         if "recording" not in how:
             raise ClaimError(f"{base.removeprefix('$OUT/runs/')}: says no recording, command or json")
         recordings = how["recording"] if isinstance(how["recording"], list) else [how["recording"]]
 
-        # Track each recording, and name what it is compared with.
+        # Track each recording, and collect the arguments for its comparison.
         pairs = []
         for number, recording in enumerate(recordings):
             if "hands" in how:  # one for each recording
@@ -91,7 +93,7 @@ class Runner:
             labels = f"--fingertips {recording}/fingertips_2d.csv --recording {recording} --hand {how.get('hand')}"
             pairs.append(f"{labels if how.get('fingertips') else f'--truth {recording}/truth.csv'} --result {result}.csv")
 
-        # Compare all together.
+        # Compare all recordings together.
         line = f"barehand eval {' '.join(pairs)} --overwrite --json {base}.json {plots} {how.get('eval', '')}"
         self.run(" ".join(line.split()).replace("$RECORDING/", recordings[0] + "/"), base + ".eval.log")
         return result
@@ -109,7 +111,7 @@ class Runner:
         if self.printing:
             return {}
 
-        # Read what it wrote.
+        # Read the figures from its report.
         try:
             found = figures.of_report(json.loads(read(self.place(report))), how.get("label"))
         except (OSError, KeyError, ValueError) as error:

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Searches what the paper leaves open (S, sigma_obs, ranges and their shrinking, skin, read-out, widening of limits) for
-the setting of configs/paper.yaml whose double fist comes nearest to the paper's 1.04 mm.
+"""Searches the parameters that the paper leaves open (S, sigma_obs, ranges and their shrinking, skin, read-out,
+widening of limits) for the variant of configs/paper.yaml with the lowest error on the fist sequence, where the paper
+reports 1.04 mm.
   tools/measure/search_paper.py BAREHAND OUT      prints every trial; the best configuration becomes OUT/best.yaml
-Key by key, the value that is best is kept, in two rounds over all keys (three quarters of an hour on two cores). Judged
-by the mean of two seeds on the simulator's `fist`, started at the true pose; a frame without a hand counts 20 mm. Nothing
-else is looked at."""
+Coordinate search: for one key after the other, the best value is kept, in two rounds over all keys (three quarters of
+an hour on two cores). The error is the mean over two seeds of the simulator's scene `fist`, started at the true pose; a
+frame without a hand counts as 20 mm. No other data are used."""
 import json
 import os
 import re
@@ -12,7 +13,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-CHOICES = {  # keys of the configuration (together where there are two): values
+CHOICES = {  # key of the configuration, or several keys that change together: values to try
     "skin": ['"cylinders"', '"blended"'],
     "sigma_obs_start sigma_obs_end": [0.001, 0.002, 0.003, 0.004, 0.006, 0.008],
     "range_translation": [0.003, 0.005, 0.008, 0.012],
@@ -45,7 +46,8 @@ class Search:
                               stderr=subprocess.DEVNULL).stdout
 
     def configuration(self, setting):
-        """The paper's, with other values: of a name that stands in two groups the sampler's, which comes first."""
+        """The text of the paper's configuration with other values. If a key occurs in two groups, the first one is
+        changed, which is the sampler's."""
         text = self.paper
         for keys, value in setting.items():
             for key in keys.split():
@@ -68,7 +70,7 @@ class Search:
         return (tracked * run["frame_error_mm"]["mean"] + (run["frames"] - tracked) * LOST_MM) / run["frames"]
 
     def errors(self, settings):
-        """Of each setting, the mean over the seeds [mm]."""
+        """The error of each setting, as the mean over the seeds [mm]."""
         keys = [json.dumps(setting, sort_keys=True) for setting in settings]
         new = [(key, setting) for key, setting in zip(keys, settings) if key not in self.known]
         with ThreadPoolExecutor(os.cpu_count()) as pool:

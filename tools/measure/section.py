@@ -4,13 +4,14 @@ import re
 from claims import ClaimError
 from figures import KNOWN
 
-CELL = re.compile(r"\{([^{}:]+)(?::([^{}]+))?\}")  # {FIELD}, {RUN.FIGURE:FORM}
+CELL = re.compile(r"\{([^{}:]+)(?::([^{}]+))?\}")  # matches {FIELD} and {RUN.FIGURE:FORM}
 MEASURE = "tools/measure/measure.py RECORDINGS OUT"
 NONE = "–"  # not measured; also between the ends of a range
 
 
 def shown(value, form):
-    """A figure as text: `.2f` and the like; `lost` says how many frames were lost, if any. A range has two ends."""
+    """A figure as text. `form`: a format such as `.2f`, or `lost` for the number of lost frames, if any. A range is a
+    dict with `low` and `high`."""
     if form == "lost":
         return f", {value} lost" if value else ""
     if isinstance(value, dict):
@@ -36,8 +37,8 @@ class Section:
             raise ClaimError(f"{tree.results_path(name)}: its rows are not those of the claim: measure {name} again")
 
     def figure(self, row, path):
-        """The value of RUN.FIGURE of a row, None if it was not measured. RUN.FIGURE.range is the range over its repetitions,
-        and RUN.FIGURE.span that range or the only value."""
+        """The value of RUN.FIGURE in a row; None if it was not measured. RUN.FIGURE.range is the range over the
+        repetitions; RUN.FIGURE.span is that range, or the value if there was one repetition."""
         run, name, *kind = path.split(".")
         figures = self.results["rows"][row].get(run, {})
         ends = figures.get("ranges", {}).get(name)
@@ -48,7 +49,7 @@ class Section:
         return ends and {"low": ends[0], "high": ends[1]}
 
     def cell(self, row, template):
-        """The template with the words and figures of a row; a dash if a figure was not measured."""
+        """The template with the texts and figures of a row inserted; a dash if a figure was not measured."""
         values = []
         for path, form in CELL.findall(template):
             if "." in path:
@@ -64,7 +65,7 @@ class Section:
         return CELL.sub(lambda _: next(rest), template).replace("$RECORDINGS", "RECORDINGS").replace("$OUT", "OUT")
 
     def check_names(self, template):
-        """A misspelt figure would be taken for one that was not measured."""
+        """Raises ClaimError if the template names an unknown run or figure, which would otherwise look unmeasured."""
         for path, _ in CELL.findall(template):
             run, _, figure = path.partition(".")
             if figure and self.runs is not None and (run not in self.runs or figure.split(".")[0] not in KNOWN):
@@ -72,7 +73,7 @@ class Section:
                                  "tools/measure/figures.py lists the figures")
 
     def heading(self, template):
-        """The title of a column; a figure in it is the range over all rows."""
+        """The title of a column. A figure in it is shown as its range over all rows."""
         def over_all_rows(found):
             values = [self.figure(row, found[1]) for row in self.rows]
             values = [value for value in values if value is not None]
@@ -96,7 +97,7 @@ class Section:
         return "\n".join(f"    {line}" for line in lines)
 
     def text(self):
-        """Heading, claim, table, command, figure, what the paper says and remarks."""
+        """The section: heading, claim, table, commands, the paper's result, remarks and figure."""
         parts = [f"## {self.claim['title']}", self.claim.get("claim"), self.table(), self.commands()]
         parts += [self.claim.get("paper"), self.claim.get("remarks")]
         if "figure" in self.claim:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Clients of the live page for a while, to see what they cost the tracker: those that read, acknowledge and want
-everything, and those that want everything and never read. Prints what each of the first kind got.
+"""Connects clients to the live page for some time, to measure what they cost the tracker. READING clients request
+everything, read it and acknowledge it; STUCK clients request everything and never read. Prints what each reading client
+received.
   view_clients.py PORT READING STUCK SECONDS"""
 import json
 import os
@@ -30,7 +31,7 @@ def send(client, message):
 
 
 def receive(stream):
-    """(opcode, payload) of the next frame."""
+    """Reads the next WebSocket frame; returns (opcode, payload)."""
     first, length = stream.read(2)
     if length == 126:
         length, = struct.unpack(">H", stream.read(2))

@@ -1,13 +1,13 @@
-"""Barehand in Python: what the tracker says of the hands, and images for it.
+"""Barehand in Python: receives the states of the hands from the tracker, and sends images to it.
 
     import barehand
     for hands in barehand.hands():                    # live over LCM; barehand.hands("take.lcmlog") reads a log
-        for hand in hands:                            # those that have a pose; hands.without_pose has the others
+        for hand in hands:                            # the hands with a pose; hands.without_pose holds the others
             print(hand.handedness, hand.status, hand.joint_angles()["index_pip_flex"])
 
     barehand.publish_rgbd(depth, colour, (fx, fy, cx, cy))   # for barehand track --source lcm
 
-Metres, seconds and radians. The camera frame has x right, y down, z forward. Nothing that is not known is ever 0: it is NaN.
+Units are metres, seconds and radians. The camera frame has x right, y down, z forward. Unknown values are NaN, never 0.
 """
 from .counts import Counts
 from .error import Error

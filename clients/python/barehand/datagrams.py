@@ -1,9 +1,10 @@
-"""LCM's protocol over UDP: how messages become datagrams and come out of them again.
+"""LCM's protocol over UDP: splits messages into datagrams and assembles them again.
 
 All numbers are big endian. A small message is one datagram: the magic number LC02, the sender's message number, the
-channel with a final zero byte, and the data. A large one is several: the magic number LC03, the message number, the size
-of the data, the offset of this fragment in it, the number of the fragment and of all fragments; the first one has the
-channel, too (https://lcm-proj.github.io/lcm/content/udp-multicast-protocol.html).
+channel with a final zero byte, and the data. A large message is split into fragments, one per datagram: the magic
+number LC03, the message number, the size of all data, the offset of this fragment in them, the index of the fragment,
+the number of fragments and, in the first fragment, the channel; then the data
+(https://lcm-proj.github.io/lcm/content/udp-multicast-protocol.html).
 """
 import struct
 from collections import OrderedDict
@@ -13,12 +14,12 @@ LONGEST_CHANNEL = 63        # bytes
 LARGEST_MESSAGE = 4 << 20   # bytes; above it LCM over UDP is unreliable, and Barehand sends nothing larger
 _SHORT_HEADER = struct.Struct(">II")
 _FRAGMENT_HEADER = struct.Struct(">IIIIHH")
-_LARGEST_DATAGRAM = 65507   # of UDP over IPv4
-_MOST_SENDERS = 64
+_LARGEST_DATAGRAM = 65507   # payload of UDP over IPv4, bytes
+_MOST_SENDERS = 64          # number of senders that are remembered
 
 
 def encode(channel, data, number):
-    """The datagrams of the message `number` (of this sender) on `channel`, bytes both."""
+    """The datagrams of a message. `channel` and `data` are bytes; `number` counts the messages of this sender."""
     name = channel + b"\0"
     if _SHORT_HEADER.size + len(name) + len(data) <= _LARGEST_DATAGRAM:
         return [_SHORT_HEADER.pack(SHORT, number) + name + data]
@@ -29,7 +30,7 @@ def encode(channel, data, number):
 
 
 class _Partial:
-    """A large message of which some fragments came."""
+    """A large message of which some fragments have arrived."""
 
     def __init__(self, number, size, count):
         self.number, self.count = number, count
@@ -37,22 +38,22 @@ class _Partial:
 
 
 class _Sender:
-    """What is known of one sender, which is an address and a port."""
+    """The state of one sender, which is identified by its address and port."""
 
     def __init__(self):
         self.last = None     # number of its newest message
         self.partial = None  # _Partial
-        self.whole = None    # number of the last large message that is complete
+        self.whole = None    # number of its last complete large message
 
 
 class Assembler:
-    """Makes messages of datagrams. Keeps one unfinished message a sender, as liblcm does, and counts what is lost."""
+    """Assembles messages from datagrams. Like liblcm, it keeps one incomplete message per sender. Counts losses."""
 
     def __init__(self, counts):
         self._counts, self._senders = counts, OrderedDict()
 
     def add(self, datagram, address):
-        """(channel, data), bytes both, if `datagram` completes a message; else None."""
+        """Returns (channel, data), both bytes, if `datagram` completes a message; otherwise None."""
         magic, = struct.unpack_from(">I", datagram) if len(datagram) >= _SHORT_HEADER.size else (0,)
         if magic == SHORT:
             return self._short(datagram, address)
@@ -62,13 +63,13 @@ class Assembler:
         return None
 
     def _sender(self, address, number):
-        """The sender, after its message `number` was noted."""
+        """Returns the sender at `address`, after counting the messages that were lost before its message `number`."""
         sender = self._senders.setdefault(address, _Sender())
         self._senders.move_to_end(address)
         if len(self._senders) > _MOST_SENDERS:
             self._senders.popitem(last=False)
 
-        # A step back is a datagram that was overtaken, or a sender that began again: nothing is lost.
+        # A step back means that datagrams arrived out of order or the sender was restarted: nothing is lost.
         step = (number - sender.last) & 0xFFFFFFFF if sender.last is not None else 1
         if 1 <= step < 1 << 31:
             self._counts.lost += step - 1
@@ -88,17 +89,17 @@ class Assembler:
     def _fragment(self, datagram, address):
         _, number, size, offset, index, count = _FRAGMENT_HEADER.unpack_from(datagram)
         sender = self._sender(address, number)
-        if sender.whole == number and not sender.partial:  # a fragment that came twice
+        if sender.whole == number and not sender.partial:  # a duplicate of a fragment
             return None
 
-        # A fragment of the next message ends the one before, whose other fragments are lost.
+        # A fragment of another message ends an incomplete message, whose other fragments are lost.
         partial = sender.partial
         if not partial or (partial.number, len(partial.data), partial.count) != (number, size, count):
             self._counts.fragments += partial is not None
             believed = index < count and 0 < size <= LARGEST_MESSAGE
             partial = sender.partial = _Partial(number, size, count) if believed else None
 
-        # The channel stands in the first fragment.
+        # The first fragment begins with the channel.
         start, end = _FRAGMENT_HEADER.size, None
         if partial and index == 0:
             end = datagram.find(b"\0", start, start + LONGEST_CHANNEL + 1)
@@ -109,6 +110,7 @@ class Assembler:
             sender.partial = None
             return None
 
+        # Insert the data; return the message if it is complete.
         if index not in partial.seen:
             partial.data[offset:offset + len(piece)] = piece
             partial.filled += len(piece)
@@ -116,7 +118,7 @@ class Assembler:
         if len(partial.seen) < count:
             return None
         sender.partial, sender.whole = None, number
-        if partial.filled != size:  # the fragments leave a hole
+        if partial.filled != size:  # the fragments do not cover all data
             self._counts.damaged += 1
             return None
         return partial.channel, bytes(partial.data)

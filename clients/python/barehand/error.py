@@ -1,8 +1,8 @@
-"""What goes wrong because of the outside world."""
+"""The exception for problems outside of the program."""
 
 
 class Error(Exception):
-    """A file, a network or an argument that cannot be used: what is wrong, where, and what to do about it."""
+    """A file, a network or an argument cannot be used. Says what is wrong, where, and what to do about it."""
 
     def __init__(self, what, where="", remedy=""):
         super().__init__((f"{where}: " if where else "") + what + (f" ({remedy})" if remedy else ""))

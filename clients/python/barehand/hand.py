@@ -10,8 +10,8 @@ STATUS = ("searching", "tracking", "holding", "lost")
 class Hand:
     """One hand in one frame. Metres and radians; the camera frame has x right, y down, z forward.
 
-    A hand without a pose (`has_pose` is false) has NaN everywhere, never zeros; so has a part of which the message did not
-    arrive. The messages themselves are `state`, `glove` and `joints`, each of them None where it did not arrive:
+    All values of a hand without a pose (`has_pose` is false) are NaN, never zero, and so are the values from a message
+    that did not arrive. The messages themselves are `state`, `glove` and `joints`, each None if it did not arrive;
     lcmtypes/*.lcm describe their fields.
     """
 
@@ -31,13 +31,13 @@ class Hand:
 
     @property
     def status(self):
-        """"searching", "tracking", "holding" (out of sight: the last pose is held) or "lost"."""
+        """"searching", "tracking", "holding" (the hand is out of sight and its last pose is kept) or "lost"."""
         number = self._header.status
         return STATUS[number] if 0 <= number < len(STATUS) else f"unknown status {number}"
 
     @property
     def tracked(self):
-        """True if this pose was measured in this frame; false for one that is held, and without a pose."""
+        """True if the pose was measured in this frame; false if the last pose is kept or there is no pose."""
         return self.status == "tracking"
 
     @property
@@ -48,9 +48,9 @@ class Hand:
     def openxr26(self, T=outlets.T_XR_CAMERA):
         """The 26 joints of OpenXR (outlets.OPENXR_JOINTS), smoothed: outlets.Joints with quaternions (x, y, z, w).
 
-        T (4x4) maps camera coordinates to the frame in which the joints are wanted. Unless it is given, that has its origin
-        at the camera and OpenXR's axes: x right, y up, z backward. `numpy.eye(4)` leaves them in the camera frame. Joint
-        frames: -z along the bone, +y out of the back of the hand, both hands.
+        T (4x4) maps camera coordinates to the frame of the result. By default, that frame has its origin at the camera
+        and OpenXR's axes: x right, y up, z backward. With `numpy.eye(4)`, the joints stay in the camera frame. Joint
+        frames of both hands: -z along the bone, +y out of the back of the hand.
         """
         if not self.joints:
             return outlets.joints_in(T, np.full((26, 3), np.nan), np.full((26, 4), np.nan), np.full(26, np.nan),
@@ -64,9 +64,9 @@ class Hand:
 
     def mano21(self):
         """(21, 3): landmarks in the order of MediaPipe (wrist, then thumb to little finger, each from root to tip) relative
-        to the wrist, in MANO's wrist frame: what the hand detector of dex-retargeting hands to its retargeting. z points
-        from the wrist to the middle knuckle, x out of the palm, y to the thumb of a right hand and away from it of a left
-        one. Metres, smoothed."""
+        to the wrist, in MANO's wrist frame: the input that dex-retargeting expects, as from its hand detector. z points
+        from the wrist to the middle knuckle, x out of the palm, y towards the thumb of a right hand and away from the
+        thumb of a left hand. Metres, smoothed."""
         landmarks = self._landmarks()
         return (landmarks - landmarks[0]) @ self._mano_rotation(landmarks)
 
@@ -77,14 +77,14 @@ class Hand:
         return T
 
     def glove22(self, raw=False):
-        """(22,): the channels of a CyberGlove (outlets.GLOVE_CHANNELS), radians, of the smoothed pose or the raw one. NaN
-        where nothing can be observed: palm_arch and both of the wrist always. `glove.channel_flag` says which
-        angles are inferred."""
+        """(22,): the channels of a CyberGlove (outlets.GLOVE_CHANNELS) in radians, of the smoothed pose or the raw one.
+        Channels that cannot be observed are NaN; palm_arch, wrist_pitch and wrist_yaw always are. `glove.channel_flag`
+        says which angles are inferred."""
         return self._of_glove("channel_raw" if raw else "channel", 22)
 
     def joint_angles(self, raw=False):
-        """{name: radians} of 21 joint angles, such as index_pip_flex: 0 in the flat hand, flexion positive towards the palm,
-        abduction (_abd) positive towards the thumb. NaN without a pose; empty if the message did not arrive."""
+        """{name: radians} of 21 joint angles, such as index_pip_flex: 0 in the flat hand; flexion positive towards the
+        palm, abduction (_abd) positive towards the thumb. NaN without a pose; empty if the message did not arrive."""
         if not self.glove:
             return {}
         return dict(zip(self.glove.joint_name, self.glove.joint_angle_raw if raw else self.glove.joint_angle))
@@ -113,7 +113,7 @@ class Hand:
 
 
 class Hands(tuple):
-    """The hands of one frame that have a pose. Those that are searched for or lost are in `without_pose`."""
+    """The hands of one frame that have a pose. The others, which are searched for or lost, are in `without_pose`."""
 
     def __new__(cls, hands):
         self = super().__new__(cls, [hand for hand in hands if hand.has_pose])

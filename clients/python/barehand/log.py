@@ -1,7 +1,7 @@
-"""LCM's event logs: what lcm-logger, `barehand record` and `barehand track --states-log` write.
+"""LCM's event logs, which lcm-logger, `barehand record` and `barehand track --states-log` write.
 
-An event is the sync word, its number, its time [us], the lengths of channel and data (4, 8, 8, 4, 4 bytes, big endian),
-the channel and the data (https://lcm-proj.github.io/lcm/content/log-file-format.html).
+An event consists of a sync word, its number, its time [us] and the lengths of channel and data (4, 8, 8, 4, 4 bytes,
+big endian), then the channel and the data (https://lcm-proj.github.io/lcm/content/log-file-format.html).
 """
 import mmap
 import os
@@ -15,9 +15,10 @@ _HEADER = struct.Struct(">IqqII")
 
 
 def events(path, counts):
-    """An iterator of (time [us], channel, data), bytes both, over every whole event of a log. What is damaged or cut short
-    is skipped up to the next event and counted in `counts.damaged`. A file that is no log raises Error."""
-    return _scan(_map(path), path, counts)  # opened now, so that a missing file is told at once
+    """An iterator over all complete events of a log: (time [us], channel, data), the last two as bytes. Damaged or
+    truncated parts are skipped up to the next event and counted in `counts.damaged`. Raises Error if the file is no
+    log."""
+    return _scan(_map(path), path, counts)  # opened here, so that a missing file is reported at once
 
 
 def _scan(bytes_, path, counts):
@@ -25,7 +26,7 @@ def _scan(bytes_, path, counts):
     while at < len(bytes_):
         end = _end(bytes_, at)
 
-        # Where nothing follows an event it may have been torn, and what was written later lies within its length.
+        # If no event follows this one, it may have been cut off, with later events written inside its stated length.
         if end and not _may_follow(bytes_, end):
             inner = _whole_event(bytes_, at + 1, end)
             if inner:
@@ -46,7 +47,7 @@ def _scan(bytes_, path, counts):
 
 
 def write_event(file, number, time, channel, data):
-    """Appends an event to a log that is open for writing bytes; `time` in microseconds."""
+    """Appends an event to a log; `file` must be open for writing in binary mode, `time` is in microseconds."""
     file.write(_SYNC + _HEADER.pack(0, number, time, len(channel), len(data))[4:] + channel + data)
 
 
@@ -62,7 +63,7 @@ def _map(path):
 
 
 def _end(bytes_, at):
-    """Where the event at `at` ends; None if no whole event begins there."""
+    """The position at which the event at `at` ends; None if no complete event begins there."""
     if bytes_[at:at + 4] != _SYNC or at + _HEADER.size > len(bytes_):
         return None
     _, _, _, channel_size, size = _HEADER.unpack_from(bytes_, at)
@@ -80,7 +81,7 @@ def _next_sync(bytes_, at):
 
 
 def _whole_event(bytes_, start, end):
-    """Where the first event in [start, end) begins that something whole may follow; None if there is none."""
+    """The position of the first complete event in [start, end) that another event may follow; None if there is none."""
     at = _next_sync(bytes_, start)
     while at < end:
         own_end = _end(bytes_, at)

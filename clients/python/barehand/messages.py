@@ -18,11 +18,12 @@ class Foreign(ValueError):
 
 
 class Damaged(ValueError):
-    """The message has the fingerprint of its type and is too short or too long for it."""
+    """The message has the fingerprint of its type, but is too short or too long."""
 
 
 class _Bytes:
-    """Reads from bytes. Unlike a file it refuses to read less than asked for, because generated decoders do not look."""
+    """Reads from bytes like a file, but raises Damaged if fewer bytes are left than requested, since the generated
+    decoders do not check that."""
 
     def __init__(self, data, at):
         self._data, self.at = data, at
@@ -36,7 +37,7 @@ class _Bytes:
 
 
 def decode(type_, data):
-    """The message of `type_` that `data` (bytes) holds. Raises Foreign or Damaged."""
+    """Decodes a message of `type_` from `data` (bytes). Raises Foreign or Damaged."""
     if data[:8] != type_._get_packed_fingerprint():
         raise Foreign(f"is no {type_.__name__}")
     source = _Bytes(data, 8)

@@ -12,13 +12,13 @@ from .error import Error
 
 DEFAULT_URL = "udpm://239.255.76.67:7667"
 _LARGEST_DATAGRAM = 65536
-_RECEIVE_BUFFER = 2 << 20   # bytes, as the program asks for; the kernel grants less if it must
+_RECEIVE_BUFFER = 2 << 20   # requested size of the socket's buffer, bytes, as in the tracker; the kernel may limit it
 _ROUTE = "add a multicast route: sudo ip link set lo up; sudo ip route add 224.0.0.0/4 dev lo"
 
 
 def parse_url(url=None):
-    """(group, port, ttl, receive buffer in bytes) of udpm://GROUP:PORT?ttl=0&recv_buf_size=BYTES. None: the environment's
-    LCM_DEFAULT_URL, or LCM's default. ttl is 0 unless given: nothing leaves this machine."""
+    """(group, port, ttl, receive buffer in bytes) of udpm://GROUP:PORT?ttl=0&recv_buf_size=BYTES. If `url` is None: the
+    environment variable LCM_DEFAULT_URL, or LCM's default. The default ttl is 0: nothing leaves this machine."""
     url = url or os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
     example = "URLs look like udpm://239.255.76.67:7667?ttl=0"
     try:
@@ -38,10 +38,10 @@ def parse_url(url=None):
 
 
 class Network:
-    """Sends and receives messages as liblcm does. One thread may use it."""
+    """Sends and receives messages as liblcm does. Not thread-safe."""
 
     def __init__(self, url=None, counts=None):
-        """Connects for sending and, where `counts` (counts.Counts) are given, for receiving."""
+        """Connects for sending and, if `counts` (counts.Counts) is given, for receiving."""
         group, port, ttl, buffer = parse_url(url)
         self.url = f"udpm://{group}:{port}?ttl={ttl}"
         self._address, self._number = (group, port), 0
@@ -61,7 +61,7 @@ class Network:
         self._receiver = receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # others listen on this port, too
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
-        receiver.bind((group, port))  # the group and not every address: other groups on this port are not heard
+        receiver.bind((group, port))  # to the group, so that messages of other groups on this port are not received
         receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
                             struct.pack("4sI", socket.inet_aton(group), socket.INADDR_ANY))
         receiver.setblocking(False)
@@ -75,8 +75,8 @@ class Network:
         return Error(f"cannot connect to LCM: {os.strerror(error.errno or 0)}", self.url)
 
     def send(self, channel, data):
-        """Sends `data` (bytes) on `channel` (text). That nobody listens is no error, and that a datagram is lost on its
-        way goes unnoticed, as always with LCM. Raises Error where it cannot be sent."""
+        """Sends `data` (bytes) on `channel` (str). Raises Error if that is not possible. As always with LCM, it is no
+        error if no one receives the message or a datagram is lost on its way."""
         name = channel.encode()
         if not 1 <= len(name) <= LONGEST_CHANNEL or b"\0" in name:
             raise Error("channel names have 1 to 63 bytes", channel)
@@ -93,8 +93,8 @@ class Network:
         self._number = (self._number + 1) & 0xFFFFFFFF
 
     def receive(self, timeout=None):
-        """(channel, data), bytes both, of the next message; None when `timeout` [s] is over. Of a socket without a message
-        `timeout=0` returns None at once."""
+        """Waits for the next message and returns (channel, data), both bytes; None if none arrives within `timeout`
+        [s]. `timeout=0` does not wait, None waits without limit."""
         end = None if timeout is None else time.monotonic() + timeout
         while True:
             try:

@@ -1,4 +1,5 @@
-"""The conventions in which a hand can be had. docs/frames_and_units.md has one table of all of them, with a test vector."""
+"""The conventions (OpenXR, WebXR, MANO, CyberGlove) in which a hand is available. docs/frames_and_units.md has a table
+of all of them, with a test vector."""
 import functools
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ WEBXR_JOINTS = ("wrist", "thumb-metacarpal", "thumb-phalanx-proximal", "thumb-ph
                 *(f"{name}-finger-{joint}" for name in ("index", "middle", "ring", "pinky")
                   for joint in ("metacarpal", "phalanx-proximal", "phalanx-intermediate", "phalanx-distal", "tip")))
 
-#: The 22 channels of a CyberGlove, in its order.
+#: The 22 channels of a CyberGlove, in the glove's order.
 GLOVE_CHANNELS = ("thumb_rotate", "thumb_mpj", "thumb_ij", "thumb_ab", "index_mpj", "index_pij", "index_dij", "middle_mpj",
                   "middle_pij", "middle_dij", "middle_index_ab", "ring_mpj", "ring_pij", "ring_dij", "ring_middle_ab",
                   "pinkie_mpj", "pinkie_pij", "pinkie_dij", "pinkie_ring_ab", "palm_arch", "wrist_pitch", "wrist_yaw")
@@ -25,29 +26,29 @@ GLOVE_CHANNELS = ("thumb_rotate", "thumb_mpj", "thumb_ij", "thumb_ab", "index_mp
 SEGMENTS = ("palm", "thumb_metacarpal", "thumb_proximal", "thumb_distal",
             *(f"{finger}_{bone}" for finger in _FINGERS for bone in ("proximal", "intermediate", "distal")))
 
-#: Which OpenXR joints the 21 landmarks are: wrist, thumb (4), index (4), middle (4), ring (4), little finger (4).
+#: Indices in OPENXR_JOINTS of the 21 landmarks: wrist, thumb (4), index (4), middle (4), ring (4), little finger (4).
 LANDMARKS_21 = (1, 2, 3, 4, 5, 7, 8, 9, 10, 12, 13, 14, 15, 17, 18, 19, 20, 22, 23, 24, 25)
 
-#: From the camera frame (x right, y down, z forward) to the axes of OpenXR and WebXR (x right, y up, z backward).
+#: Maps the camera frame (x right, y down, z forward) to the axes of OpenXR and WebXR (x right, y up, z backward).
 T_XR_CAMERA = np.diag([1.0, -1.0, -1.0, 1.0])
 
-#: From the wrist's frame of the hand detector of dex-retargeting to that of MANO, for row vectors (its OPERATOR2MANO_RIGHT
-#: and OPERATOR2MANO_LEFT). Both are rotations.
+#: Rotations from the wrist frame of dex-retargeting's hand detector to that of MANO, for row vectors
+#: (OPERATOR2MANO_RIGHT and OPERATOR2MANO_LEFT there).
 OPERATOR2MANO = {"right": np.array([[0.0, 0, -1], [-1, 0, 0], [0, 1, 0]]),
                  "left": np.array([[0.0, 0, -1], [1, 0, 0], [0, -1, 0]])}
 
 
 class Joints(NamedTuple):
-    """Poses of joints. Every number is NaN, and every flag 0, where there is no pose."""
+    """Poses of joints. Without a pose, every number is NaN and every flag is 0."""
 
     position: np.ndarray     #: (n, 3), metres
-    orientation: np.ndarray  #: (n, 4), quaternions (x, y, z, w), w >= 0: joint frame to the outlet's frame
-    radius: np.ndarray       #: (n,), joint centre to skin, metres
-    flags: np.ndarray        #: (n,), XrSpaceLocationFlags: 3 = valid, 15 = valid and tracked; 3 alone: inferred or held
+    orientation: np.ndarray  #: (n, 4), quaternions (x, y, z, w), w >= 0: joint frame to the frame of `position`
+    radius: np.ndarray       #: (n,), distance from the joint's centre to the skin, metres
+    flags: np.ndarray        #: (n,), XrSpaceLocationFlags: 15 = valid and tracked, 3 = only valid: inferred or held
 
 
 def rotated(T, q):
-    """Quaternions (n, 4), (w, x, y, z), in the frame to which T (4x4) maps, with w >= 0."""
+    """Transforms quaternions q (n, 4), (w, x, y, z), to the frame to which T (4x4) maps. The result has w >= 0."""
     a, b = _quaternion_of_transform(np.asarray(T, float).tobytes()), np.asarray(q, float)
     w = a[0] * b[:, 0] - b[:, 1:] @ a[1:]
     v = a[0] * b[:, 1:] + b[:, :1] * a[1:] + np.cross(a[1:], b[:, 1:])
@@ -55,7 +56,7 @@ def rotated(T, q):
     return np.where(product[:, :1] < 0, -product, product)
 
 
-@functools.lru_cache(maxsize=16)  # every frame asks for the same few
+@functools.lru_cache(maxsize=16)  # every frame uses the same few transforms
 def _quaternion_of_transform(T):
     R = np.frombuffer(T).reshape(4, 4)[:3, :3]
     if not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0:
@@ -64,7 +65,8 @@ def _quaternion_of_transform(T):
 
 
 def quaternion_of(R):
-    """(w, x, y, z) of a rotation matrix: the eigenvector to the largest eigenvalue (Bar-Itzhack 2000)."""
+    """The quaternion (w, x, y, z) of a rotation matrix, as the eigenvector of the largest eigenvalue of K (Bar-Itzhack,
+    "New method for extracting the quaternion from a rotation matrix", 2000)."""
     (a, b, c), (d, e, f), (g, h, i) = R
     K = np.array([[a + e + i, h - f, c - g, d - b], [h - f, a - e - i, b + d, c + g],
                   [c - g, b + d, e - a - i, f + h], [d - b, c + g, f + h, i - a - e]])
@@ -80,7 +82,7 @@ def rotation_of(q):
 
 
 def joints_in(T, position, orientation, radius, flags):
-    """Joints in the frame to which T maps, of joints in the camera frame with quaternions (w, x, y, z)."""
+    """Transforms joints from the camera frame, with quaternions (w, x, y, z), to the frame to which T (4x4) maps."""
     T = np.asarray(T, float)
     if T.shape != (4, 4):
         raise ValueError(f"T has the shape {T.shape}; a 4x4 matrix that maps camera coordinates is needed")
@@ -88,10 +90,12 @@ def joints_in(T, position, orientation, radius, flags):
 
 
 def mano_rotation(landmarks, handedness):
-    """3x3, MANO's wrist frame to the frame of the 21 landmarks (21, 3), as dex-retargeting's hand detector estimates it from
-    wrist and knuckles of index and middle finger: x from middle knuckle to wrist within their plane, z towards the index."""
+    """The rotation (3x3) from MANO's wrist frame to the frame of the landmarks (21, 3), estimated like
+    dex-retargeting's hand detector from the wrist and the knuckles of index and middle finger. The detector's frame has
+    x from the middle knuckle to the wrist, y normal to the plane of the three points, and z on the side of the index
+    finger."""
     wrist, index, middle = landmarks[0], landmarks[5], landmarks[9]
-    normal = np.cross(middle - wrist, index - wrist)  # of the plane, and so x has no part along it
+    normal = np.cross(middle - wrist, index - wrist)  # of the plane of the three points, perpendicular to x
     normal /= np.linalg.norm(normal)
     x = wrist - middle
     x /= np.linalg.norm(x)

@@ -13,17 +13,18 @@ _WHERE = "publish_rgbd"
 
 
 def publish_rgbd(depth, colour, intrinsics, depth_unit=0.001, utime=None, url=None, channel="RGBD_FRAME", sensor=""):
-    """Sends one measurement, so that any camera with a Python SDK is a source of `barehand track --source lcm`.
+    """Sends one frame, so that any camera with a Python SDK can be a source for `barehand track --source lcm`.
 
-    depth: (height, width), 0 = no measurement, along the optical axis: integer counts of `depth_unit` metres, or floating
-    point metres, of which NaN, infinity and what is below half a count or above 65,535 counts become 0.
-    colour: None; or (height, width, 3) of uint8, RGB, registered to depth: the same pixel is the same ray; or the bytes of
-    a JPEG or PNG file of that size.
-    intrinsics: (fx, fy, cx, cy) of that image in pixels, pixel centres at integers, without lens distortion.
-    utime: when the depth image was taken, microseconds since the epoch; now, if None.
+    depth: (height, width), along the optical axis, 0 = no measurement. Integer counts of `depth_unit` metres, or
+    floating point metres, of which NaN, infinity and values below half a count or above 65,535 counts become 0.
+    colour: None; or (height, width, 3) of uint8, RGB, registered to depth (equal pixels are equal rays); or the bytes
+    of a JPEG or PNG file of that size.
+    intrinsics: (fx, fy, cx, cy) of the depth image in pixels, with pixel centres at integers and no lens distortion.
+    utime: time at which the depth image was taken, microseconds since the epoch; None: now.
     url, channel, sensor: the LCM network (as in hands()), the channel and the name of the sensor.
 
-    A message has at most 4 MiB: send larger colour as JPEG. Raises Error for what the tracker would not take.
+    A message has at most 4 MiB, so send large colour images as JPEG. Raises Error for input that the tracker would
+    reject.
     """
     _publisher(url, channel, sensor).publish(depth, colour, intrinsics, depth_unit, utime)
 
@@ -34,13 +35,13 @@ def _publisher(url, channel, sensor):
 
 
 class RgbdPublisher:
-    """What publish_rgbd() keeps between two frames: the network, and the number of the frame."""
+    """The state of publish_rgbd() between two frames: the network and the number of the frame."""
 
     def __init__(self, url=None, channel="RGBD_FRAME", sensor=""):
         self._network, self._channel, self._sensor, self._seq = Network(url), channel, sensor, 0
 
     def publish(self, depth, colour, intrinsics, depth_unit=0.001, utime=None):
-        """As publish_rgbd()."""
+        """Sends one frame, like publish_rgbd()."""
         message = rgbd_frame_t()
         message.utime = time.time_ns() // 1000 if utime is None else int(utime)
         message.seq, message.sensor = self._seq, self._sensor
@@ -57,7 +58,7 @@ class RgbdPublisher:
 
 
 def _counts(depth, depth_unit):
-    """Depth as little endian counts of 16 bits."""
+    """Converts depth to little endian counts of 16 bits."""
     if not 1e-7 <= depth_unit <= 1:
         raise Error(f"a depth unit of {depth_unit} m is none", _WHERE, "give metres a count: 0.001 for millimetres")
     if depth.ndim != 2 or depth.size == 0:
@@ -81,7 +82,7 @@ def _intrinsics(intrinsics):
 
 
 def _colour(colour, shape):
-    """(encoding, bytes)."""
+    """(encoding, bytes) of a colour image for the message."""
     if colour is None:
         return rgbd_frame_t.COLOUR_NONE, b""
     if isinstance(colour, (bytes, bytearray, memoryview)):

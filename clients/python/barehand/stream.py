@@ -11,30 +11,34 @@ from .messages import Damaged, Foreign, decode, glove_state_t, hand_joints_t, ha
 from .network import Network
 
 _PARTS = {"HAND_STATE": hand_state_t, "GLOVE_STATE": glove_state_t, "HAND_JOINTS": hand_joints_t}
-_SILENCE = 5.0  # seconds without a message after which a warning says what to look at
+_SILENCE = 5.0  # seconds without a message after which a warning says what to check
 
 
 def hands(source=None, prefix="", timeout=None, newest=False):
-    """The hands of every frame, from a live tracker or from a log:
+    """Iterates over the hands of every frame, from a live tracker or from a log:
 
         for hands in barehand.hands():
             if hands.right:
                 print(hands.right.joint_angles()["index_pip_flex"])
 
     source: an LCM network, such as udpm://239.255.76.67:7667?ttl=0; the name of a log that `barehand track --states-log`,
-    `barehand record` or `lcm-logger` wrote; or None for the network of the environment's LCM_DEFAULT_URL, or LCM's default.
+    `barehand record` or `lcm-logger` wrote; or None for the network in the environment variable LCM_DEFAULT_URL, or
+    LCM's default network.
     prefix: the channel prefix of the tracker (`run.channel_prefix`).
-    timeout: live, raises Error after so many seconds without a hand state; None waits for ever, with one warning.
-    newest: live, passes over frames while a newer one waits, for consumers that are slower than the tracker.
+    timeout: for a network: seconds without a hand state after which Error is raised; None waits for ever, with one
+    warning.
+    newest: for a network: skips frames if newer ones have arrived, for consumers that are slower than the tracker.
 
-    Returns a HandStream. Raises Error where the network or the log cannot be opened, and where a log holds no hand states.
-    Messages that are damaged, foreign or incomplete are left out, with one warning of each kind, and counted.
+    Returns a HandStream. Raises Error if the network or the log cannot be opened, or if a log holds no hand states.
+    Damaged and foreign messages are left out, and hands may be incomplete; all of these are counted, with one warning
+    for each kind.
     """
     return HandStream(source, prefix, timeout, newest)
 
 
 class HandStream:
-    """An iterator of Hands (hand.py), one a frame and sensor. `counts` (counts.py) says what arrived and what did not."""
+    """An iterator over Hands (hand.py), one for each frame and sensor. `counts` (counts.py) holds the numbers of
+    messages that arrived and that were lost."""
 
     def __init__(self, source, prefix, timeout, newest):
         self.counts = Counts()
@@ -61,7 +65,7 @@ class HandStream:
         self.close()
 
     def close(self):
-        """Leaves the network."""
+        """Ends the iteration and closes the network."""
         self._hands.close()
         if self._network:
             self._network.close()
@@ -77,14 +81,14 @@ class HandStream:
             else:
                 self._warn_of_silence(time.monotonic() - heard)
 
-            # Of several frames that wait the last one is handed out.
+            # If several frames have arrived, return only the last one.
             while self._newest and done and (message := self._network.receive(0)):
                 newer = self._frames.add(*message)
                 self.counts.superseded += len(newer)
                 done = newer[-1:] or done
             yield from done
             if done:
-                heard = time.monotonic()  # the time that the consumer took is no silence
+                heard = time.monotonic()  # the time that the consumer took does not count as silence
 
     def _logged(self, events):
         for _, channel, data in events:
@@ -115,15 +119,16 @@ class HandStream:
 
 class _Frame:
     def __init__(self, key, late):
-        self.key, self.late, self.hands = key, late, {}  # late: a part of the frame is handed out already
+        self.key, self.late, self.hands = key, late, {}  # late: a part of the frame was returned before
 
     def complete(self):
         return all(len(parts) == len(_PARTS) for parts in self.hands.values())
 
 
 class _Frames:
-    """Gathers the messages of each frame. How many hands a frame has is learned from the frame before, so that it is handed
-    out with its last message; the first one waits for the second."""
+    """Collects the messages of each frame. The number of hands is assumed to be that of the previous frame, so that a
+    frame can be returned as soon as its last message arrives; the first frame is returned when the second one
+    begins."""
 
     def __init__(self, prefix, counts):
         self.prefix, self._counts = prefix, counts
@@ -134,7 +139,7 @@ class _Frames:
         return channel in self._types
 
     def add(self, channel, data):
-        """Takes a message; the list of the Hands that it completes."""
+        """Adds a message and returns the list of the frames (Hands) that it completes."""
         if channel not in self._types:
             return []
         name, type_ = self._types[channel]
@@ -150,7 +155,7 @@ class _Frames:
         return self._sort(name, message)
 
     def rest(self):
-        """What was not handed out yet."""
+        """Returns the frames that were not returned yet."""
         return [self._close(sensor) for sensor in list(self._open)]
 
     def _sort(self, name, message):
@@ -159,7 +164,8 @@ class _Frames:
         if sensor in self._open and self._open[sensor].key != key:
             done.append(self._close(sensor))
 
-        # One hand more than before comes late, and how many there are is learned anew.
+        # If the frame has more hands than the previous one, its last hand arrives after the frame was returned. That
+        # hand is returned separately, and the number of hands is determined again.
         frame = self._open.setdefault(sensor, _Frame(key, late=self._last.get(sensor) == key))
         frame.hands.setdefault((message.handedness, message.hand_id), {})[name] = message
         if not frame.late and len(frame.hands) == self._expected.get(sensor) and frame.complete():

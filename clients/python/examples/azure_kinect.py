@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""An Azure Kinect as a source of `barehand track --source lcm`. Written after the source of pyk4a (pip install pyk4a);
-not run on hardware. Lens distortion of the depth camera is not removed."""
+"""Sends the images of an Azure Kinect to `barehand track --source lcm`. Based on the source code of pyk4a (pip install
+pyk4a); not run on hardware. Lens distortion of the depth camera is not removed."""
 from pyk4a import CalibrationType, ColorResolution, Config, DepthMode, ImageFormat, PyK4A
 
 import barehand

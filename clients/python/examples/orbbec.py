@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""An Orbbec camera as a source of `barehand track --source lcm`. Written after the examples of pyorbbecsdk
-(pip install pyorbbecsdk2); not run on hardware. Lens distortion of the colour camera is not removed."""
+"""Sends the images of an Orbbec camera to `barehand track --source lcm`. Based on the examples of pyorbbecsdk (pip
+install pyorbbecsdk2); not run on hardware. Lens distortion of the colour camera is not removed."""
 import numpy as np
 from pyorbbecsdk import AlignFilter, Config, OBFormat, OBSensorType, OBStreamType, Pipeline
 
@@ -25,4 +25,4 @@ while True:
         depth, colour = frames.get_depth_frame(), frames.get_color_frame()
         barehand.publish_rgbd(image(depth, np.uint16), image(colour, np.uint8, 3),
                               (camera.fx, camera.fy, camera.cx, camera.cy),
-                              depth_unit=depth.get_depth_scale() / 1000)  # the scale is in millimetres a count
+                              depth_unit=depth.get_depth_scale() / 1000)  # the scale is in millimetres per count

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A RealSense camera as a source of `barehand track --source lcm`. Written after the documentation of pyrealsense2
+"""Sends the images of a RealSense camera to `barehand track --source lcm`. Based on the documentation of pyrealsense2
 (pip install pyrealsense2); not run on hardware."""
 import pyrealsense2 as rs
 
@@ -7,7 +7,7 @@ import numpy as np
 
 import barehand
 
-pipeline, config, align = rs.pipeline(), rs.config(), rs.align(rs.stream.depth)  # colour to depth: depth stays as measured
+pipeline, config, align = rs.pipeline(), rs.config(), rs.align(rs.stream.depth)  # maps colour to depth
 config.enable_stream(rs.stream.depth, 640, 480, rs.format.z16, 30)
 config.enable_stream(rs.stream.color, 640, 480, rs.format.rgb8, 30)
 profile = pipeline.start(config)

@@ -21,7 +21,7 @@ double relative_size(const hand_state_t& state, const HandProfile& profile) {
   return tracked / own;
 }
 
-/// What has come of one hand.
+/// The messages of one hand received so far.
 struct HandParts {
   std::optional<hand_state_t> state;
   std::optional<glove_state_t> glove;
@@ -90,7 +90,7 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
   for (const auto& [id, hand] : parts)
     if (hand.state && hand.glove && hand.joints) content.hands.push_back({*hand.state, *hand.glove, *hand.joints});
 
-  // Without states the image gives time and number.
+  // Without states, the time and the number of the frame are those of the image.
   if (content.frame && content.messages.empty()) {
     content.utime = content.frame->utime;
     content.number = content.frame->number;

@@ -70,7 +70,7 @@ void LiveView::take(LcmMessage message) {
   gathered_.push_back(std::move(message));
 }
 
-/// As it came. Health is no frame, and its time is another clock's.
+/// Passes a message to the recorder as it was received. A health message belongs to no frame, so its frame time is 0.
 void LiveView::record(const LcmMessage& message, MessageKind kind) {
   if (!options_.recorder || !options_.recorder->recording()) return;
   const std::int64_t utime = utime_of(message);

@@ -14,7 +14,7 @@ namespace barehand {
 /// log and its image in another.
 class LogIndex {
  public:
-  /// Errors: a log that cannot be read; neither states nor frames in any of them.
+  /// Errors: a log cannot be read; none of the logs holds states or images.
   static Result<LogIndex> open(const std::vector<std::string>& paths);
 
   std::int64_t frames() const { return static_cast<std::int64_t>(frames_.size()); }

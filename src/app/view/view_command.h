@@ -6,8 +6,8 @@ class App;
 
 namespace barehand {
 
-/// Adds `barehand view`, which shows what another tracker sends, or a log. After it has run, `exit_code` holds its
-/// result (exit_code.h).
+/// Adds the command `barehand view`, which shows the states sent by another tracker, or a log. After it has run,
+/// `exit_code` holds its result (exit_code.h).
 void add_view_command(CLI::App& app, int& exit_code);
 
 }  // namespace barehand

@@ -20,12 +20,13 @@
 namespace barehand {
 namespace {
 
+/// Prints an error and returns `exit_code`.
 int tell(const Error& error, int exit_code) {
   std::cerr << "barehand view: " << error.message() << std::endl;
   return exit_code;
 }
 
-/// A hand for each side: the one that the user gave, or else the mean adult hand.
+/// A profile for each side: the one given by the user, or the mean adult hand.
 Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   std::array<std::shared_ptr<const HandProfile>, 2> profiles;
   for (const auto& names : {std::vector<std::string>{"both"}, wanted}) {
@@ -37,7 +38,7 @@ Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   return ShownHands(profiles);
 }
 
-/// What the user gave besides what is to be shown.
+/// What the user has chosen for the display: the skins of the hands, and the pose of the camera in the room.
 struct Shown {
   ShownHands hands;
   std::optional<SE3> T_world_camera;
@@ -134,7 +135,7 @@ int view_network(const ViewOptions& options, const WebAddress& address, Shown sh
   auto bus = LcmBus::open(options.lcm_url);
   if (!bus) return tell(bus.error(), kExitFailure);
   const SystemClock clock;
-  constexpr std::size_t kWaiting = 120;  // messages; a frame has four
+  constexpr std::size_t kWaiting = 120;  // messages that may wait for the recorder; a frame has about four
   std::unique_ptr<LogRecorder> recorder;
   if (!options.record.empty())
     recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record, kWaiting}, make_logger(), clock);

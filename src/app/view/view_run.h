@@ -14,8 +14,8 @@ struct ViewOptions {
   std::string port = "8765";         ///< PORT or ADDRESS:PORT
   std::vector<std::string> origins;  ///< foreign origins whose pages may connect
   std::vector<std::string> hands;    ///< profiles whose skin is shown; none: the mean adult hand
-  std::string record;                ///< folder of what the page's button records; "": it records nothing
-  std::string config;                ///< a configuration whose room is shown; "": none
+  std::string record;                ///< folder for recordings made with the page's button; "": it records nothing
+  std::string config;                ///< configuration from which the camera's pose is taken; "": none
 };
 
 /// Runs `barehand view` until it is stopped, and returns its exit code (exit_code.h).

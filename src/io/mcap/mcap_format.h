@@ -11,8 +11,8 @@
 
 namespace barehand::mcap {
 
-// The parts of an MCAP file (https://mcap.dev/spec, version 0). A record: kind (1 byte), length (8), content. Numbers
-// are little endian.
+// The elements of an MCAP file (https://mcap.dev/spec, version 0). A record consists of its kind (1 byte), the length
+// of its content (8 bytes) and the content. Numbers are little endian.
 
 inline constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 inline constexpr std::int64_t kRecordHeader = 9;
@@ -31,7 +31,8 @@ enum class Kind : std::uint8_t {
   data_end = 15,
 };
 
-/// Appends records to bytes.
+/// Appends records to `out`, which must outlive the writer. A record is written by begin(), put...() for its fields,
+/// and end().
 class RecordWriter {
  public:
   static_assert(std::endian::native == std::endian::little);
@@ -39,7 +40,7 @@ class RecordWriter {
 
   void begin(Kind kind) {
     put(kind);
-    put<std::uint64_t>(0);  // the length, when it is known
+    put<std::uint64_t>(0);  // the length, filled in by end()
     start_ = out_.size();
   }
   void end() {
@@ -74,7 +75,8 @@ class RecordWriter {
   std::size_t start_ = 0;
 };
 
-/// Takes fields out of the content of a record. Where it is too short the fields are zero and failed() is true.
+/// Reads the fields of a record from its content. If the content is too short, the missing fields are zero and failed()
+/// is true.
 class FieldReader {
  public:
   explicit FieldReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}

@@ -16,10 +16,10 @@ namespace barehand::mcap {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMostUnpacked = 256 << 20;  // bytes of a chunk that are believed
-constexpr std::uint64_t kMessageFields = 22;        // bytes before those of the message itself
+constexpr std::uint64_t kMostUnpacked = 256 << 20;  // largest accepted size of an unpacked chunk [bytes]
+constexpr std::uint64_t kMessageFields = 22;        // size of the fields before the data in a message record [bytes]
 
-/// What is said of a chunk packed in another way than zstd.
+/// The error for a chunk with another compression than zstd.
 std::string unknown_compression(const std::string& name) {
   return "packed with " + name + ", which is not read: repack the file with `mcap compress --compression zstd`";
 }
@@ -70,7 +70,8 @@ bool McapReader::read_at(std::uint64_t at, std::uint64_t size, Bytes& out) {
 void McapReader::doubt(std::string what) { doubts_.push_back(path_ + ": " + std::move(what)); }
 
 void McapReader::scan(const Look& look) {
-  std::uint64_t lost = 0;  // bytes that are no record
+  // Go from record to record.
+  std::uint64_t lost = 0;  // number of bytes that are not part of a record
   bool ended = false;
   for (std::uint64_t at = kMagic.size(); at < size_ && !ended;) {
     Bytes header;
@@ -84,12 +85,13 @@ void McapReader::scan(const Look& look) {
       continue;
     }
 
-    // Something else than a record: on with the next chunk.
+    // There is no valid record here: skip to the next chunk.
     const std::uint64_t next = next_chunk(at + 1).value_or(size_);
     lost += next - at;
     at = next;
   }
 
+  // Report what was left out.
   if (lost > 0)
     doubt(std::to_string(lost) + " bytes are damaged or cut off; every complete chunk is used");
   else if (!ended)
@@ -98,7 +100,7 @@ void McapReader::scan(const Look& look) {
     doubt((count == 1 ? "a chunk is left out, " : std::to_string(count) + " chunks are left out, ") + reason);
 }
 
-/// `at`, `size`: of the content. False: this is no record of an MCAP file.
+/// Processes a record whose content has `size` bytes and begins at `at`. Returns false if this is no MCAP record.
 bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const Look& look) {
   const auto read = [&] {
     return read_at(at, size, record_) ? std::span<const std::uint8_t>(record_) : std::span<const std::uint8_t>();
@@ -118,7 +120,7 @@ bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t 
       take_chunk(at, look);
       return true;
     default:
-      return kind != 0;  // attachments, indexes, kinds to come
+      return kind != 0;  // attachments, indexes and kinds of later versions are skipped
   }
 }
 
@@ -150,7 +152,7 @@ void McapReader::take_message(std::span<const std::uint8_t> record, std::int64_t
   message.channel = fields.get<std::uint16_t>();
   message.sequence = fields.get<std::uint32_t>();
   message.log_time = fields.get<std::uint64_t>();
-  (void)fields.get<std::uint64_t>();  // when it was sent
+  (void)fields.get<std::uint64_t>();  // the time of sending
   message.chunk = chunk;
   message.offset = at + kMessageFields;
   message.size = fields.rest().size();
@@ -178,7 +180,7 @@ void McapReader::take_chunk(std::uint64_t at, const Look& look) {
   }
 }
 
-/// Into `chunk_`. The error is what a user is told of chunks like this one.
+/// Reads and unpacks a chunk into `chunk_`. The error is a phrase for the user, for which equal chunks are counted.
 Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   chunk_at_ = -1;
   if (!read_at(at, size, record_)) return fail("unreadable");
@@ -203,10 +205,11 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   return {};
 }
 
-/// Where a record begins that looks like a chunk packed with zstd.
+/// Finds the next position from `from` on at which a chunk compressed with zstd seems to begin, by its compression
+/// field.
 std::optional<std::uint64_t> McapReader::next_chunk(std::uint64_t from) {
   constexpr std::string_view kSign("\4\0\0\0zstd", 8);
-  constexpr std::uint64_t kBefore = kRecordHeader + 8 + 8 + 8 + 4;  // of the sign, in a chunk's record
+  constexpr std::uint64_t kBefore = kRecordHeader + 8 + 8 + 8 + 4;  // bytes before kSign in a chunk record
   Bytes block;
   for (std::uint64_t at = from + kBefore; at < size_; at += (1 << 16) - (kSign.size() - 1)) {
     if (!read_at(at, std::min<std::uint64_t>(1 << 16, size_ - at), block)) break;

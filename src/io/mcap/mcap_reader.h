@@ -14,40 +14,41 @@
 
 namespace barehand::mcap {
 
+/// A channel of the file: a topic and how its messages are encoded.
 struct Channel {
-  std::string topic, encoding;        ///< "/camera/depth"; "cdr"
-  std::string type, schema_encoding;  ///< "sensor_msgs/msg/Image"; "ros2msg"
+  std::string topic, encoding;        ///< such as "/camera/depth" and "cdr"
+  std::string type, schema_encoding;  ///< such as "sensor_msgs/msg/Image" and "ros2msg"
   std::map<std::string, std::string> metadata;
 };
 
-/// Where a message is. Its channel is known when it is found.
+/// The position of a message in the file.
 struct Message {
-  std::uint16_t channel = 0;
+  std::uint16_t channel = 0;  ///< key of McapReader::channels()
   std::uint32_t sequence = 0;
   std::uint64_t log_time = 0;  ///< [ns]
-  std::int64_t chunk = -1;     ///< position of its chunk in the file; -1: in none
-  std::uint64_t offset = 0;    ///< of its bytes in the unpacked chunk, else in the file
+  std::int64_t chunk = -1;     ///< position of its chunk in the file; -1: it is not in a chunk
+  std::uint64_t offset = 0;    ///< position of its data in the unpacked chunk, or in the file if it is not in a chunk
   std::uint64_t size = 0;
 };
 
-/// Whether a file begins as MCAP does, whatever its name is.
+/// Whether a file begins like an MCAP file, whatever its name is.
 bool is_mcap(const std::string& path);
 
-/// Reads the messages of an MCAP file, with or without an index, finished or not. Believes nothing that the file says
-/// of its own lengths; what is damaged, cut off or packed in an unknown way is left out, and said.
+/// Reads the messages of an MCAP file, with or without an index, finished or not. All lengths in the file are checked;
+/// chunks that are damaged, cut off or compressed in an unknown way are left out and reported by doubts().
 class McapReader {
  public:
-  /// Called for every whole message, in the order of the file, with its bytes.
+  /// Called for every complete message, in the order of the file, with its data.
   using Look = std::function<void(const Message&, const Channel&, std::span<const std::uint8_t>)>;
 
-  /// Goes through the file once. Errors: it cannot be opened, or is no MCAP file.
+  /// Reads the whole file once and calls `look` for its messages. Errors: it cannot be opened, or is no MCAP file.
   static Result<McapReader> open(const std::string& path, const Look& look);
 
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
-  /// What was left out, in sentences.
+  /// Sentences that say what was left out.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
-  /// The bytes of a message, until the next call. It can only fail when the file changes or the disk breaks.
+  /// Returns the data of a message, valid until the next call. Error: the file has changed or can no longer be read.
   Result<std::span<const std::uint8_t>> read(const Message& message);
 
  private:
@@ -77,11 +78,11 @@ class McapReader {
   std::uint64_t size_ = 0;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
-  std::map<std::string, std::int64_t> left_out_;  // chunks, by the reason
+  std::map<std::string, std::int64_t> left_out_;  // number of chunks that were left out, by reason
   std::vector<std::string> doubts_;
-  Bytes record_, chunk_;                               // the last ones read
-  std::int64_t chunk_at_ = -1;                         // of `chunk_`
-  std::map<std::int64_t, std::uint64_t> chunk_sizes_;  // by position, of the records
+  Bytes record_, chunk_;                               // the record read last, and the chunk unpacked last
+  std::int64_t chunk_at_ = -1;                         // position of `chunk_` in the file; -1: none
+  std::map<std::int64_t, std::uint64_t> chunk_sizes_;  // sizes of the chunk records, by position
 };
 
 }  // namespace barehand::mcap

@@ -5,8 +5,8 @@
 
 namespace barehand::mcap {
 
-/// Writes all that a scene says, under its time and with its number. Errors: those of the file, and a time that ROS
-/// cannot express.
+/// Writes all messages of a scene, with its time stamp and its frame number as the sequence number. Errors: the file
+/// cannot be written, or ROS cannot express the time.
 Result<void> write_scene(McapWriter& file, const ros::Scene& scene);
 
 }  // namespace barehand::mcap

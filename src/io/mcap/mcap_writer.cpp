@@ -14,11 +14,12 @@
 namespace barehand::mcap {
 namespace {
 
-constexpr std::size_t kChunkSize = 1 << 20;  // bytes before compression; more than one frame of most cameras
+// A chunk is written when it has this size before compression [bytes]; one frame of most cameras is smaller.
+constexpr std::size_t kChunkSize = 1 << 20;
 constexpr std::string_view kZstd = "zstd";
-constexpr std::size_t kChunkFields = 9 + 8 + 8 + 8 + 4 + 4 + 4 + 8;  // of a chunk's record, before its messages
-constexpr std::uint64_t kChunkTime = 1'000'000'000;                  // ns; a crash loses no more of a slow camera
-constexpr int kLevel = 1;  // of zstd: a frame of a live camera takes milliseconds
+constexpr std::size_t kChunkFields = 9 + 8 + 8 + 8 + 4 + 4 + 4 + 8;  // size of a chunk record before its messages
+constexpr std::uint64_t kChunkTime = 1'000'000'000;  // a chunk is written when it lasts this long [ns], too
+constexpr int kLevel = 1;  // compression level of zstd; fast enough for live cameras: milliseconds per frame
 
 std::uint32_t crc_of(std::uint32_t before, const std::vector<std::uint8_t>& bytes) {
   return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
@@ -65,7 +66,7 @@ std::uint16_t McapWriter::schema_of(const NewMessage& message) {
   return known->second;
 }
 
-/// A topic whose metadata change goes on as another channel.
+/// The channel of a message, which is added if it is new. A topic whose metadata change continues as another channel.
 std::uint16_t McapWriter::channel_of(const NewMessage& message) {
   std::string key = message.topic + '\n' + message.type;
   for (const auto& [name, value] : message.metadata) key.append('\n' + name + '\n' + value);
@@ -97,7 +98,7 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
     writer.begin(Kind::message);
     writer.put(channel);
     writer.put(sequence);
-    writer.put(time);  // of recording and of sending
+    writer.put(time);  // the time of recording, then that of sending
     writer.put(time);
     writer.put_bytes(message.bytes);
     writer.end();
@@ -109,7 +110,7 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
   return written;
 }
 
-/// The chunk becomes as it was when it had this size.
+/// Removes the messages that were added to the chunk after it had this size.
 void McapWriter::take_back(std::size_t size) {
   records_.resize(size);
   for (auto& [channel, stamps] : index_)
@@ -141,7 +142,7 @@ McapWriter::Bytes McapWriter::chunk_record(Span span) const {
 }
 
 Result<void> McapWriter::write_chunk() {
-  // What the file needs before the chunk.
+  // Before the chunk: the beginning of the file, if this is the first chunk, and new schemas and channels.
   Bytes bytes;
   RecordWriter writer(bytes);
   if (good_ == 0) {
@@ -153,7 +154,7 @@ Result<void> McapWriter::write_chunk() {
   }
   writer.put_bytes(new_records_);
 
-  // The chunk, and where its messages are.
+  // The chunk, and the index of its messages.
   const Span span = span_of(index_);
   const std::uint64_t start = good_ + bytes.size();
   const Bytes chunk = chunk_record(span);
@@ -171,7 +172,7 @@ Result<void> McapWriter::write_chunk() {
   const std::uint64_t index_size = good_ + bytes.size() - index_start;
   if (auto appended = append(bytes); !appended) return appended;
 
-  // Where the chunk is, for the end of the file.
+  // Store where the chunk is, for the index at the end of the file.
   Bytes& entry = chunk_indexes_.emplace_back();
   RecordWriter index(entry);
   index.begin(Kind::chunk_index);
@@ -186,6 +187,7 @@ Result<void> McapWriter::write_chunk() {
   index.put<std::uint64_t>(records_.size());
   index.end();
 
+  // Update the statistics and begin a new chunk.
   span_ = {messages_ == 0 ? span.first : std::min(span_.first, span.first), std::max(span_.last, span.last)};
   for (const auto& [channel, stamps] : index_) {
     channels_[channel - 1U].messages += stamps.size();
@@ -216,7 +218,7 @@ McapWriter::Bytes McapWriter::statistics() const {
   return bytes;
 }
 
-/// What follows the last chunk: summary, where each kind of its records begins, footer.
+/// What follows the last chunk: the summary, the offsets of its groups of records, and the footer.
 McapWriter::Bytes McapWriter::ending() const {
   Bytes bytes;
   RecordWriter writer(bytes);
@@ -224,6 +226,7 @@ McapWriter::Bytes McapWriter::ending() const {
   writer.put(crc_);
   writer.end();
 
+  // The summary: the records in groups of one kind, then the offset of each group.
   const std::size_t summary = bytes.size();
   Bytes offsets;
   const auto group = [&](Kind kind, const auto& put_records) {
@@ -249,7 +252,7 @@ McapWriter::Bytes McapWriter::ending() const {
   const std::size_t offsets_start = bytes.size();
   writer.put_bytes(offsets);
 
-  // The check sum covers the summary and the footer up to itself.
+  // The footer. Its checksum covers the summary and the footer up to the checksum.
   writer.put(Kind::footer);
   writer.put<std::uint64_t>(20);
   writer.put<std::uint64_t>(good_ + summary);
@@ -264,7 +267,7 @@ Result<void> McapWriter::finish() {
   Result<void> result;
   if (!index_.empty() && !failed_) result = write_chunk();
 
-  // Without its index the file is still read.
+  // Write the index; readers can do without it if this fails.
   if (!failed_ && good_ > 0)
     if (auto ended = append(ending()); !ended && result) result = ended;
   close(std::exchange(descriptor_, -1));
@@ -299,7 +302,8 @@ Result<void> McapWriter::append(const Bytes& bytes) {
                       : "the " + std::to_string(messages_) + " messages before are kept; free some space");
 }
 
-/// Now and then, so that not all of a large file is left to be waited for when it is finished.
+/// Lets the operating system write the data to the disk in pieces, so that finish() need not wait for all of a large
+/// file.
 void McapWriter::start_write_back() {
   constexpr std::uint64_t kPiece = 8 << 20;
   if (good_ - written_back_ < kPiece) return;

@@ -12,44 +12,45 @@
 
 namespace barehand::mcap {
 
-/// What one message on a channel is written with.
+/// A message to be written, with its topic, type and schema.
 struct NewMessage {
-  std::string topic, type, schema;  ///< "/camera/depth", "sensor_msgs/msg/Image", text in ros2msg
+  std::string topic, type, schema;  ///< such as "/camera/depth", "sensor_msgs/msg/Image" and a text in ros2msg
   std::map<std::string, std::string> metadata;
-  std::vector<std::uint8_t> bytes;  ///< in CDR
+  std::vector<std::uint8_t> bytes;  ///< the message, encoded in CDR
 };
 
-/// Writes an MCAP file of ROS 2 messages, indexed and in chunks compressed with zstd. It has its name when it is
-/// finished (WholeFile); the destructor finishes one that has messages and removes one without. A chunk is handed to
-/// the operating system when it has a megabyte or lasts a second, so a crash loses what came after the last one. When a
-/// write fails (disk full) the file is cut back to its last whole chunk, and later messages may succeed. The same
-/// messages give the same bytes.
+/// Writes an MCAP file of ROS 2 messages, indexed and in chunks compressed with zstd. The file gets its name when it is
+/// finished (WholeFile); the destructor finishes a file with messages and removes one without. A chunk is handed to the
+/// operating system when it has a megabyte or lasts a second, so a crash loses only the messages after the last chunk.
+/// If a write fails (disk full), the file is truncated to its last complete chunk, and later messages may succeed. The
+/// same messages give the same bytes.
 class McapWriter {
  public:
-  /// An existing file is replaced only if `overwrite`; otherwise it is an error.
+  /// Creates the file. Errors: it exists and `overwrite` is false, or it cannot be created.
   static Result<std::unique_ptr<McapWriter>> create(const std::string& path, bool overwrite);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  /// Appends messages of one time [ns since the epoch], all of them or, on an error, none. `sequence`: number of the
-  /// frame.
+  /// Appends messages with the same time stamp [ns since the epoch]. On an error, none of them is written. `sequence`:
+  /// number of the frame.
   Result<void> write(std::span<const NewMessage> messages, std::uint64_t time, std::uint32_t sequence);
-  /// Writes what is left, and the index, and gives the file its name. Nothing is written afterwards.
+  /// Writes the remaining messages and the index, and gives the file its name. Nothing can be written afterwards.
   Result<void> finish();
 
  private:
   using Bytes = std::vector<std::uint8_t>;
 
+  /// An entry of a message index.
   struct Stamp {
-    std::uint64_t time = 0, offset = 0;  ///< offset: of the message within its chunk
+    std::uint64_t time = 0, offset = 0;  ///< time of the message [ns]; its position in the chunk
   };
   struct Channel {
     Bytes record;
     std::uint64_t messages = 0;
   };
   struct Span {
-    std::uint64_t first = 0, last = 0;  ///< times of messages
+    std::uint64_t first = 0, last = 0;  ///< times of the first and the last message [ns]
   };
   using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< by channel
 
@@ -67,22 +68,22 @@ class McapWriter {
 
   const std::string path_;
   WholeFile file_;
-  int descriptor_;          // -1: finished
-  std::uint64_t good_ = 0;  // size of the file up to the last whole chunk
-  std::uint32_t crc_ = 0;   // of these bytes
-  std::uint64_t written_back_ = 0;
-  bool failed_ = false;  // a failed write could not be undone
+  int descriptor_;                  // -1: finished
+  std::uint64_t good_ = 0;          // size of the file up to the last complete chunk
+  std::uint32_t crc_ = 0;           // checksum of these bytes
+  std::uint64_t written_back_ = 0;  // number of bytes whose writing to the disk was started
+  bool failed_ = false;             // a failed write could not be undone
 
-  Bytes records_;                  // of the next chunk
-  Index index_;                    // of its messages
-  std::uint64_t chunk_start_ = 0;  // time of the first of them
+  Bytes records_;                  // messages of the next chunk
+  Index index_;                    // their index
+  std::uint64_t chunk_start_ = 0;  // time of the first of them [ns]
   Bytes new_records_;              // schemas and channels that are not in the file yet
 
   std::vector<Bytes> schemas_, chunk_indexes_;
   std::vector<Channel> channels_;
   std::map<std::string, std::uint16_t> schema_ids_, channel_ids_;
-  std::uint64_t messages_ = 0;  // in the file
-  Span span_;                   // of them
+  std::uint64_t messages_ = 0;  // number of messages in the file
+  Span span_;                   // their times
 };
 
 }  // namespace barehand::mcap

@@ -24,8 +24,8 @@ Bytes CdrWriter::take() const {
   return Bytes(first, first + stream_->cdr.getSerializedDataLength());
 }
 
-/// Fast CDR skips the bytes before a number without clearing them: equal messages would differ, and tell what was in
-/// the memory.
+/// Fills the padding before an aligned number with zeros. Fast CDR would leave these bytes uninitialised: equal
+/// messages would differ and could leak the content of memory.
 template <class T>
 void CdrWriter::put_aligned(const T& value, std::size_t size) {
   constexpr std::size_t kHeader = 4;
@@ -60,7 +60,7 @@ struct CdrReader::Stream {
 };
 
 CdrReader::CdrReader(std::span<const std::uint8_t> bytes) {
-  // Plain CDR alone: 0 and which end comes first.
+  // Accept plain CDR only: the header's first byte is 0, the second one is the byte order.
   const bool plain = bytes.size() >= 4 && bytes[0] == 0 && bytes[1] <= 1;
   failed_ = !plain;
   if (plain) stream_ = std::make_unique<Stream>(bytes);
@@ -78,6 +78,7 @@ void CdrReader::take(T& value) {
   }
 }
 
+/// Reads the length of a sequence; an element has at least one byte.
 std::uint32_t CdrReader::length() {
   std::uint32_t count = 0;
   take(count);

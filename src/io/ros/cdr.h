@@ -13,7 +13,7 @@ namespace barehand::ros {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Appends the fields of a message in CDR, little endian, with its header of four bytes.
+/// Encodes the fields of a message in CDR, little endian, with the header of four bytes.
 class CdrWriter {
  public:
   CdrWriter();
@@ -54,11 +54,11 @@ class CdrWriter {
   std::unique_ptr<Stream> stream_;
 };
 
-/// Takes the fields of a message out of bytes that need not be one: after what ends early everything is zero and
-/// failed() is true. No length is believed that the bytes cannot hold. Either order of bytes.
+/// Decodes the fields of a message from bytes that may be damaged: if they end early, the remaining fields are zero and
+/// failed() is true. Lengths that exceed the bytes are rejected. Accepts both byte orders.
 class CdrReader {
  public:
-  /// `bytes` outlives it.
+  /// `bytes` must outlive the reader.
   explicit CdrReader(std::span<const std::uint8_t> bytes);
   ~CdrReader();
   template <class T>
@@ -93,7 +93,7 @@ class CdrReader {
   std::uint32_t length();
 
   struct Stream;
-  std::unique_ptr<Stream> stream_;  // null: no CDR
+  std::unique_ptr<Stream> stream_;  // null: the bytes are not CDR
   bool failed_ = false;
 };
 
@@ -104,7 +104,7 @@ Bytes encode(const M& message) {
   return writer.take();
 }
 
-/// What follows the message is not looked at. Error: it ends early, or is no CDR.
+/// Decodes a message; bytes after it are ignored. Error: the message ends early, or the bytes are not CDR.
 template <Message M>
 Result<M> decode(std::span<const std::uint8_t> bytes) {
   CdrReader reader(bytes);

@@ -75,7 +75,7 @@ PointCloud2 point_cloud(const RgbdFrame& frame, int most) {
       cloud.point_fields.push_back({name, 4 * static_cast<std::uint32_t>(cloud.point_fields.size())});
   cloud.point_step = 4 * static_cast<std::uint32_t>(cloud.point_fields.size());
 
-  // One pixel of each cell of the grid, where it has depth.
+  // Take the middle pixel of each cell of the grid if it has depth.
   const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(frame.depth.size()) / most))));
   for (int v = step / 2; v < frame.depth.height(); v += step)
     for (int u = step / 2; u < frame.depth.width(); u += step) {

@@ -9,27 +9,28 @@
 
 namespace barehand::ros {
 
-/// The camera's frame, x right, y down, z forward: "camera_optical_frame", or with the sensor's name.
+/// Name of the camera's coordinate frame (x right, y down, z forward): the sensor's name, or "camera" if that is empty,
+/// followed by "_optical_frame".
 std::string camera_frame(const std::string& sensor);
 
-// One frame of a depth camera. Every header has the frame's stamp and camera_frame. A stamp must be one that time_of
-// takes.
+// Messages of one frame of a depth camera. Every header has the frame's time stamp, which time_of() must accept, and
+// camera_frame().
 
-/// A pinhole without distortion.
+/// The camera as a pinhole camera without distortion.
 CameraInfo camera_info(const RgbdFrame& frame);
-/// Counts as measured, 16UC1. In other units than a millimetre, which ROS takes for granted, the unit must be told
-/// beside.
+/// The depth image in the sensor's counts, 16UC1. ROS assumes that a count is a millimetre; if it is not, the unit must
+/// be passed separately (kDepthUnit).
 Image depth_image(const RgbdFrame& frame);
-/// PNG, or JPEG of this quality. The frame has colour.
+/// The colour image, which the frame must have, as PNG or as JPEG of the given quality.
 Result<CompressedImage> colour_image(const RgbdFrame& frame, std::optional<int> jpeg_quality);
-/// x, y, z [m], and rgb where there is colour, of at most `most` pixels with depth on a grid.
+/// Points x, y, z [m], with rgb if the frame has colour, of the pixels with depth on a grid of about `most` pixels.
 PointCloud2 point_cloud(const RgbdFrame& frame, int most = 20'000);
 
-/// Counts of an image in 16UC1 or mono16. Errors: another encoding, an impossible size, too few bytes.
+/// The counts of a depth image in 16UC1 or mono16. Errors: another encoding, an impossible size, too few bytes.
 Result<barehand::Image<std::uint16_t>> depth_of(const Image& image);
-/// Pixels of an image in rgb8 or bgr8. Errors: as above.
+/// The pixels of a colour image in rgb8 or bgr8. Errors as for depth_of().
 Result<barehand::Image<Rgb>> colour_of(const Image& image);
-/// The pinhole that a camera info states. Error: no camera has these numbers.
+/// The intrinsics of a camera info, whose distortion is ignored. Error: the numbers are not plausible.
 Result<Intrinsics> camera_of(const CameraInfo& info);
 
 }  // namespace barehand::ros

@@ -18,7 +18,7 @@ Header header_of(const hand_state_t& state) {
   return {time_of(state.utime).value_or(Time{}), camera_frame(state.sensor)};
 }
 
-/// From (w, x, y, z), the order of LCM types.
+/// From (w, x, y, z), the order in the LCM types.
 Quaternion quaternion(const double (&q)[4]) { return {q[1], q[2], q[3], q[0]}; }
 Quaternion quaternion(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -26,13 +26,13 @@ Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 // hand_joints_t begins with palm and wrist; the thumb has four joints, every other finger five.
 constexpr int kWrist = 1, kThumb = 2;
 
-/// The joint before `joint` towards the wrist.
+/// The joint that precedes `joint` on the way from the wrist to the fingertip.
 int joint_before(int joint) {
   if (joint <= kThumb || (joint - kThumb - 4) % 5 == 0) return kWrist;
   return joint - 1;
 }
 
-/// The segment that begins at, or else moves with, a joint.
+/// The segment that begins at a joint; for tips, the last segment of the finger; for other joints, the palm.
 int segment_at(int joint) {
   if (joint < kThumb) return kPalm;
   if (joint < kThumb + 4) return std::min(1 + joint - kThumb, 3);
@@ -45,7 +45,7 @@ ColorRGBA colour_of(const segment_state_t& segment) {
   return {1 - sure, sure, 0.1F, segment.seen ? 1.0F : 0.4F};
 }
 
-/// Marker by marker, with the header, the name space and the numbers they need.
+/// Collects markers and sets their header, namespace, id and colour.
 class Drawing {
  public:
   explicit Drawing(const HandState& hand) : hand_(hand), header_(header_of(hand.state)) {}
@@ -75,7 +75,7 @@ void add_joint(const HandState& hand, int joint, Drawing& drawing) {
   sphere.scale = {size, size, size};
 }
 
-/// Between a joint and the one before it.
+/// Adds a cylinder between a joint and the one before it.
 void add_bone(const HandState& hand, int joint, Drawing& drawing) {
   const int before = joint_before(joint);
   const Eigen::Vector3d a(hand.joints.position[before]), b(hand.joints.position[joint]);
@@ -86,7 +86,7 @@ void add_bone(const HandState& hand, int joint, Drawing& drawing) {
   bone.scale = {width, width, (b - a).norm()};
 }
 
-/// Where the proximal end lies with two standard deviations.
+/// Adds the ellipsoid of two standard deviations of the position of the segment's proximal end.
 void add_ellipsoid(const segment_state_t& segment, int s, Drawing& drawing) {
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i)

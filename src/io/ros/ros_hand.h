@@ -10,7 +10,7 @@
 
 namespace barehand::ros {
 
-/// What is published of one hand in one frame.
+/// The messages of one hand in one frame.
 struct HandState {
   hand_state_t state;
   glove_state_t glove;
@@ -20,18 +20,19 @@ struct HandState {
 /// "right" or "left": the first part of the names of a hand's joints and frames, "right_palm".
 std::string side_of(const hand_state_t& state);
 
-// A hand that is not seen is withheld, never zero: joint_state and transforms are for hands with a pose. All poses are
-// the smoothed ones, in the frame of the camera.
+// The messages of ROS for one hand. joint_state() and add_transforms() must be called only for hands with a pose: a
+// hand without one is left out instead of being published with zeros. Poses are in the camera frame and smoothed; only
+// the ellipsoids of markers() lie at the raw positions.
 
-/// The joints of glove_state_t [rad], those that can be observed.
+/// The angles [rad] of those joints of glove_state_t that can be observed.
 JointState joint_state(const HandState& hand);
 /// From every segment's frame to the camera's.
 void add_transforms(const HandState& hand, TFMessage& message);
 /// The hand as spheres at its joints and cylinders between them, coloured by confidence from red to green and
-/// translucent where it is inferred, and ellipsoids of two standard deviations. Without a pose: a hand that was drawn
-/// before goes.
+/// translucent if inferred, and ellipsoids of two standard deviations at the proximal ends of the segments. Without a
+/// pose, a marker that deletes what was drawn before.
 MarkerArray markers(const HandState& hand);
-/// Whether the hand is tracked, and how sure each segment is.
+/// The status of the hand and the confidence of each segment.
 DiagnosticStatus diagnostic(const HandState& hand);
 /// The counters of the pipeline.
 DiagnosticStatus diagnostic(const health_t& health);

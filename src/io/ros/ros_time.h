@@ -5,7 +5,7 @@
 
 namespace barehand::ros {
 
-/// Microseconds since the epoch as ROS has them. Error: before 1901 or after 2038, which ROS cannot express.
+/// Converts microseconds since the epoch to ROS time. Error: before 1901 or after 2038, which ROS cannot express.
 inline Result<Time> time_of(std::int64_t utime) {
   const std::int64_t second = 1'000'000;
   const std::int64_t part = (utime % second + second) % second, whole = (utime - part) / second;
@@ -15,7 +15,7 @@ inline Result<Time> time_of(std::int64_t utime) {
   return Time{static_cast<std::int32_t>(whole), static_cast<std::uint32_t>(part * 1000)};
 }
 
-/// Microseconds, rounded down.
+/// Converts ROS time to microseconds since the epoch, rounded down.
 inline std::int64_t utime_of(const Time& time) { return std::int64_t{time.sec} * 1'000'000 + time.nanosec / 1000; }
 
 /// Nanoseconds since the epoch, as MCAP and viewers count; 0 for times before it.

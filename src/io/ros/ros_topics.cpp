@@ -9,7 +9,7 @@
 namespace barehand::ros {
 namespace {
 
-/// The schema is made once for every type.
+/// A topic whose message is made by `make`. The schema is made only once for every type.
 template <Message M>
 Topic topic(std::string name, std::function<Result<M>()> make) {
   static const std::string type = schema_name<M>(), schema = SchemaText::of<M>();
@@ -20,7 +20,7 @@ Topic topic(std::string name, std::function<Result<M>()> make) {
           }};
 }
 
-/// "/camera", or the sensor's name with underscores where a topic's name allows no other character.
+/// "/camera", or the sensor's name with underscores for the characters that a topic's name must not have.
 std::string camera_namespace(const std::string& sensor) {
   std::string name = sensor.empty() ? "camera" : sensor;
   std::replace_if(

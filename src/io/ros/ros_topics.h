@@ -12,31 +12,31 @@
 
 namespace barehand::ros {
 
-/// All that is told of one moment.
+/// Everything that is published about one frame.
 struct Scene {
-  std::int64_t utime = 0;   ///< of the depth image
+  std::int64_t utime = 0;   ///< of the depth image [us since the epoch]
   std::int64_t number = 0;  ///< RgbdFrame::number
   FramePtr frame;           ///< null: the images are not known
   std::vector<HandState> hands;
   std::optional<health_t> health;   ///< none: not due
-  double fps = 0;                   ///< nominal rate of frames, noted beside depth; 0: not known
-  std::optional<int> jpeg_quality;  ///< of colour; none: lossless
-  bool cloud = true;                ///< points besides the depth image
+  double fps = 0;                   ///< nominal frame rate, stored as metadata of the depth topic; 0: unknown
+  std::optional<int> jpeg_quality;  ///< of the colour image; none: lossless
+  bool cloud = true;                ///< whether a point cloud is published in addition to the depth image
 };
 
-/// One topic on which a scene has something to say.
+/// One topic and the message that a scene has for it.
 struct Topic {
   std::string name;  ///< "/camera/depth"
   std::string type;  ///< "sensor_msgs/msg/Image"
   std::string schema;
-  std::map<std::string, std::string> metadata;  ///< what the messages need and cannot hold
-  std::function<Result<Bytes>()> encode;        ///< the message; the scene must still be there
+  std::map<std::string, std::string> metadata;  ///< information that the messages have no field for
+  std::function<Result<Bytes>()> encode;        ///< makes the message; the scene must still exist
 };
 
-/// The keys of Topic::metadata: the unit of depth [m], the nominal rate [frames/s], the sensor's name.
+/// Keys of Topic::metadata: the depth unit [m], the nominal frame rate [1/s], the sensor's name.
 inline constexpr const char *kDepthUnit = "depth_unit", *kFps = "fps", *kSensor = "sensor";
 
-/// `scene` outlives what is returned. A hand without a pose has no joint states and transforms.
+/// The topics of a scene, which must outlive them. A hand without a pose has no joint states and transforms.
 std::vector<Topic> topics_of(const Scene& scene);
 
 }  // namespace barehand::ros

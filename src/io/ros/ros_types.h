@@ -8,9 +8,9 @@
 
 namespace barehand::ros {
 
-// The ROS 2 messages that leave the program or are read by it, with the fields, the order and the meaning of their
-// packages. `fields` names every field to a visitor once: the bytes (cdr.h) and the schema (schema.h) both follow from
-// it. `kType`: package and name.
+// The ROS 2 messages that the program writes or reads. Their fields have the names, the order and the meaning of the
+// ROS packages. `fields` passes every field with its name to a visitor; both the encoding (cdr.h) and the schema
+// (schema.h) are derived from it. `kType`: package and name.
 
 struct Time {
   std::int32_t sec = 0;
@@ -99,7 +99,7 @@ struct JointState {
   }
 };
 
-/// Rows of `step` bytes. Encodings read here: 16UC1 and mono16 (depth), rgb8 and bgr8.
+/// An image; each row has `step` bytes. Encodings that are read: 16UC1 and mono16 (depth), rgb8 and bgr8 (colour).
 struct Image {
   Header header;
   std::uint32_t height = 0, width = 0;
@@ -132,7 +132,8 @@ struct RegionOfInterest {
   }
 };
 
-/// k, r, p: 3x3, 3x3 and 3x4, row by row [px].
+/// Intrinsics of a camera. k (3x3), r (3x3) and p (3x4) are the intrinsic, rectification and projection matrices,
+/// row-major [px].
 struct CameraInfo {
   Header header;
   std::uint32_t height = 0, width = 0;
@@ -191,17 +192,17 @@ struct MeshFile {
   static void fields(auto& v, auto& m) { v("filename", m.filename), v("data", m.data); }
 };
 
-/// As from ROS 2 Humble on.
+/// A shape to be drawn; the fields are those of ROS 2 Humble and later.
 struct Marker {
-  static constexpr std::int32_t kSphere = 2, kCylinder = 3;  ///< `type`; a cylinder stands along z
-  static constexpr std::int32_t kAdd = 0, kDeleteAll = 3;    ///< `action`
+  static constexpr std::int32_t kSphere = 2, kCylinder = 3;  ///< values of `type`; a cylinder's axis is z
+  static constexpr std::int32_t kAdd = 0, kDeleteAll = 3;    ///< values of `action`
   Header header;
   std::string ns;
   std::int32_t id = 0, type = kSphere, action = kAdd;
   Pose pose;
-  Vector3 scale;  ///< whole lengths of the axes [m]
+  Vector3 scale;  ///< full lengths (diameters) along the axes [m]
   ColorRGBA color;
-  Duration lifetime;  ///< 0: until it is replaced
+  Duration lifetime;  ///< 0: until the marker is replaced
   bool frame_locked = false;
   std::vector<Point> points;
   std::vector<ColorRGBA> colors;

@@ -15,7 +15,8 @@ concept Message = requires {
   T::kType;
 };
 
-/// Writes the text of a message's .msg file, one line a field, and those of the messages within it.
+/// Writes the schema of a message in the encoding ros2msg: the text of its .msg file, one line per field, followed by
+/// the texts of the message types that it contains.
 class SchemaText {
  public:
   template <Message M>
@@ -62,7 +63,7 @@ class SchemaText {
     return type_name<typename T::value_type>() + "[" + std::to_string(std::tuple_size_v<T>) + "]";
   }
 
-  /// Each type once, in the order in which they are met.
+  /// Adds the text of a contained type. Each type is added once, in the order of first use.
   template <Message M>
   void add_inner() {
     for (const Inner& known : inner_)
@@ -89,7 +90,7 @@ class SchemaText {
   std::vector<Inner> inner_;
 };
 
-/// How files and viewers call a message: "sensor_msgs/msg/Image".
+/// The name of a message type in files and viewers, such as "sensor_msgs/msg/Image".
 template <Message M>
 std::string schema_name() {
   std::string name = M::kType;

@@ -10,7 +10,7 @@
 namespace barehand::ros {
 namespace {
 
-/// `<origin>` with the rotation as URDF has it: about x, then y, then z, all of the outer frame.
+/// The element `<origin>`. URDF gives a rotation as angles about the fixed axes x, y and z, in this order.
 std::string origin(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   const double roll = std::atan2(R(2, 1), R(2, 2)), yaw = std::atan2(R(1, 0), R(0, 0));
   const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
@@ -21,7 +21,7 @@ std::string visual(const std::string& place, const std::string& shape) {
   return "    <visual>" + place + "<geometry>" + shape + "</geometry></visual>\n";
 }
 
-/// A box for the palm; for the others a cylinder around the bone with a ball at either end.
+/// The shape of a segment: a box for the palm, otherwise a cylinder around the bone with a sphere at either end.
 std::string shape_of(const SegmentProfile& segment, bool palm) {
   const Eigen::Vector3d bone = segment.distal;
   const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), bone).toRotationMatrix();
@@ -36,7 +36,7 @@ std::string shape_of(const SegmentProfile& segment, bool palm) {
          visual(origin(I, bone), formatted("<sphere radius=\"%.6g\"/>", segment.radius[1]));
 }
 
-/// One hinge: its name, the links that it joins, where it is in the first, its axis and its range.
+/// A hinge: its name, the links that it joins, its `<origin>` in the parent link, its axis and its range [rad].
 struct Hinge {
   std::string name, parent, child, place;
   const char* axis;
@@ -50,7 +50,7 @@ std::string joint(const Hinge& hinge) {
          "  </joint>\n";
 }
 
-/// "index_pip", as in glove_state_t.
+/// The name of the joint at which a segment begins, such as "index_pip", as in glove_state_t.
 std::string joint_name(int segment) {
   constexpr std::array kFingers = {"thumb", "index", "middle", "ring", "little"};
   constexpr std::array kOfThumb = {"_cmc", "_mcp", "_ip"}, kOfFinger = {"_mcp", "_pip", "_dip"};
@@ -58,14 +58,15 @@ std::string joint_name(int segment) {
   return kFingers[finger] + std::string(finger == 0 ? kOfThumb[k] : kOfFinger[k]);
 }
 
-/// Whether the joint turns sideways, too.
+/// Whether the joint at which a segment begins can also abduct.
 bool has_abduction(int segment) { return (segment - 1) % 3 == 0 || segment == segment_of(0, 1); }
 
 }  // namespace
 
 std::string urdf(const HandProfile& profile) {
   const std::string side(to_string(profile.handedness)), prefix = side + "_";
-  const double towards_thumb = side_sign(profile.handedness);  // of a turn about +y
+  const double towards_thumb =
+      side_sign(profile.handedness);  // 1 if a rotation about +y leads towards the thumb, or -1
   const auto limits = widened_limits(profile, 0);
   const auto link_name = [&](int s) { return prefix + std::string(kSegmentNames[static_cast<std::size_t>(s)]); };
 
@@ -75,7 +76,7 @@ std::string urdf(const HandProfile& profile) {
             shape_of(profile.segments[static_cast<std::size_t>(s)], s == kPalm) + "  </link>\n";
     if (s == kPalm) continue;
 
-    // Abduction first, then flexion about the axis that it has turned.
+    // The hinge of abduction comes first, then that of flexion about the axis turned by it.
     const SE3 rest = profile.rest_relative(s);
     const JointLimits& range = limits[static_cast<std::size_t>(s)];
     Hinge flexion{prefix + joint_name(s) + "_flex",

@@ -6,9 +6,9 @@
 
 namespace barehand::ros {
 
-/// A hand with its lengths, joints and limits as a robot (URDF) whose links are the frames of add_transforms and whose
-/// joints are those of joint_state: zero is the rest pose, and the palm is the root. A joint with two degrees of
-/// freedom has a link without size between them.
+/// The description of a hand as a robot (URDF), with its lengths, joints and limits. Its links are the frames of
+/// add_transforms() with the palm as the root; its joints are those of joint_state(), which are zero in the rest pose.
+/// A joint with two degrees of freedom becomes two hinges with an empty link between them.
 std::string urdf(const HandProfile& profile);
 
 }  // namespace barehand::ros

@@ -11,12 +11,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostSubscriptions = 256;  // of one client; there are about a dozen topics
-constexpr int kJpegQuality = 85;                 // a viewer shows the colour, and does not measure in it
+constexpr int kJpegQuality = 85;                 // lossy, since viewers only display the colour
 
-/// What comes from the client, or goes back to it, need not be UTF-8.
+/// JSON as text. Strings that are not UTF-8, such as parts of a client's message, are repaired.
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The scene of a frame, whose content must be there as long.
+/// The scene of a frame, whose content must outlive it.
 ros::Scene scene_of(const ViewFrame::Content& content) {
   ros::Scene scene;
   scene.utime = content.utime;
@@ -49,7 +49,7 @@ void FoxgloveClient::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-/// Error: there are too many subscriptions.
+/// Adds and removes subscriptions. Error: there are too many.
 Result<void> FoxgloveClient::obey(const FoxgloveRequest& request) {
   for (const auto& [id, channel] : request.subscribe) {
     if (next_.subscriptions.size() >= kMostSubscriptions) return fail("there are too many subscriptions");
@@ -65,7 +65,7 @@ bool FoxgloveClient::hear(std::string_view text) {
   const Result<void> obeyed = request ? obey(*request) : tl::unexpected(request.error());
   if (!obeyed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", obeyed.error().message()}});
 
-  // A log that stands still brings no further frame to show the new topics with.
+  // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
   if (request && !request->subscribe.empty() && !next_.frame && sent_) {
     next_.frame = sent_;
     ++pushed_;
@@ -99,7 +99,7 @@ void FoxgloveClient::run() {
   }
 }
 
-/// Waits for something that may be sent, and takes it. False: the client ends.
+/// Waits until something is to be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool FoxgloveClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return ending_ || (!broken_ && (next_.frame || !next_.reply.empty())); });
@@ -123,7 +123,7 @@ bool FoxgloveClient::send(const Due& due) {
   const std::vector<ros::Topic> topics = ros::topics_of(scene);
   if (!advertise(topics)) return false;
 
-  // Each topic is encoded once, if at all.
+  // Encode each topic once if anyone has subscribed to it, and send it.
   for (const ros::Topic& topic : topics) {
     const std::uint32_t channel = channels_.at(topic.name);
     ros::Bytes message;
@@ -136,7 +136,7 @@ bool FoxgloveClient::send(const Due& due) {
   return true;
 }
 
-/// Tells of the topics that are new.
+/// Advertises the topics that are new to the viewer.
 bool FoxgloveClient::advertise(const std::vector<ros::Topic>& topics) {
   Json channels = Json::array();
   for (const ros::Topic& topic : topics) {
@@ -154,7 +154,7 @@ bool FoxgloveClient::advertise(const std::vector<ros::Topic>& topics) {
 
 bool FoxgloveClient::send_message(std::uint32_t subscription, std::uint64_t time,
                                   std::span<const std::uint8_t> message) {
-  bytes_.assign(1, 1);  // message data
+  bytes_.assign(1, 1);  // opcode "message data"
   for (const auto& [value, size] : {std::pair<std::uint64_t, int>(subscription, 4), {time, 8}})
     for (int i = 0; i < size; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> 8 * i));
   bytes_.insert(bytes_.end(), message.begin(), message.end());

@@ -17,30 +17,31 @@
 
 namespace barehand {
 
-/// The names under which viewers ask for the protocol of FoxgloveClient, which is the same under both.
+/// The names of the WebSocket subprotocol of FoxgloveClient; the protocol is the same under both.
 inline constexpr const char* kFoxgloveProtocols[] = {"foxglove.sdk.v1", "foxglove.websocket.v1"};
 
-/// A viewer such as Foxglove or Lichtblick (https://github.com/foxglove/ws-protocol): it is told of the topics of
-/// ros::topics_of as soon as they have something to say, and gets those that it subscribes to. It keeps the newest
-/// frame that was not sent yet, and nothing behind it. Messages are made and sent on a thread of its own, and only
-/// those that it wants.
+/// The connection to a viewer such as Foxglove or Lichtblick (https://github.com/foxglove/ws-protocol). A topic of
+/// ros::topics_of() is advertised when it has its first message; the viewer gets the topics that it subscribes to. Of
+/// the frames that were not sent yet, only the newest is kept. Messages are encoded and sent on the client's own
+/// thread, and only those that are subscribed to.
 class FoxgloveClient : public WebPeer {
  public:
   using OnGone = std::function<void(const FoxgloveClient&)>;
-  /// `on_gone` is called on a thread of the server, while the client is being destroyed.
+  /// `on_gone` is called on a thread of the server while the client is being destroyed.
   FoxgloveClient(WebSocket socket, OnGone on_gone) : socket_(socket), on_gone_(std::move(on_gone)) {}
   ~FoxgloveClient() override;
 
   void start() override;
   bool hear(std::string_view text) override;
-  /// Any thread, at once. A frame that waits is replaced and counted as dropped.
+  /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
+  /// dropped.
   void post(ViewFramePtr frame);
-  /// Frames of this client; a capacity of one.
+  /// Counts the frames of this client, as of a queue with a capacity of one.
   QueueHealth health() const;
 
  private:
-  using Subscriptions = std::map<std::uint32_t, std::uint32_t>;  ///< channel by the client's own number
-  /// What is to be sent next.
+  using Subscriptions = std::map<std::uint32_t, std::uint32_t>;  ///< channel by the viewer's subscription id
+  /// Data to be sent next.
   struct Due {
     ViewFramePtr frame;
     std::string reply;
@@ -59,11 +60,12 @@ class FoxgloveClient : public WebPeer {
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
   Due next_;
-  ViewFramePtr sent_;  // the last one
+  ViewFramePtr sent_;  // the frame sent last
   std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
   bool ending_ = false, broken_ = false;
 
-  std::map<std::string, std::uint32_t> channels_;  // told of, by topic; sender's thread only, like the next one
+  // Used by the sending thread only.
+  std::map<std::string, std::uint32_t> channels_;  // advertised channels by topic
   std::vector<std::uint8_t> bytes_;
   std::thread thread_;
 };

@@ -31,7 +31,7 @@ void FoxgloveClients::forget(const FoxgloveClient& client) {
   add(last, gone_);
   clients_.erase(const_cast<FoxgloveClient*>(&client));
   count_ = static_cast<int>(clients_.size());
-  if (clients_.empty()) frame_ = nullptr;  // what comes next is newer by far
+  if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
 }
 
 void FoxgloveClients::show(const ViewFramePtr& frame) {

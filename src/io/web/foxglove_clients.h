@@ -12,17 +12,21 @@
 
 namespace barehand {
 
-/// The viewers that are connected, and what they may fetch. Used on any thread; nobody waits for a client.
+/// All connected viewers, and the robot descriptions that they may fetch. May be used on any thread; no call waits for
+/// a client.
 class FoxgloveClients {
  public:
+  /// Creates the object for a new viewer.
   std::unique_ptr<WebPeer> connect(WebSocket socket);
   int count() const { return count_; }
+  /// Sends a frame to all viewers, and remembers the profiles of its hands.
   void show(const ViewFramePtr& frame);
+  /// Remembers a profile before a frame shows it.
   void know(std::shared_ptr<const HandProfile> profile);
-  /// Adds the frames of all clients since the start.
+  /// Adds the counts of frames of all clients since the start to `all`.
   void add_health(QueueHealth& all) const;
-  /// "/right_hand.urdf" and "/left_hand.urdf": the hand with the lengths that it was last shown or known with.
-  /// None: another path, or no such hand is known.
+  /// The description of a hand as a robot, for the paths "/right_hand.urdf" and "/left_hand.urdf", made from its last
+  /// profile. None: another path, or no such hand is known.
   std::optional<WebFile> urdf(const std::string& path) const;
 
  private:
@@ -31,8 +35,8 @@ class FoxgloveClients {
   std::atomic<int> count_ = 0;
   mutable std::mutex mutex_;  // protects the members below
   std::set<FoxgloveClient*> clients_;
-  QueueHealth gone_;  // of the clients that have left
-  ViewFramePtr frame_;
+  QueueHealth gone_;    // counts of the clients that have left
+  ViewFramePtr frame_;  // the newest frame, for clients that connect; null without clients
   std::array<std::shared_ptr<const HandProfile>, 2> profiles_;  // by Handedness
 };
 

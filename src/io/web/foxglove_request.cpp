@@ -17,7 +17,7 @@ std::optional<std::uint32_t> number_of(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) ? number(json[key]) : std::nullopt;
 }
 
-/// The list under a key; empty: there is none.
+/// The list under a key, empty if there is none.
 Json list_of(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_array() ? json[key] : Json::array();
 }

@@ -8,17 +8,17 @@
 
 namespace barehand {
 
-/// What a viewer asks for: channels, each under a number of its own, and numbers that it wants no more.
+/// A request of a viewer.
 struct FoxgloveRequest {
   struct Subscription {
-    std::uint32_t id = 0, channel = 0;
+    std::uint32_t id = 0, channel = 0;  ///< the viewer chooses `id`
   };
   std::vector<Subscription> subscribe;
-  std::vector<std::uint32_t> unsubscribe;
+  std::vector<std::uint32_t> unsubscribe;  ///< ids of subscriptions
 };
 
 /// Parses {"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 3}]} and {"op": "unsubscribe",
-/// "subscriptionIds": [1]}. Errors: no JSON, another operation, numbers that are none.
+/// "subscriptionIds": [1]}. Errors: invalid JSON, another operation, ids that are not unsigned 32-bit numbers.
 Result<FoxgloveRequest> parse_foxglove_request(std::string_view text);
 
 }  // namespace barehand

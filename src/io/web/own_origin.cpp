@@ -16,7 +16,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// "[::1]:8765" and "localhost:8765" without the port and the brackets.
+/// The host name without port and brackets: "::1" of "[::1]:8765", "localhost" of "localhost:8765".
 std::string name_of(std::string_view host) {
   if (host.starts_with('[')) return lower(host.substr(1, host.find(']') - 1));
   return lower(host.substr(0, host.find(':')));

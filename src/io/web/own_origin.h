@@ -6,14 +6,14 @@
 
 namespace barehand {
 
-/// Whether `host`, the header Host of a request, is a name that only this machine goes by: localhost, a number address,
-/// the machine's own name. Any other name may be a foreign one that its owner points at this machine, so that his page
-/// can read what is served here (DNS rebinding).
+/// Whether `host`, the header Host of a request, is a name of this machine: localhost, a numeric IP address or the
+/// machine's own name. Any other name may belong to an attacker who lets it resolve to this machine, so that a page of
+/// the attacker could read what is served here (DNS rebinding).
 bool is_own_host(std::string_view host);
 
-/// Whether a page from `origin`, the header Origin, may use what is served as `host`: the page that was served here
-/// itself, one from an origin in `invited` ("https://example.org"), or no page at all (""), since only browsers send
-/// the header.
+/// Whether a page from `origin`, the header Origin, may use what is served as `host`. Allowed are the page that this
+/// server delivers, pages from an origin in `invited` ("https://example.org"), and an empty origin: browsers send the
+/// header, so the request does not come from a foreign page.
 bool is_welcome(std::string_view origin, std::string_view host, std::span<const std::string> invited);
 
 }  // namespace barehand

@@ -8,9 +8,9 @@
 
 namespace barehand {
 
-/// Writes the parts ("chunks") that a binary message of the page's WebSocket consists of. Numbers are little endian, as
-/// JavaScript's typed arrays read them. A chunk: kind (1 byte, a letter), index (1), zero (2), length of the payload
-/// (4), payload, zeros up to a multiple of 4. docs/view_protocol.md lists the kinds.
+/// Writes the chunks of a binary message on the page's WebSocket. Numbers are little endian, as JavaScript's typed
+/// arrays read them. A chunk consists of its kind (1 byte, a letter), an index (1), zero (2), the length of the payload
+/// (4), the payload, and zeros up to a multiple of 4 bytes. docs/view_protocol.md lists the kinds.
 class ChunkWriter {
  public:
   static_assert(std::endian::native == std::endian::little);
@@ -21,7 +21,7 @@ class ChunkWriter {
     put<std::uint8_t>(static_cast<std::uint8_t>(kind));
     put<std::uint8_t>(static_cast<std::uint8_t>(index));
     put<std::uint16_t>(0);
-    put<std::uint32_t>(0);  // the length, when it is known
+    put<std::uint32_t>(0);  // the length, filled in by end()
   }
   void end() {
     const auto length = static_cast<std::uint32_t>(out_.size() - start_ - kHeader);

@@ -6,8 +6,9 @@
 
 namespace barehand {
 namespace {
-constexpr std::int64_t kSkinPeriodUs = 2'000'000;  // a profile that is being learnt changes often
-}
+// Minimum time between two skins of the same hand: a profile that is being learnt changes often.
+constexpr std::int64_t kSkinPeriodUs = 2'000'000;
+}  // namespace
 
 ViewClient::ViewClient(WebSocket socket, const Clock& clock, Handlers handlers)
     : socket_(socket), clock_(clock), handlers_(std::move(handlers)) {}
@@ -39,7 +40,7 @@ bool ViewClient::hear(std::string_view text) {
     under_way_ = 0;
     next_at_us_ = 0;
 
-    // A log that stands still brings no further frame to show the wish with.
+    // Send the last frame again, so that the wish takes effect even if no frame follows (a paused log).
     if (!next_.frame && sent_) {
       next_.frame = sent_;
       ++pushed_;
@@ -51,7 +52,7 @@ bool ViewClient::hear(std::string_view text) {
   return !broken_;
 }
 
-/// Hands on what is for the program as a whole.
+/// Executes commands that concern the program as a whole.
 Result<void> ViewClient::follow(const ViewDemand& demand) {
   if (const auto* command = std::get_if<RecordCommand>(&demand)) return handlers_.record(*command);
   if (const auto* command = std::get_if<PlayerCommand>(&demand)) handlers_.play(*command);
@@ -60,7 +61,7 @@ Result<void> ViewClient::follow(const ViewDemand& demand) {
 
 void ViewClient::reply(const Error& error) {
   const nlohmann::json reply{{"type", "error"}, {"text", error.message()}};
-  constexpr auto replace = nlohmann::json::error_handler_t::replace;  // what came need not be UTF-8
+  constexpr auto replace = nlohmann::json::error_handler_t::replace;  // the client's message need not be UTF-8
   next_.reply = std::make_shared<const std::string>(reply.dump(-1, ' ', false, replace));
 }
 
@@ -113,7 +114,7 @@ bool ViewClient::has_due_frame(std::int64_t now_us) const {
   return next_.frame && asked_ && window_open && now_us >= next_at_us_;
 }
 
-/// Waits for something that may be sent, and takes it. False: the client ends.
+/// Waits until something may be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool ViewClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
   while (!ending_ && !has_due(clock_.steady_us())) {
@@ -130,7 +131,7 @@ bool ViewClient::wait(Due& due) {
   due.wish = next_.wish;
   due.frame = nullptr;
 
-  // A frame waits on where the window is closed or its time has not come.
+  // Take the frame unless too many are unacknowledged or the requested rate does not allow it yet.
   if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
     due.frame = sent_ = std::exchange(next_.frame, nullptr);
     ++popped_;

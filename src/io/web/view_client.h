@@ -16,32 +16,34 @@ namespace barehand {
 
 using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 
-/// One client of the page's WebSocket. It keeps the newest frame that was not sent yet, and nothing behind it, and
-/// sends on a thread of its own; frames not before the client has said what it wants of them. A client that reads
-/// slowly, or not at all, gets fewer frames and holds up nobody.
+/// One client of the page's WebSocket. Of the frames that were not sent yet, only the newest is kept. Data are sent on
+/// the client's own thread; frames are sent only after the client has sent a wish (ViewWish). A client that reads
+/// slowly or not at all gets fewer frames and delays no one else.
 class ViewClient : public WebPeer {
  public:
-  /// Called on threads of the server, `gone` while the client is being destroyed.
+  /// Called on threads of the server; `gone` is called while the client is being destroyed.
   struct Handlers {
     std::function<void(const PlayerCommand&)> play;
     std::function<Result<void>(const RecordCommand&)> record;
     std::function<void(const ViewClient&)> gone;
   };
+  /// `clock` must outlive the client.
   ViewClient(WebSocket socket, const Clock& clock, Handlers handlers);
   ~ViewClient() override;
 
   void start() override;
   bool hear(std::string_view text) override;
-  /// Any thread, at once. A frame that waits is replaced and counted as dropped.
+  /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
+  /// dropped.
   void post(ViewFramePtr frame);
   void post_status(StatusText status);
-  /// Whether the last status has been sent; nothing more can be sent to a client that is gone.
+  /// Whether the last status has been sent, or the connection is broken so that nothing can be sent.
   bool is_told() const;
-  /// Frames of this client; a capacity of one.
+  /// Counts the frames of this client, as of a queue with a capacity of one.
   QueueHealth health() const;
 
  private:
-  /// What is to be sent next.
+  /// Data to be sent next.
   struct Due {
     ViewFramePtr frame;
     StatusText status, reply;
@@ -64,13 +66,14 @@ class ViewClient : public WebPeer {
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
   Due next_;
-  ViewFramePtr sent_;            // the last one
-  int under_way_ = 0;            // sent and not acknowledged
+  ViewFramePtr sent_;            // the frame sent last
+  int under_way_ = 0;            // number of frames that were sent and not acknowledged yet
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
   std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
   bool asked_ = false, sending_ = false, ending_ = false, broken_ = false;
 
-  std::array<ViewSkinPtr, 2> skins_;  // sent last; sender's thread only, like the next one
+  // Used by the sending thread only.
+  std::array<ViewSkinPtr, 2> skins_;  // the skins sent last, by Handedness
   std::array<std::int64_t, 2> skin_sent_us_{};
   std::vector<std::uint8_t> bytes_;
   std::thread thread_;

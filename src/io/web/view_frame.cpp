@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kJpegQuality = 75;
 
-/// 5 bits red, 6 green, 5 blue.
+/// Packs a colour into 16 bits: 5 for red, 6 for green, 5 for blue.
 std::uint16_t rgb565(const Rgb& c) { return static_cast<std::uint16_t>((c.r >> 3) << 11 | (c.g >> 2) << 5 | c.b >> 3); }
 
-/// The smallest step from pixel to pixel with which the grid has at most `most` points.
+/// The smallest distance of the grid points [px] with which the grid has at most `most` points.
 int grid_step(const ViewFocus& part, int most) {
   int step = 1;
   while ((part.width / step) * (part.height / step) > most) ++step;
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> cloud_chunk(const RgbdFrame& frame, const ViewFocus& p
   for (const int number : {columns, rows, step, first_u, first_v, 0}) out.put(static_cast<std::uint16_t>(number));
   out.put(static_cast<float>(frame.depth_unit));
 
-  // One pixel for each cell, not the mean of several: a mean across a depth edge lies on nothing.
+  // Take one pixel for each cell, not the mean of several: a mean across a depth edge would lie on no surface.
   const double near = part.near / frame.depth_unit, far = part.far / frame.depth_unit;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> cloud_chunk(const RgbdFrame& frame, const ViewFocus& p
   return bytes;
 }
 
-/// Every n-th pixel, so that the width is at most `width`.
+/// The image reduced to every n-th pixel, so that it is at most `width` pixels wide.
 Image<Rgb> shrunk(const Image<Rgb>& image, int width) {
   const int step = (image.width() + width - 1) / width;
   if (step <= 1) return image;
@@ -78,7 +78,8 @@ std::vector<std::uint8_t> picture_chunk(const Image<Rgb>& image, ViewPicture kin
 
 std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const Intrinsics& camera) {
   // The rectangle and the range of depths around the points.
-  constexpr double kBeside = 0.06, kBefore = 0.1, kBehind = 0.12;  // m, what a hand holds belongs to it
+  // Margins beside, in front of and behind the points [m], so that an object in the hand is included.
+  constexpr double kBeside = 0.06, kBefore = 0.1, kBehind = 0.12;
   double left = camera.width, right = 0, top = camera.height, bottom = 0;
   double near = std::numeric_limits<double>::infinity(), far = 0;
   for (const Eigen::Vector3d& point : points) {
@@ -93,7 +94,7 @@ std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const
     far = std::max(far, point.z());
   }
 
-  // Its part inside the image.
+  // Clip the rectangle to the image.
   const auto inside = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
   const int u = inside(left, camera.width), v = inside(top, camera.height);
   const ViewFocus focus{

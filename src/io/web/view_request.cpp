@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 constexpr const char* kWhere = "message of a client";
 
-/// The position of `message[key]` among `names`, 0 where there is no such key.
+/// The position of `message[key]` among `names`; 0 if there is no such key.
 Result<int> choice_of(const json& message, const char* key, std::initializer_list<const char*> names) {
   const std::string wanted = message.value(key, *names.begin());
   std::string list;
@@ -76,7 +76,7 @@ Result<ViewDemand> demand_of(const json& message) {
 }  // namespace
 
 Result<ViewDemand> parse_view_demand(std::string_view text) {
-  // A client may send anything; nlohmann's exceptions say what was wrong with it.
+  // A client may send anything; the exceptions of nlohmann's JSON parser say what is wrong.
   try {
     return demand_of(json::parse(text));
   } catch (const json::exception& error) {

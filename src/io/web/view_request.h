@@ -8,30 +8,32 @@
 
 namespace barehand {
 
+// Messages of the page's WebSocket from a client to the program (docs/view_protocol.md).
+
 enum class ViewPicture { none, colour, depth };
 enum class ViewCloud { none, hand, scene };
 
-/// What a client wants of every frame, from now on.
+/// The parts that a client wants of every frame from now on.
 struct ViewWish {
   ViewCloud cloud = ViewCloud::none;
   ViewPicture picture = ViewPicture::none;
-  bool large = false;  ///< the picture: as it is instead of small
-  double rate = 60;    ///< frames a second at most
-  int window = 0;      ///< frames that may be under way before the client acknowledges one; 0: it does not acknowledge
+  bool large = false;  ///< whether the picture is at most kLargeWidth instead of kSmallWidth wide (ViewFrame)
+  double rate = 60;    ///< maximum number of frames per second
+  int window = 0;      ///< maximum number of unacknowledged frames; 0: the client does not acknowledge
 };
 
-/// A frame has been shown; another one may come.
+/// A frame has been shown, so another one may be sent.
 struct ViewAcknowledge {};
 
-/// What a client wants of a log that is played. Every client sees the same.
+/// A command for the log that is played. It applies to all clients, which see the same frame.
 struct PlayerCommand {
   enum class Kind { play, pause, seek, step, speed, lost } kind = Kind::pause;
-  /// seek: position among the frames, from 0; step: frames to go, backwards if negative; speed: a factor; lost: 1 to
-  /// the next frame without a pose, -1 to the one before.
+  /// seek: number of the frame, from 0; step: number of frames to go, backwards if negative; speed: a factor; lost: 1
+  /// goes to the next sequence of frames without a pose, -1 to the previous one.
   double value = 0;
 };
 
-/// Start or stop the recording of what comes live. Where it goes is not the client's choice.
+/// Starts or stops the recording of live frames. The client cannot choose the file.
 struct RecordCommand {
   bool on = false;
 };
@@ -39,8 +41,8 @@ struct RecordCommand {
 using ViewDemand = std::variant<ViewWish, ViewAcknowledge, PlayerCommand, RecordCommand>;
 
 /// Parses what a client sends: {"type": "want", "cloud": "hand", "picture": "colour", "rate": 30, "window": 2},
-/// {"type": "ack"}, {"type": "seek", "value": 12}, {"type": "record", "on": true} and so on. Errors: no JSON, an
-/// unknown type, a value out of range, a command to record that says more.
+/// {"type": "ack"}, {"type": "seek", "value": 12}, {"type": "record", "on": true} and so on. Errors: invalid JSON, an
+/// unknown type, a value out of range, further keys in a command to record.
 Result<ViewDemand> parse_view_demand(std::string_view text);
 
 }  // namespace barehand

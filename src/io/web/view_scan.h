@@ -5,24 +5,24 @@
 
 namespace barehand {
 
-/// What was seen of one segment during a scan, and what became of its length.
+/// How well one segment was seen during a scan of the hand, and its length before and after.
 struct ViewScanSegment {
   std::string name;
   int palm_side = 0, back_side = 0;  ///< frames in which that side faced the sensor
-  double bent = 0;                   ///< range of its joint that was seen [rad]
-  bool to_bend = false;              ///< whether bending it is asked for
+  double bent = 0;                   ///< range of flexion of its joint that was seen [rad]
+  bool to_bend = false;              ///< whether the user is to bend it
   double before = 0, after = 0;      ///< its length in the profile [m]
 };
 
-/// How far the scan of a hand has come, for the page.
+/// The progress of a scan of the hand, as the page shows it.
 struct ViewScan {
   enum class Phase { showing, measuring, done } phase = Phase::showing;
-  std::string how_to;                ///< what the user is to do, in all
-  std::vector<std::string> missing;  ///< sentences: what is still to be shown, most important first
-  std::string progress;              ///< a sentence: of the measuring, or what came of it
-  int frames = 0;                    ///< tracked so far
-  int enough_frames = 0;             ///< a side
-  double enough_bending = 0;         ///< [rad]
+  std::string how_to;                ///< instructions for the user
+  std::vector<std::string> missing;  ///< sentences that say what is still to be shown, most important first
+  std::string progress;              ///< a sentence on the progress of the measurement, or on its result
+  int frames = 0;                    ///< number of frames tracked so far
+  int enough_frames = 0;             ///< number of frames that suffice for a side of a segment
+  double enough_bending = 0;         ///< range of flexion that suffices [rad]
   std::vector<ViewScanSegment> segments;
 };
 

@@ -44,7 +44,7 @@ std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
   return client;
 }
 
-/// An error is told to the client that asked.
+/// Starts or stops a recording. The error is sent to the client that gave the command.
 Result<void> ViewServer::record(const RecordCommand& command, int client) {
   if (!recorder_) return fail("nothing can be recorded here", "view", "start the program with a folder for recordings");
   if (command.on) return recorder_->start(client);
@@ -60,7 +60,7 @@ void ViewServer::forget(const ViewClient& client) {
   gone_.dropped += last.dropped + static_cast<std::int64_t>(last.depth);
   clients_.erase(const_cast<ViewClient*>(&client));
   clients_count_ = static_cast<int>(clients_.size());
-  if (clients_.empty()) frame_ = nullptr;  // what comes next is newer by far
+  if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
 }
 
 void ViewServer::show(const ViewFramePtr& frame) {

@@ -16,34 +16,35 @@
 
 namespace barehand {
 
-/// Serves the live page and what it shows. Whoever posts never waits for a client.
+/// Serves the live page and the data that it shows. Posting a frame or a status never waits for a client.
 class ViewServer {
  public:
   struct Options {
     WebAddress address;
-    std::vector<std::string> invited;  ///< foreign origins whose pages may connect
-    /// Commands of clients, on threads of the server. Empty: there is nothing to play.
+    std::vector<std::string> invited;  ///< other origins whose pages may connect
+    /// Called with commands of clients, on threads of the server. Empty: there is nothing to play.
     std::function<void(const PlayerCommand&)> on_command;
-    LogRecorder* recorder =
-        nullptr;  ///< what clients start and stop; null: nothing can be recorded. Outlives the server
+    /// The recorder that clients start and stop; must outlive the server. Null: nothing can be recorded.
+    LogRecorder* recorder = nullptr;
   };
-  /// `clock` outlives it. Errors: the port is taken, the page's files are missing.
+  /// `clock` must outlive the server. Errors: the port is taken, the page's files are missing.
   static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);
   ~ViewServer();
 
   std::string url() const { return web_->url(); }
-  /// A hand that frames may show: it can be fetched as a robot before they do.
+  /// Makes a hand available as a robot description before the first frame shows it.
   void know(std::shared_ptr<const HandProfile> profile) { foxglove_.know(std::move(profile)); }
-  /// Whether anybody looks; else nothing need be made for show().
+  /// Whether a client is connected; if none is, no frame need be made for show().
   bool has_clients() const { return clients() > 0; }
   int clients() const { return clients_count_ + foxglove_.count(); }
-  /// Any thread: the newest frame, of all clients.
+  /// Sends the newest frame to all clients. May be called on any thread.
   void show(const ViewFramePtr& frame);
-  /// Any thread: JSON, to those who are there and, until the next one, to those who come.
+  /// Sends a status (JSON) to all clients and, until the next status, to those that connect later. May be called on any
+  /// thread.
   void show_status(std::string json);
   /// Waits until the last status has been sent to every client that reads, but no longer than `patience`.
   void flush(std::chrono::milliseconds patience) const;
-  /// Frames for clients since the start, of all of them together. The capacity is one frame a client.
+  /// Counts the frames for all clients together since the start. The capacity is one frame per client.
   QueueHealth health() const;
 
  private:
@@ -60,13 +61,13 @@ class ViewServer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::set<ViewClient*> clients_;
-  int last_client_ = 0;  // its number
-  QueueHealth gone_;     // of the clients that have left
+  int last_client_ = 0;  // number of the client that connected last
+  QueueHealth gone_;     // counts of the clients that have left
   ViewFramePtr frame_;
   StatusText status_;
 
   FoxgloveClients foxglove_;
-  std::unique_ptr<WebServer> web_;  // destroyed first: it lets all clients go
+  std::unique_ptr<WebServer> web_;  // declared last, so destroyed first: it disconnects all clients
 };
 
 }  // namespace barehand

@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kCell = 0.004;  // m; finer is not seen on a screen
+constexpr double kCell = 0.004;  // size of the skin's triangles [m]; smaller ones make no visible difference
 
 void put_vector(ChunkWriter& out, const Eigen::Vector3f& v) {
   for (int i = 0; i < 3; ++i) out.put<float>(v[i]);

@@ -9,13 +9,13 @@
 
 namespace barehand {
 
-/// The skin of a hand profile as the page draws it. Whoever asks first makes it, on his thread: that takes tens of
-/// milliseconds.
+/// The skin of a hand profile as the page draws it. It is made by the first call of bytes(), on the caller's thread,
+/// which takes tens of milliseconds.
 class ViewSkin {
  public:
   explicit ViewSkin(std::shared_ptr<const HandProfile> profile) : profile_(std::move(profile)) {}
   const std::shared_ptr<const HandProfile>& profile() const { return profile_; }
-  /// One chunk 'S'.
+  /// The skin as a chunk 'S'.
   const std::vector<std::uint8_t>& bytes() const;
 
  private:

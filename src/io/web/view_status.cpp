@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-/// JSON has no NaN: nlohmann writes null.
+/// Times that are NaN become null, since JSON has no NaN.
 json times_json(const TimeSummary& time) {
   return {{"count", time.count}, {"mean", time.mean}, {"p50", time.p50},
           {"p95", time.p95},     {"p99", time.p99},   {"max", time.max}};
@@ -41,7 +41,7 @@ json log_json(const PlayedLog& log) {
           {"lost", lost}};
 }
 
-/// The 4x4 matrix, row by row.
+/// The 4x4 matrix, row-major.
 json transform_json(const SE3& T) {
   json numbers = json::array();
   for (const double number : T.matrix().reshaped<Eigen::RowMajor>()) numbers.push_back(number);

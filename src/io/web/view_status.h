@@ -12,38 +12,38 @@
 
 namespace barehand {
 
-/// Frames without a pose, by position in the log: the first and the last one.
+/// A sequence of frames without a pose: positions of the first and the last one in the log.
 struct LostFrames {
   std::int64_t first = 0, last = 0;
 };
 
-/// Where a log that is played stands.
+/// The state of a log that is played.
 struct PlayedLog {
-  std::int64_t frames = 0, position = 0;  ///< position: of the frame shown, from 0
-  double seconds = 0;                     ///< from the first frame to the last
-  double at = 0;                          ///< from the first frame to the one shown [s]
+  std::int64_t frames = 0, position = 0;  ///< number of frames; position of the frame shown, from 0
+  double seconds = 0;                     ///< time from the first frame to the last [s]
+  double at = 0;                          ///< time from the first frame to the one shown [s]
   bool playing = false;
   double speed = 1;
-  std::vector<LostFrames> lost;  ///< in order
+  std::vector<LostFrames> lost;  ///< in the order of time
 };
 
-inline constexpr std::int64_t kStatusPeriodUs = 500'000;  ///< between two status messages
-inline constexpr std::int64_t kNoFramesUs = 2'000'000;    ///< after so long without a frame the status says so
+inline constexpr std::int64_t kStatusPeriodUs = 500'000;  ///< time between two status messages [us]
+inline constexpr std::int64_t kNoFramesUs = 2'000'000;  ///< time without a frame after which the status reports it [us]
 
-/// What the page says besides frames.
+/// What the page shows besides frames.
 struct ViewState {
-  std::string source;   ///< where frames come from, for people
-  bool live = false;    ///< frames come in real time
-  std::string trouble;  ///< why nothing comes, a sentence; "": all is well
+  std::string source;   ///< name of the source of frames, for display
+  bool live = false;    ///< whether frames arrive in real time
+  std::string trouble;  ///< a sentence that says why no frames arrive; "": they do
   int clients = 0;
-  std::optional<PipelineHealth> health;      ///< none: not known
+  std::optional<PipelineHealth> health;      ///< none: unknown
   std::optional<PlayedLog> log;              ///< none: nothing to play
-  std::optional<SE3> T_world_camera = {};    ///< none: the room is not known (sensor/camera_placement.h)
+  std::optional<SE3> T_world_camera = {};    ///< none: the camera's pose is unknown (sensor/camera_placement.h)
   std::optional<ViewScan> scan = {};         ///< none: no hand is being scanned
   std::optional<RecorderState> record = {};  ///< none: there is nothing to record
 };
 
-/// {"type": "status", ...}, as docs/view_protocol.md lists it. What is not known is null.
+/// The status message {"type": "status", ...} of docs/view_protocol.md. Unknown parts are null.
 std::string status_json(const ViewState& state);
 
 }  // namespace barehand

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace barehand {
 namespace {
 
-/// Empty: no file that a page consists of.
+/// The MIME type of a file; empty if such files are not part of a page.
 std::string type_of(const fs::path& file) {
   constexpr std::array<std::pair<const char*, const char*>, 4> kTypes = {{{".html", "text/html; charset=utf-8"},
                                                                           {".css", "text/css; charset=utf-8"},
@@ -41,7 +41,7 @@ Result<std::map<std::string, WebFile>> read_web_page() {
     if (!type_of(entry.path()).empty()) add(files, "/" + entry.path().filename().string(), entry.path());
   if (!files.contains("/index.html")) return fail("cannot read the page", *index, "check the permissions");
 
-  // The page says it itself where three.js is missing.
+  // three.js may be missing; then the page reports it.
   for (const char* name : {"build/three.module.js", "examples/jsm/controls/OrbitControls.js"})
     add(files, std::string("/three/") + name, fs::path(BAREHAND_THREE_DIR) / name);
   return files;

@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// The files of the live page by the path under which they are served: those of the folder web/ among the data files,
-/// and of three.js, where its package is installed, under /three/. Errors: the page is not installed.
+/// Reads the files of the live page, by the path under which they are served: those in the folder web/ of the data
+/// files and, if its package is installed, three.js under /three/. Error: the page is not installed.
 Result<std::map<std::string, WebFile>> read_web_page();
 
 }  // namespace barehand

@@ -12,7 +12,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::size_t kLongestMessage = 64 << 10;  // of a client [bytes]
+constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
 
 std::string_view header(const mg_connection* connection, const char* name) {
@@ -28,14 +28,14 @@ const char* chosen_protocol(const mg_connection* connection) {
 /// What the server keeps of one connection.
 struct Connection {
   std::unique_ptr<WebPeer> peer;
-  std::string message;  // the parts that have come of it
+  std::string message;  // the fragments of the current message received so far
 };
 
 Connection* connection_of(const mg_connection* connection) {
   return static_cast<Connection*>(mg_get_user_connection_data(connection));
 }
 
-/// Lets the page of an invited origin, which has passed is_allowed, read the answer.
+/// The header that lets a page of an invited origin read the response; is_allowed() has checked the origin before.
 std::string allowance(const mg_connection* connection) {
   const std::string origin(header(connection, "Origin"));
   return origin.empty() ? "" : "Access-Control-Allow-Origin: " + origin + "\r\n";
@@ -48,7 +48,7 @@ bool WebSocket::send_binary(std::span<const std::uint8_t> bytes) {
   return send(MG_WEBSOCKET_OPCODE_BINARY, reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 bool WebSocket::send(int opcode, const char* data, std::size_t size) {
-  // It returns what it wrote of the header and the data; less than the data is a frame that was cut off.
+  // The result counts the written bytes of header and data. If it is less than the data alone, the frame was cut off.
   return mg_websocket_write(connection_, opcode, data, size) >= static_cast<int>(size) && size > 0;
 }
 
@@ -63,7 +63,7 @@ class WebServer::Impl {
 
  private:
   void stop();
-  /// An HTTP request.
+  /// Answers an HTTP request.
   int answer(mg_connection* connection) const;
   static void send_error(mg_connection* connection, int status, const char* text);
   bool is_allowed(const mg_connection* connection) const;
@@ -89,13 +89,13 @@ class WebServer::Impl {
 
   const Options options_;
   std::vector<const char*> protocol_names_;
-  mg_websocket_subprotocols protocols_{};  // civetweb keeps a pointer to it
+  mg_websocket_subprotocols protocols_{};  // civetweb keeps a pointer to this member
   mg_context* context_ = nullptr;
   std::atomic<int> clients_ = 0;
 };
 
 Result<int> WebServer::Impl::start() {
-  // Every WebSocket holds one of the server's threads for as long as it lives.
+  // Every WebSocket occupies one of the server's threads while it is open.
   const std::string threads = std::to_string(kMaxClients + 8), stuck = std::to_string(kStuckSeconds * 1000);
   const std::string port = options_.address + ":" + std::to_string(options_.port);
   const char* settings[] = {"listening_ports",
@@ -118,11 +118,11 @@ Result<int> WebServer::Impl::start() {
 
   // Listen.
   mg_callbacks callbacks{};
-  callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // said by start() itself
+  callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
   context_ = mg_start(&callbacks, this, settings);
   if (!context_) return fail("cannot listen on " + port, "view", "another program may have the port; give --view=PORT");
 
-  // Answer, and say at which port where any would do.
+  // Set the handlers, and return the port, which the system has chosen if 0 was given.
   mg_set_request_handler(context_, "**", on_request, this);
   mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
   if (options_.connect_protocol) {
@@ -135,7 +135,8 @@ Result<int> WebServer::Impl::start() {
   return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
 }
 
-/// civetweb looks only every other second whether it is to stop, unless somebody connects.
+/// Stops the server. Without connections, civetweb checks only every other second whether it is to stop, so connections
+/// are made until it has stopped.
 void WebServer::Impl::stop() {
   constexpr auto kPatience = std::chrono::milliseconds(20);
   mg_server_port port{};
@@ -167,7 +168,7 @@ int WebServer::Impl::answer(mg_connection* connection) const {
   const mg_request_info& request = *mg_get_request_info(connection);
   const std::string_view method = request.request_method;
 
-  // Refuse what is not asked by this page, or not for one of its files.
+  // Refuse requests that do not come from an allowed page or are not for one of the files.
   if (!is_allowed(connection))
     send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
   else if (method != "GET" && method != "HEAD")
@@ -175,7 +176,7 @@ int WebServer::Impl::answer(mg_connection* connection) const {
   else if (const auto file = file_of(request.local_uri); !file)
     send_error(connection, 404, "There is no such file.");
 
-  // Send the file; scripts and connections of other origins stay out.
+  // Send the file, with headers that keep out scripts and connections of other origins.
   else {
     mg_printf(connection,
               "HTTP/1.1 200 OK\r\nContent-Type: %s\r\nContent-Length: %zu\r\nCache-Control: no-cache\r\n"
@@ -185,7 +186,7 @@ int WebServer::Impl::answer(mg_connection* connection) const {
               file->type.c_str(), file->bytes.size(), allowance(connection).c_str());
     if (method == "GET") mg_write(connection, file->bytes.data(), file->bytes.size());
   }
-  return 1;  // the request is done with, whatever the status
+  return 1;  // the request has been handled, whatever the status
 }
 
 bool WebServer::Impl::admit(const mg_connection* connection) {
@@ -209,7 +210,7 @@ bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::strin
   const int opcode = bits & 0xf;
   const bool last = (bits & 0x80) != 0;
   if (!known || opcode == kClose) return false;
-  if (opcode > kClose) return true;  // ping and pong are the server's own
+  if (opcode > kClose) return true;  // civetweb handles ping and pong
   if (opcode != kContinuation) known->message.clear();
   if (known->message.size() + data.size() > kLongestMessage) return false;
   known->message.append(data);

@@ -16,11 +16,12 @@ struct mg_connection;
 
 namespace barehand {
 
-/// The way to one connected client. Its owner uses it from one thread at a time.
+/// Sends messages to one connected client. Not thread-safe.
 class WebSocket {
  public:
   explicit WebSocket(mg_connection* connection) : connection_(connection) {}
-  /// False: the client is gone, or took nothing for kStuckSeconds; nothing more can be sent. Blocks until then.
+  /// Sends a message; blocks until the client accepts it. Returns false if nothing more can be sent: the client is
+  /// gone, or has accepted nothing for kStuckSeconds.
   bool send_text(std::string_view text);
   bool send_binary(std::span<const std::uint8_t> bytes);
 
@@ -29,14 +30,14 @@ class WebSocket {
   mg_connection* connection_;
 };
 
-/// What the program keeps of one connected client. It is destroyed when the client is gone, and must not use its
-/// socket afterwards.
+/// The program's side of one connection. It is destroyed when the client is gone; its socket must not be used
+/// afterwards.
 class WebPeer {
  public:
   virtual ~WebPeer() = default;
-  /// The client is there: from now on it may be sent to.
+  /// Called when the connection is established; from now on, messages may be sent.
   virtual void start() = 0;
-  /// A whole message of the client, on a thread of the server. False: the client is let go.
+  /// Called with a complete message of the client, on a thread of the server. Returns false to disconnect the client.
   virtual bool hear(std::string_view text) = 0;
 };
 
@@ -45,34 +46,37 @@ struct WebFile {
   std::string bytes;
 };
 
-/// An HTTP and WebSocket server with threads of its own. It serves files from memory, so no request reaches the
-/// disk, and WebSockets. Hosts and origins that are not this machine's own are refused (own_origin.h).
+/// An HTTP and WebSocket server with its own threads. Files are served from memory, so no request accesses the disk.
+/// Requests for other hosts or from other origins are refused (own_origin.h).
 class WebServer {
  public:
-  static constexpr int kMaxClients = 32;    ///< WebSockets at a time; more are refused
-  static constexpr int kStuckSeconds = 10;  ///< a client that takes nothing for so long is let go
+  static constexpr int kMaxClients = 32;    ///< maximum number of open WebSockets; further ones are refused
+  static constexpr int kStuckSeconds = 10;  ///< a client that accepts nothing for this time is disconnected
 
   struct Options {
-    std::string address = "127.0.0.1";     ///< of the interface; 0.0.0.0: all of them
-    int port = 0;                          ///< 0: any that is free
-    std::map<std::string, WebFile> files;  ///< by path: "/index.html"; "/" stands for that one
-    std::vector<std::string> invited;      ///< foreign origins whose pages may connect
+    std::string address = "127.0.0.1";     ///< of the network interface; 0.0.0.0: all interfaces
+    int port = 0;                          ///< 0: any free port
+    std::map<std::string, WebFile> files;  ///< by path, such as "/index.html", which is also served as "/"
+    std::vector<std::string> invited;      ///< other origins whose pages may connect
     std::string socket_path = "/live";
-    std::function<std::unique_ptr<WebPeer>(WebSocket)> connect;  ///< called on threads of the server
-    std::vector<std::string> protocols;  ///< subprotocols of the WebSocket at "/"; none: there is no such socket
-    std::function<std::unique_ptr<WebPeer>(WebSocket)> connect_protocol;  ///< a client that asked for one of them
-    std::function<std::optional<WebFile>(const std::string&)> made_file;  ///< by path: what is no fixed file, if any
+    /// Creates the peer of a client at `socket_path`; called on threads of the server.
+    std::function<std::unique_ptr<WebPeer>(WebSocket)> connect;
+    std::vector<std::string> protocols;  ///< subprotocols of the WebSocket at "/"; only used with connect_protocol
+    /// Creates the peer of a client at "/" that asked for one of `protocols`. Empty: there is no such WebSocket.
+    std::function<std::unique_ptr<WebPeer>(WebSocket)> connect_protocol;
+    /// Makes the file at a path that is not in `files`, or returns none. May be empty.
+    std::function<std::optional<WebFile>(const std::string&)> made_file;
   };
 
-  /// Errors: the port is taken, or may not be used.
+  /// Starts the server. Error: the port is taken or must not be used.
   static Result<std::unique_ptr<WebServer>> start(Options options);
-  /// Lets all clients go.
+  /// Disconnects all clients.
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
   int port() const { return port_; }
-  /// For a browser on this machine, "http://localhost:8765".
+  /// The URL for a browser on this machine, such as "http://localhost:8765".
   std::string url() const;
 
  private:
@@ -82,7 +86,7 @@ class WebServer {
   int port_ = 0;
 };
 
-/// What a user gives as PORT or ADDRESS:PORT.
+/// An address given by a user as PORT or ADDRESS:PORT.
 struct WebAddress {
   std::string address = "127.0.0.1";
   int port = 8765;

@@ -5,7 +5,7 @@
 
 namespace barehand {
 namespace {
-constexpr std::int64_t kHealthPeriodUs = 1'000'000;
+constexpr std::int64_t kHealthPeriodUs = 1'000'000;  // minimum time between two health messages
 }
 
 McapSink::McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
@@ -26,6 +26,7 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   }
   while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
 
+  // Collect what is written about this frame, and write it.
   ros::Scene scene;
   scene.utime = tracked.frame->utime;
   scene.number = tracked.frame->number;

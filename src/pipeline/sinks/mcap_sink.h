@@ -14,12 +14,13 @@
 
 namespace barehand {
 
-/// --mcap: every frame with its images and its hands under one stamp, for viewers of ROS 2 messages. It may be played
-/// again. A replay that is equal writes equal bytes; the health, which differs, is only in the file of a live run.
+/// --mcap: writes every frame with its images and hands, all with the same time stamp, for viewers of ROS 2 messages.
+/// The file can also be replayed by this program. Equal replays write equal files: the health of the pipeline, which
+/// differs, is only written in a live run.
 class McapSink : public Sink {
  public:
   struct Input {
-    double fps = 0;     ///< nominal rate of the source; 0: not known
+    double fps = 0;     ///< nominal frame rate of the source; 0: unknown
     bool live = false;  ///< FrameSource::live()
     std::function<PipelineHealth()> health;
     std::string source;  ///< FrameSource::name()
@@ -29,7 +30,7 @@ class McapSink : public Sink {
                                               Input input, const Clock& clock, Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "MCAP file"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// Without a frame there is no file.
+  /// Leaves no file if there was no frame.
   Result<void> finish() override { return frames_ > 0 ? file_->finish() : Result<void>(); }
 
  private:
@@ -41,8 +42,9 @@ class McapSink : public Sink {
   const Input input_;
   const Clock& clock_;
   Slot<PublishParams>* pending_;
-  std::vector<HandMessageMaker> makers_;     // one a hand
-  std::int64_t frames_ = 0, health_us_ = 0;  // written; when the health was told, steady clock
+  std::vector<HandMessageMaker> makers_;  // one per hand
+  std::int64_t frames_ = 0,               // number of frames written
+      health_us_ = 0;                     // time at which the health was written last; steady clock [us]
 };
 
 }  // namespace barehand

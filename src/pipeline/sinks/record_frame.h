@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Writes one frame as `barehand record` does, on `<prefix>`RGBD_FRAME, and the states of its hands as the log of
-/// states has them.
+/// Writes one frame on the channel `<prefix>`RGBD_FRAME, like `barehand record`, and the messages of its hands, like
+/// StatesLogSink.
 Result<void> record_frame(MessageSink& log, const std::string& prefix, const RgbdFrame& frame,
                           const std::vector<HandMessages>& hands);
 

@@ -57,7 +57,8 @@ Result<void> ViewSink::finish() {
   return {};
 }
 
-/// Whoever pressed the button is not to wait for the next period.
+/// Whether a recording has started or ended since the last status. Then a status is sent at once, so that the user sees
+/// the effect of the button.
 bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
 std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
@@ -83,7 +84,7 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
-  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as the page is told of it
+  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as in the status of the page
     content.health = health_message(input_.health(), clock_.utime(), input_.source);
   return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
 }

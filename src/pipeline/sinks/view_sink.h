@@ -23,10 +23,10 @@ class ViewSink : public Sink {
     std::string source;  ///< FrameSource::name()
     bool live = false;   ///< FrameSource::live()
     std::function<PipelineHealth()> health;
-    std::optional<SE3> T_world_camera = {};  ///< none: the room is not known
+    std::optional<SE3> T_world_camera = {};  ///< none: the camera's pose in the room is unknown
     std::function<ViewScan()> scan = {};     ///< empty: no hand is being scanned
-    std::string prefix = {};                 ///< of the channels in recordings
-    LogRecorder* recorder = nullptr;         ///< null: nothing can be recorded. Outlives the sink
+    std::string prefix = {};                 ///< prefix of the channels in recordings
+    LogRecorder* recorder = nullptr;         ///< must outlive the sink; null: nothing can be recorded
   };
   /// `server`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
@@ -34,9 +34,9 @@ class ViewSink : public Sink {
 
   std::string name() const override { return "view"; }
   Result<void> consume(const TrackedFrame& tracked) override;
-  /// Sends the status without frames, too.
+  /// Sends the status even if no frames arrive.
   Result<void> idle() override;
-  /// A recording is whole when it returns.
+  /// Ends a recording and waits until its file is complete.
   Result<void> finish() override;
 
  private:
@@ -55,7 +55,7 @@ class ViewSink : public Sink {
   std::array<ViewSkinPtr, 2> skins_;           // skins of the last profiles, indexed by Handedness
   std::int64_t frame_us_ = 0, status_us_ = 0;  // times of the last frame and of the last status; steady clock
   bool any_frame_ = false;
-  bool shown_recording_ = false;  // whether the last status said that it records
+  bool shown_recording_ = false;  // whether the last status reported a recording in progress
 };
 
 }  // namespace barehand

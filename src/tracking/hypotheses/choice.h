@@ -9,17 +9,17 @@
 
 namespace barehand {
 
-/// Every threshold on the global score by which the tracker prefers one explanation of the data to another, side by
-/// side. An advantage is the fraction by which the challenger's score must be lower than that of what it replaces.
+/// All thresholds on the global score by which the tracker prefers one explanation of the data to another. An advantage
+/// is the fraction by which the challenger's score must be lower than that of the pose that it replaces.
 struct ChoiceParams {
-  // Challengers of the followed pose, in one frame.
+  // Advantages that other poses of a frame need over the followed one.
   double sampling_advantage = 0.02;
   bool uncross = true;
   double uncross_allowance = 0.05;
   double search_advantage = 0.1;
   double elsewhere_advantage = 0.3;
 
-  // Absolute levels.
+  // Absolute global scores [m].
   double search_settled = 0.0015;
   double search_convincing = 0.002;
 
@@ -63,29 +63,31 @@ void visit(V& v, ChoiceParams& p) {
   v("confirmed", p.confirmed, 0.0, 1.0, "factor on the score of a pose that a detection confirms; 1: no effect");
 }
 
-/// Advantages of a side or a size of the hand over another one.
-inline constexpr double kHandAdvantage = 0.1;          ///< in one frame
-inline constexpr double kReturningAdvantage = 0.3;     ///< over a hand that was lost a moment ago: half of it fits both
-inline constexpr double kVerificationAdvantage = 0.2;  ///< over all frames of a verification
-inline constexpr double kFarBetter = 0.3;              ///< in every one of a few frames
+// Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.
+inline constexpr double kHandAdvantage = 0.1;  ///< in a single frame
+/// Over a hand that was just lost: while it reappears half visible, both sides fit it.
+inline constexpr double kReturningAdvantage = 0.3;
+inline constexpr double kVerificationAdvantage = 0.2;  ///< in the mean over all frames of a verification
+inline constexpr double kFarBetter = 0.3;              ///< in each of a few successive frames
 
-/// Whether a score is lower than another one by the fraction `advantage`.
+/// Whether a score is lower than another one by more than the fraction `advantage`.
 inline bool clearly_better(double score, double other, double advantage = kHandAdvantage) {
   return score < other * (1 - advantage);
 }
 
-/// Chooses between hypotheses and keeps what was decided in this frame.
+/// Chooses between hypotheses and records the decisions of a frame.
 class Choice {
  public:
-  /// `params` outlives it.
+  /// `params` must outlive the object.
   explicit Choice(const ChoiceParams& params) : params_(params) {}
 
-  /// The score of a pose in the light of the detection. Refinement and detection err in different ways: where they
-  /// agree, the frame may be explained worse, as with a sensor or a hand that the skin model knows badly.
+  /// The global score [m] of a pose, reduced by the factor `confirmed` if the detected joints agree with it. Refinement
+  /// and detection make different errors, so a pose on which both agree may explain the frame worse than usual, for
+  /// example because the skin model does not match the hand or the sensor.
   double judged_score(const HandObservation& observation, const HandProfile& profile, const RefinedPose& refined) const;
-  /// Whether the challenger takes the place of `present`. `rule`: a name that lives as long as the process.
+  /// Whether the challenger replaces `present`; records the decision. `rule`: name of the rule, a static string.
   bool replaces(std::string_view rule, const Hypothesis& challenger, const Hypothesis& present, double advantage);
-  /// Adds a decision that was taken elsewhere.
+  /// Records a decision that other code made.
   void note(const Decision& decision) { decisions_.push_back(decision); }
   /// The decisions since the last call.
   Decisions take() { return std::exchange(decisions_, {}); }

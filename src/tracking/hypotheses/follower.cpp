@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kDistinct = 0.001;  // start poses closer than this are the same [m]
+constexpr double kDistinct = 0.001;  // start poses with a smaller pose_distance() count as the same [m]
 
 }  // namespace
 
@@ -21,8 +21,8 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
   Hypothesis followed;
   followed.prediction = motion.predict(observation, *hand.surface);
 
-  // Sample and refine; neither needs the other. The sampler comes first: it spreads over idle cores itself, which a
-  // thread that waits for it inside its own work could not help.
+  // Sample and refine in parallel; neither needs the other's result. The sampler has index 0, so that it starts first:
+  // it distributes its own work over the idle threads, and a thread that is still busy with the refinement cannot help.
   const bool refine = params.refinement.enabled, sampling = params.sampling || !refine;
   FusedPose fused;
   context_.workers.for_each_index(2, [&](int i) {
@@ -39,7 +39,8 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
     return followed;
   }
 
-  // A good local optimum must not be spoilt by a sampled pose that only looks as good.
+  // Refine the sampled pose only if it differs from the refined one, and let it replace that one only if its score is
+  // clearly better: a good local optimum must not give way to a pose that is merely as good.
   if (!sampling || !lies_elsewhere(*hand.profile, followed.refined, fused.pose)) return followed;
   Hypothesis sampled;
   sampled.origin = Origin::sampled;
@@ -58,7 +59,8 @@ FusedPose Follower::sample(const HandObservation& observation, HandModel& hand, 
   const bool on_device = context_.observer->on_device();
   if (budget_.to_be_measured(on_device)) measure_budget(prepared, hand, prediction.primary(), frame);
 
-  // Level by level: draw and weigh the samples of every segment, fuse them, and centre the next level on the best.
+  // On each level, draw and weight the samples of every segment, fuse them by belief propagation, and centre the
+  // proposals of the next level on the best samples.
   const double factor = interval_factor(prediction.dt);
   const Proposals* proposals = &hand.fusion.first_proposals(prediction.primary(), factor);
   const int levels = context_.params.fusion.levels;
@@ -72,7 +74,7 @@ FusedPose Follower::sample(const HandObservation& observation, HandModel& hand, 
   }
 }
 
-/// By the first level of a frame, whose results are not used.
+/// Measures how many samples fit into the time budget by running the first level of a frame; the results are discarded.
 void Follower::measure_budget(const PreparedObservation& prepared, HandModel& hand, const HandPose& predicted,
                               std::uint32_t frame) {
   budget_.measure([&](int count) {
@@ -85,7 +87,7 @@ void Follower::measure_budget(const PreparedObservation& prepared, HandModel& ha
   context_.log->info("{}", budget_.to_text());
 }
 
-/// Search ranges hold at the nominal rate; longer intervals between frames widen them.
+/// Factor on the search ranges, which are given for the nominal frame rate: longer intervals between frames widen them.
 double Follower::interval_factor(double dt) const { return std::clamp(dt * context_.params.nominal_rate, 0.5, 4.0); }
 
 RefinedPose Follower::refine_best_start(const HandObservation& observation, const HandModel& hand,
@@ -98,7 +100,8 @@ RefinedPose Follower::refine_best_start(const HandObservation& observation, cons
   return hand.refinement.refine_best(observation, starts_, prediction.primary(), context_.params.refinement.iterations);
 }
 
-/// Whether anything seen is in another place; otherwise both poses would be refined to the same one.
+/// Whether a visible segment of the sampled pose is in another place than in the refined one. Otherwise refining the
+/// sampled pose would lead to the refined one again.
 bool Follower::lies_elsewhere(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const {
   const TrackerParams& params = context_.params;
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -10,16 +10,19 @@
 
 namespace barehand {
 
-/// Follows a hand from the last frame into this one, the paper's method: prediction (Sec. 4.4), local trackers and
-/// belief propagation level by level (Sec. 4.1 to 4.3), and beside them the refinement of the predicted poses.
+/// Follows a hand from the last frame into the present one by the paper's method: prediction (Sec. 4.4), then local
+/// trackers and belief propagation level by level (Sec. 4.1 to 4.3). In addition, and in parallel, it refines the
+/// predicted poses.
 class Follower {
  public:
+  /// `context` must outlive the object.
   explicit Follower(const TrackerContext& context);
 
-  /// The better one of the refined and the sampled pose. Needs motion.has_pose(). `frame` keys the random numbers.
+  /// Returns the better one of the refined and the sampled pose. motion.has_pose() must be true. `frame`, the number of
+  /// the frame, keys the random numbers.
   Hypothesis follow(const HandObservation& observation, HandModel& hand, MotionModel& motion, std::uint32_t frame,
                     Choice& choice);
-  /// The context's parameters have changed.
+  /// Must be called when the context's parameters have changed.
   void change();
 
  private:
@@ -34,7 +37,7 @@ class Follower {
 
   const TrackerContext& context_;
   SampleBudget budget_;
-  std::vector<HandPose> starts_;  // scratch: where the refinement of a frame may begin
+  std::vector<HandPose> starts_;  // scratch: start poses of the refinement
 };
 
 }  // namespace barehand

@@ -8,18 +8,21 @@
 namespace barehand {
 namespace {
 
-// Weights of the logistic model.
+// Weights of the logistic model, one for each cue.
 constexpr double kBias = -1.0, kOfPalm = 1.85, kOfSide = 0.35, kOfLabels = 0.55, kOfMisfit = -0.84, kOfScore = -1.57,
                  kOfDistance = -2.3;
-// Beyond these values the cues say no more.
+// Limits to which the cues are clamped: values beyond them carry no further information.
 constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 4, kLeastMisfit = 0.05;
-constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;  // m
-constexpr double kAllMatched = 0.3;  // fraction of the segments' skin, from which on the pose shows where joints are
+// Lower limits of the global score and of the distance from the detected joints, and the values of both that count as
+// neutral [m].
+constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;
+// Mean matched fraction of the segments from which on the distance from the detected joints counts fully.
+constexpr double kAllMatched = 0.3;
 
 // Evidence over frames.
-constexpr double kKept = 0.9;    // of the sum, from frame to frame
-constexpr double kCounts = 0.2;  // share of the sum that is new to the present frame
-constexpr double kApart = 0.1;   // m, farther away something else is seen
+constexpr double kKept = 0.9;    // factor by which the sum of earlier frames decays per frame
+constexpr double kCounts = 0.2;  // weight of the sum of earlier frames, which share most errors with the present one
+constexpr double kApart = 0.1;   // m, beyond this distance from the last centre the sum starts again
 
 }  // namespace
 
@@ -28,7 +31,7 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
   cues.palm = detected.palm;
   cues.side = std::abs(detected.right_log_odds);
 
-  // The labels.
+  // Average the log odds of the cells that are labelled as hand, each limited to kSure.
   double sum = 0;
   int count = 0;
   const LabelMap& labels = detected.labels;
@@ -40,7 +43,8 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
   }
   if (count) cues.labels = sum / count;
 
-  // The joints: of a foot they have no hand's proportions.
+  // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
+  // proportions.
   const bool own_side = detected.side() == profile.handedness;
   const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), detected.joints, kScaleDeviation);
   cues.misfit = fit ? fit->cost : INFINITY;

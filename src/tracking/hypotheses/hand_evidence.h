@@ -7,37 +7,42 @@
 
 namespace barehand {
 
-/// What the networks say for a detected hand being one. They were trained to find hands, so they find palms elsewhere,
-/// too: on feet and faces, at the end of an arm whose hand is not seen. There they contradict each other.
+// Decides whether what the networks detected is a hand at all, by evidence from the networks, from the refined pose and
+// from successive frames.
+
+/// Cues from the networks on whether a detected hand really is a hand. The networks also report palms on other things:
+/// on feet and faces, or at the end of an arm whose hand is hidden. There the cues contradict each other.
 struct HandCues {
   double palm = 0;    ///< DetectedHand::palm
-  double side = 0;    ///< how clear the side is: amount of DetectedHand::right_log_odds
-  double labels = 0;  ///< mean log odds of hand over what the window's labels call hand
-  double misfit = 0;  ///< KinematicFit::cost of the joints, a hand of any size allowed
+  double side = 0;    ///< how clearly it is a left or a right hand: absolute value of DetectedHand::right_log_odds
+  double labels = 0;  ///< mean log odds of the hand over the cells of the window that are labelled as hand
+  double misfit = 0;  ///< KinematicFit::cost of the joints, with a hand of any size
 };
-/// The cues of a detected hand. `profile`: of either side, as both are mirror images.
+/// The cues of a detected hand. `profile` may be of either side: it is mirrored if necessary.
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile);
 
-/// Log odds of a hand against something else that the networks take for one, where both are equally common: a logistic
-/// model, fitted to scenes with and without hands (docs/method.md).
+/// Log odds of a hand against another thing that the networks mistake for a hand, with equal prior probabilities: a
+/// logistic model, fitted to scenes with and without hands (docs/method.md).
 double log_odds_of_hand(const HandCues& cues);
-/// What a pose adds to them that was refined from the detected joints: a foot is explained badly, or by a pose that has
-/// left the joints. Joints that are not seen may be anywhere.
+/// Additional log odds from the pose that was refined from the detected joints. On a foot, that pose has a bad global
+/// score or is far from the detected joints. The distance counts less if little of the hand is visible, since detected
+/// joints that are hidden are uncertain.
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected);
 
-/// Log odds of what is seen at one place, kept over frames. Successive frames share most of their errors, so those
-/// before the present one count little.
+/// Accumulates over frames the log odds that the thing detected at one place is a hand. Successive frames share most of
+/// their errors, so the earlier frames have a small weight.
 class HandEvidence {
  public:
-  /// Adds the log odds of a frame at `centre`, camera frame [m], and returns those of all frames. A frame counts once:
-  /// of several looks at it, the last one. What is seen elsewhere than before is something new.
+  /// Adds the log odds of a frame for a detection at `centre`, camera frame [m], and returns the log odds from all
+  /// frames. If a frame is added several times, only the last call counts. A detection far from the last centre is
+  /// another thing, for which the sum starts again.
   double add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds);
   void forget() { *this = {}; }
 
  private:
-  std::uint32_t frame_ = 0;  // the last one that was added
+  std::uint32_t frame_ = 0;  // number of the last frame that was added
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  double before_ = 0, sum_ = 0;  // leaky sums: before the last frame, and with it
+  double before_ = 0, sum_ = 0;  // leaky sums of log odds: without the last frame, and with it
 };
 
 }  // namespace barehand

@@ -9,25 +9,25 @@
 
 namespace barehand {
 
-/// The proposer that a hypothesis comes from.
+/// How a hypothesis was found.
 enum class Origin {
-  followed,   ///< refined from the prediction
-  sampled,    ///< the paper's local trackers and belief propagation
-  uncrossed,  ///< the followed pose with crossed fingers put side by side
-  detected,   ///< inverse kinematics of the detected joints
-  searched,   ///< a search of the whole observation
-  near,       ///< a search of the fingers, near the followed pose
+  followed,   ///< by refining the prediction
+  sampled,    ///< by the paper's local trackers and belief propagation
+  uncrossed,  ///< by putting crossed fingers of the followed pose side by side
+  detected,   ///< by inverse kinematics of the detected joints
+  searched,   ///< by a search of the whole observation
+  near,       ///< by a search of finger poses near the followed pose
 };
 std::string_view to_string(Origin origin);
 
 /// A pose that may explain the frame, and how well it does. The tracker chooses between hypotheses.
 struct Hypothesis {
   Origin origin = Origin::followed;
-  RefinedPose refined;                   ///< T_camera_segment, its global score [m] and what it shows of each segment
+  RefinedPose refined;                   ///< pose, global score [m], visible and matched fraction of each segment
   double joint_gap = 0;                  ///< HandEstimate::joint_gap [m]
-  double size = 1;                       ///< of the hand in view by its profile's, where a search showed another one
-  std::optional<Prediction> prediction;  ///< that it continues; none: it was found anew
-  std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< the sampler's covariance, if it was not refined
+  double size = 1;                       ///< size of the hand in view relative to its profile
+  std::optional<Prediction> prediction;  ///< the prediction that the pose continues; none: found without one
+  std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance from the sampler, if not refined
 
   double score() const { return refined.score; }
 };

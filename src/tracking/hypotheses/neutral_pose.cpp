@@ -8,9 +8,12 @@ namespace barehand {
 
 RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
                          const Refinement& refinement, const TrackerParams& params) {
-  constexpr double kObserved = 0.5;    // visible fraction of an observed segment; a sliver fits nearly any angle
-  constexpr double kIndistinct = 0.1;  // of the sensor's noise; smaller differences of the score mean nothing
-  constexpr int kPasses = 2;           // a joint may change once hidden ones that followed it no longer hold it
+  // Visible fraction above which a segment counts as observed; a thin visible strip fits nearly any angle.
+  constexpr double kObserved = 0.5;
+  // Differences of the score below this fraction of the sensor's noise are insignificant.
+  constexpr double kIndistinct = 0.1;
+  // In the second pass, a joint is free of the hidden joints beyond it, which were at random angles in the first one.
+  constexpr int kPasses = 2;
 
   // Joints count as observed if enough of their segment is visible.
   std::array<bool, kSegmentCount> seen;

@@ -11,11 +11,12 @@
 namespace barehand {
 namespace {
 
-constexpr std::uint64_t kAttemptSeed = 1000003;  // between the random numbers of two attempts of one frame
+constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the random seeds of two attempts in one frame
 
-// Log odds of a hand (HandEvidence): below the first, no pose is worth refining; from the second on, a hand is searched
-// for; from the third on, the networks are believed without a pose that explains the frame.
-constexpr double kPossibleHand = 2.5, kProvenHand = 3.5, kCertainHand = 7.5;
+// Thresholds on the log odds that a detection is a hand (HandEvidence).
+constexpr double kPossibleHand = 2.5,  // below, the detection is ignored
+    kProvenHand = 3.5,                 // from here on, with the evidence of the pose and earlier frames, it is a hand
+    kCertainHand = 7.5;                // from here on, the networks alone suffice
 
 }  // namespace
 
@@ -24,7 +25,7 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
   const TrackerParams& params = context_.params;
   if (static_cast<int>(observation.hand_pixels.size()) < params.loss.min_hand_pixels) return std::nullopt;
 
-  // What was not followed yet may be no hand.
+  // A detection that does not belong to a hand followed before may be something other than a hand.
   const DetectedHand* const unproven = track.was_followed() ? nullptr : observation.detected.get();
   const double log_odds = unproven ? log_odds_of_hand(hand_cues(*unproven, *hand.profile)) : kCertainHand;
   if (log_odds < kPossibleHand) {
@@ -32,18 +33,18 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
     return std::nullopt;
   }
 
-  // A pose, and other frames, may prove that it is one.
+  // Unless the networks are certain, the refined pose and earlier frames must confirm that it is a hand.
   std::optional<Hypothesis> best = detected(observation, hand);
   if (log_odds < kCertainHand) {
     const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
     if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
   }
 
-  // A detection that is explained well needs no search.
+  // If the detected pose explains the frame well, no search is needed.
   if (best && choice_.judged_score(observation, *hand.profile, best->refined) < params.loss.recovered_score)
     return best;
 
-  // Search until the frame is settled.
+  // Repeat the search until further attempts would not help (RestartConsensus).
   RestartConsensus poses(*hand.profile, params.choice.search_settled, params.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
     auto found = searched(observation, hand, track, effort, attempt, frame);
@@ -56,16 +57,18 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
 
 std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, const HandModel& hand, Track& track,
                                             const Hypothesis& followed, std::uint32_t frame) const {
-  // A tentative pose is searched thoroughly: a quick search may be wrong once more.
+  // A tentative track gets a full search: the quick one that found it may be wrong again.
   const TrackerParams& params = context_.params;
   if (track.tentative()) return searched(observation, hand, track, Effort::full, 0, frame);
   if (!track.exceeds_baseline(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
 
-  // Ambiguous: some fingers may be where their neighbours are.
+  // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
   const int frames = ++track.ambiguous_frames;
   if (observation.detected) return detected(observation, hand);
 
-  // A hand that is taken for something else looks wrong from its start on; later doubts are mostly about fingers.
+  // Without a detection, try searches in turn. If the track follows something other than the hand, it is ambiguous from
+  // its start on, so one full search is made early. Later ambiguity is mostly about fingers: then the searches are
+  // quick, or near the followed pose.
   const int first = (params.doubt_every + 1) / 2;
   if (frames == first) return searched(observation, hand, track, Effort::full, 1, frame);
   if (frames % params.doubt_every == first % params.doubt_every)
@@ -80,12 +83,12 @@ void Proposers::uncross(const HandObservation& observation, const HandModel& han
   const auto apart = uncrossed(*hand.profile, followed.refined.pose, params.initialiser.widening);
   if (!apart) return;
 
-  // Fingers side by side may explain a frame a little worse and are still more likely.
+  // Fingers side by side are more likely a priori, so this pose may explain the frame slightly worse.
   auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.doubt_iterations);
   if (choice_.replaces("uncross", *best, followed, -params.choice.uncross_allowance)) followed = std::move(*best);
 }
 
-/// Inverse kinematics of the detected joints, then the ordinary refinement.
+/// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
 std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
   if (!observation.detected) return std::nullopt;
   const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
@@ -129,7 +132,7 @@ std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservatio
   return best;
 }
 
-/// A search leaves joints without data at random angles.
+/// Sets unobserved joints to neutral angles, since a search leaves them at random ones (neutral_pose).
 void Proposers::relax(const HandObservation& observation, const HandModel& hand,
                       std::optional<Hypothesis>& found) const {
   if (found && context_.params.relax)

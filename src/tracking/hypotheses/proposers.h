@@ -11,21 +11,23 @@
 
 namespace barehand {
 
-/// Proposes poses that do not continue the track, each refined and scored.
+/// Makes hypotheses that do not continue the track, each refined and scored. (Not to be confused with Proposals, the
+/// boxes from which samples are drawn.)
 class Proposers {
  public:
-  /// Both outlive it.
+  /// Both arguments must outlive the object.
   Proposers(const TrackerContext& context, Choice& choice) : context_(context), choice_(choice) {}
 
-  /// The best pose of up to `attempts` searches of the whole observation; fewer do where they settle it
-  /// (RestartConsensus), none is needed where the detected hand is explained well. None: too little of a hand is seen,
-  /// nothing is found, or what is detected may be something else than a hand. `frame`, the number of the frame, keys
-  /// the random numbers.
+  /// Returns the best pose of up to `attempts` searches of the whole observation. It stops early if further searches
+  /// would not help (RestartConsensus), and does not search at all if the detected hand is explained well. None: too
+  /// little of a hand is visible, nothing is found, or the detection may not be a hand. `frame`, the number of the
+  /// frame, keys the random numbers.
   std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
                                      Effort effort, int attempts, std::uint32_t frame) const;
 
-  /// A pose beside a followed one that explains the frame, where that is tentative or ambiguous, which means that it
-  /// is explained clearly worse than this hand usually is. None: there is no doubt, or nothing is tried in this frame.
+  /// Returns an alternative to a followed pose that is tentative or ambiguous. Ambiguous means that the pose explains
+  /// the frame clearly worse than this hand is usually explained. None: the pose is neither, it is not the turn of a
+  /// search in this frame, or nothing is found.
   std::optional<Hypothesis> beside(const HandObservation& observation, const HandModel& hand, Track& track,
                                    const Hypothesis& followed, std::uint32_t frame) const;
 
@@ -34,13 +36,13 @@ class Proposers {
 
  private:
   std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
-  // One search of the whole observation; `attempt` counts those of a frame.
+  // One search of the whole observation. `attempt`: number of the search in this frame, from 0.
   std::optional<Hypothesis> searched(const HandObservation& observation, const HandModel& hand, const Track& track,
                                      Effort effort, int attempt, std::uint32_t frame) const;
-  // A search of the fingers, near a pose whose palm is about right.
+  // A search of the finger poses; the palm of `followed` must be about right.
   std::optional<Hypothesis> near(const HandObservation& observation, const HandModel& hand, const HandPose& followed,
                                  std::uint32_t frame) const;
-  // The best of the first start poses after so many refinement steps.
+  // Refines the first `search_refined` start poses by `iterations` steps each and returns the best one.
   std::optional<Hypothesis> best_of(Origin origin, const HandObservation& observation, const HandModel& hand,
                                     const std::vector<StartCandidate>& starts, int iterations) const;
   void relax(const HandObservation& observation, const HandModel& hand, std::optional<Hypothesis>& found) const;

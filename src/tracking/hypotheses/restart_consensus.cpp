@@ -7,9 +7,11 @@
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.005;  // poses closer than this [m] count as the same
-constexpr int kFoundAgain = 3;   // number of times that the best pose must be found to be final
-constexpr int kMany = 8;         // poses; if all but one are alike, the hand is there but hard to see
+constexpr double kSame = 0.005;  // pose_distance() below which two poses count as the same [m]
+constexpr int kFoundAgain = 3;   // the best pose is final when it was found this many times
+// After this many poses, the search ends if none explains the data, or if all but one have the palm in the same place:
+// then the hand is there but hard to see.
+constexpr int kMany = 8;
 
 }  // namespace
 
@@ -34,7 +36,7 @@ bool RestartConsensus::settled() const {
   // The best pose is good enough, or repetition has confirmed it.
   if (best_score_ < enough_ || like_best(kSame) >= kFoundAgain) return true;
 
-  // Many poses were tried without a hand, or all of them show the hand at the same place.
+  // Many poses were found, and either none explains the data or nearly all show the hand in the same place.
   const int count = static_cast<int>(poses_.size());
   return count >= kMany && (best_score_ > worst_ || like_best(kAlike) >= count - 1);
 }

@@ -6,23 +6,24 @@
 
 namespace barehand {
 
-inline constexpr double kAlike = 0.040;  ///< poses closer than this [m] differ in their fingers only
+/// pose_distance() [m] below which two poses differ only in their fingers; the palm is in the same place.
+inline constexpr double kAlike = 0.040;
 
 /// Collects the poses that repeated searches found in one frame and decides when to stop searching. If little of a
-/// hand is visible, several poses far apart may explain it fairly well, and only repetition finds the best of them.
+/// hand is visible, very different poses may explain it fairly well, and only repetition finds the best of them.
 class RestartConsensus {
  public:
-  /// Scores are global scores [m]. A pose below `enough` ends the search at once; if the best pose is above `worst`,
-  /// there is no hand.
+  /// `enough` and `worst` are global scores [m]: a pose with a score below `enough` ends the search at once; if the
+  /// best score is above `worst`, there is no hand. `profile` must outlive the object.
   RestartConsensus(const HandProfile& profile, double enough, double worst)
       : profile_(profile), enough_(enough), worst_(worst) {}
 
   /// Adds a pose with its global score [m]; returns whether it is the best one so far.
   bool add(const HandPose& pose, double score);
   /// Whether further searches would not help, which is so if
-  /// - the best pose is below `enough`, or
-  /// - it was found several times, or
-  /// - there are many poses, of which nearly all resemble the best one or none explains the data.
+  /// - the score of the best pose is below `enough`, or
+  /// - the best pose was found several times, or
+  /// - many poses were found, and nearly all resemble the best one or none explains the data.
   bool settled() const;
 
  private:

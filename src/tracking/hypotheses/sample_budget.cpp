@@ -8,8 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr int kRuns = 3;         // of a level with one number of samples, after one that grows the buffers
-constexpr double kGrowth = 1.2;  // from one number to the next: half as much again a level's longest time
+constexpr int kRuns = 3;  // timed runs for each number of samples, after an untimed one that grows the buffers
+// Factor from one number of samples to the next. A level's time grows at most with the square, by less than half.
+constexpr double kGrowth = 1.2;
 
 }  // namespace
 

@@ -9,25 +9,26 @@
 
 namespace barehand {
 
-/// How many samples a level has: S on the CPU; where a device compares them more, as many as keep a whole level within
-/// its budget. A device makes only the comparison cheap: the pairs of samples that belief propagation fuses grow with
-/// the square of their number, on the CPU.
+/// Determines how many samples are drawn per segment on each level. On the CPU this is S, a parameter. If a GPU
+/// compares the samples with the data, it is the largest number with which a whole level stays within a time budget.
+/// The GPU makes only the comparison cheap: belief propagation stays on the CPU, and its cost grows with the square of
+/// the number of samples.
 class SampleBudget {
  public:
-  /// Draws, compares and fuses so many samples of every segment.
+  /// Runs one level: draws, compares and fuses `samples` samples of every segment.
   using Level = std::function<void(int samples)>;
 
   explicit SampleBudget(const SegmentTrackerParams& params,
                         std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>())
       : params_(params), clock_(std::move(clock)) {}
 
-  /// Once, as soon as a device compares.
+  /// Whether measure() is due: once, as soon as a device compares the samples.
   bool to_be_measured(bool on_device) const {
     return on_device && on_device_ == 0 && params_.samples_on_device > params_.samples;
   }
-  /// Runs `level` with more and more samples until it takes longer than the budget, or they are as many as allowed.
+  /// Runs `level` with more and more samples until it takes longer than the budget or the maximum number is reached.
   void measure(const Level& level);
-  /// What was measured, for the log.
+  /// The result of measure(), for the log.
   std::string to_text() const;
 
   int samples(bool on_device) const { return on_device && on_device_ > 0 ? on_device_ : params_.samples; }
@@ -37,8 +38,8 @@ class SampleBudget {
 
   SegmentTrackerParams params_;
   std::shared_ptr<const Clock> clock_;
-  int on_device_ = 0;         // 0: not measured
-  double level_seconds_ = 0;  // what the largest level that fits took; 0: not even one step more fits
+  int on_device_ = 0;         // number of samples on a device; 0: not measured yet
+  double level_seconds_ = 0;  // time of a level with that number; 0: it is that of the CPU, and no more fit
 };
 
 }  // namespace barehand
