@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -219,6 +220,31 @@ TEST(RosTopics, ALostHandIsWithheldAndItsDrawingGoes) {
   ASSERT_EQ(gone.markers.size(), 1u);
   EXPECT_EQ(gone.markers[0].action, Marker::kDeleteAll);
   EXPECT_EQ(diagnostic(scene.hands[0]).level, DiagnosticStatus::kStale);
+}
+
+TEST(RosTopics, TheCameraIsWhereTheRoomHasIt) {
+  auto frame = std::make_shared<RgbdFrame>(test_frame(1));
+  frame->sensor = "desk";
+  Scene scene;
+  scene.utime = 3'000'000;
+  scene.frame = frame;
+  EXPECT_THAT(names_of(topics_of(scene)), testing::Not(Contains("/tf"))) << "neither room nor hand is known";
+
+  // Turned by 90 degrees about x: the camera's z axis points along the world's -y.
+  scene.T_world_camera = SE3{Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix(), {1, 2, 3}};
+  const auto topics = topics_of(scene);
+  const auto tf = std::ranges::find(topics, "/tf", &Topic::name);
+  ASSERT_NE(tf, topics.end());
+  const auto message = decode<TFMessage>(tf->encode().value());
+  ASSERT_TRUE(message) << message.error().message();
+  ASSERT_EQ(message->transforms.size(), 1u);
+  const TransformStamped& camera = message->transforms[0];
+  EXPECT_EQ(camera.header.frame_id, "world");
+  EXPECT_EQ(camera.header.stamp.sec, 3);
+  EXPECT_EQ(camera.child_frame_id, camera_frame("desk"));
+  EXPECT_EQ(camera.transform.translation.z, 3);
+  EXPECT_NEAR(camera.transform.rotation.x, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(camera.transform.rotation.w, std::sqrt(0.5), 1e-12);
 }
 
 TEST(RosTopics, EverythingThatIsKnownHasATopic) {

@@ -259,7 +259,7 @@ Step TrackRun::open_bus() {
 
 Step TrackRun::open_mcap() {
   McapSink::Input input{rate(0), input_.source->live(), [this] { return with_view(pipeline_->health()); },
-                        input_.source->name()};
+                        input_.source->name(), world_};
   return add(
       McapSink::create(config_.publish, options_.mcap, options_.overwrite, std::move(input), clock_, &pending_.mcap));
 }

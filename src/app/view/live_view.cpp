@@ -89,7 +89,9 @@ void LiveView::show_gathered() {
   if (server_.has_clients()) {
     const auto image = std::ranges::find(images_, utime, utime_of);
     if (image != images_.end()) gathered_.push_back(*image);
-    server_.show(std::make_shared<const ViewFrame>(frame_content(gathered_, hands_, {})));
+    ViewFrame::Content content = frame_content(gathered_, hands_, {});
+    content.T_world_camera = options_.T_world_camera;
+    server_.show(std::make_shared<const ViewFrame>(std::move(content)));
   }
   gathered_.clear();
 }

@@ -105,8 +105,11 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
 
     // Reading and showing take a while, during which commands may arrive.
     lock.unlock();
-    if (moved)
-      server.show(std::make_shared<const ViewFrame>(frame_content(index_.messages(state.position), shown_.hands, {})));
+    if (moved) {
+      ViewFrame::Content content = frame_content(index_.messages(state.position), shown_.hands, {});
+      content.T_world_camera = shown_.T_world_camera;
+      server.show(std::make_shared<const ViewFrame>(std::move(content)));
+    }
     if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state, shown_.T_world_camera}));
     lock.lock();
 

@@ -46,9 +46,22 @@ void add_frame(const Scene& scene, std::vector<Topic>& topics) {
   }
 }
 
-TFMessage transforms_of(const std::vector<HandState>& hands) {
+/// The name of the camera's frame, after the sensor of the images or of the states.
+std::string camera_frame_of(const Scene& scene) {
+  if (scene.frame) return camera_frame(scene.frame->sensor);
+  return camera_frame(scene.hands.empty() ? std::string() : scene.hands.front().state.sensor);
+}
+
+TFMessage transforms_of(const Scene& scene) {
   TFMessage message;
-  for (const HandState& hand : hands)
+  if (scene.T_world_camera) {
+    const Eigen::Quaterniond q(scene.T_world_camera->R);
+    const Eigen::Vector3d& t = scene.T_world_camera->t;
+    message.transforms.push_back({{time_of(scene.utime).value_or(Time{}), "world"},
+                                  camera_frame_of(scene),
+                                  {{t.x(), t.y(), t.z()}, {q.x(), q.y(), q.z(), q.w()}}});
+  }
+  for (const HandState& hand : scene.hands)
     if (hand.state.has_pose) add_transforms(hand, message);
   return message;
 }
@@ -67,8 +80,8 @@ std::vector<Topic> topics_of(const Scene& scene) {
   std::vector<Topic> topics;
   if (scene.frame) add_frame(scene, topics);
   const auto has_pose = [](const HandState& hand) { return hand.state.has_pose; };
-  if (std::any_of(scene.hands.begin(), scene.hands.end(), has_pose))
-    topics.push_back(topic<TFMessage>("/tf", [&scene] { return transforms_of(scene.hands); }));
+  if (scene.T_world_camera || std::any_of(scene.hands.begin(), scene.hands.end(), has_pose))
+    topics.push_back(topic<TFMessage>("/tf", [&scene] { return transforms_of(scene); }));
   for (const HandState& hand : scene.hands) {
     const std::string space = "/" + side_of(hand.state) + "_hand";
     if (hand.state.has_pose)

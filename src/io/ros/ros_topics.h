@@ -8,6 +8,7 @@
 
 #include "io/ros/cdr.h"
 #include "io/ros/ros_hand.h"
+#include "math/se3.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand::ros {
@@ -18,10 +19,11 @@ struct Scene {
   std::int64_t number = 0;  ///< RgbdFrame::number
   FramePtr frame;           ///< null: the images are not known
   std::vector<HandState> hands;
-  std::optional<health_t> health;   ///< none: not due
-  double fps = 0;                   ///< nominal frame rate, stored as metadata of the depth topic; 0: unknown
-  std::optional<int> jpeg_quality;  ///< of the colour image; none: lossless
-  bool cloud = true;                ///< whether a point cloud is published in addition to the depth image
+  std::optional<health_t> health;     ///< none: not due
+  double fps = 0;                     ///< nominal frame rate, stored as metadata of the depth topic; 0: unknown
+  std::optional<int> jpeg_quality;    ///< of the colour image; none: lossless
+  std::optional<SE3> T_world_camera;  ///< none: the pose of the camera in the room is unknown
+  bool cloud = true;                  ///< whether a point cloud is published in addition to the depth image
 };
 
 /// One topic and the message that a scene has for it.
@@ -36,7 +38,8 @@ struct Topic {
 /// Keys of Topic::metadata: the depth unit [m], the nominal frame rate [1/s], the sensor's name.
 inline constexpr const char *kDepthUnit = "depth_unit", *kFps = "fps", *kSensor = "sensor";
 
-/// The topics of a scene, which must outlive them. A hand without a pose has no joint states and transforms.
+/// The topics of a scene, which must outlive them. A hand without a pose has no joint states and transforms. Where
+/// T_world_camera is known, the camera has a transform, to the frame "world".
 std::vector<Topic> topics_of(const Scene& scene);
 
 }  // namespace barehand::ros

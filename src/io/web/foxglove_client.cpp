@@ -24,6 +24,7 @@ ros::Scene scene_of(const ViewFrame::Content& content) {
   scene.frame = content.frame;
   scene.hands = content.hands;
   scene.health = content.health;
+  scene.T_world_camera = content.T_world_camera;
   scene.jpeg_quality = kJpegQuality;
   return scene;
 }

@@ -32,6 +32,7 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   scene.number = tracked.frame->number;
   scene.frame = tracked.frame;
   scene.fps = input_.fps;
+  scene.T_world_camera = input_.T_world_camera;
   for (std::size_t k = 0; k < tracked.estimates.size(); ++k) {
     HandMessages hand = makers_[k].process(*tracked.estimates[k]);
     scene.hands.push_back({std::move(hand.state), std::move(hand.glove), std::move(hand.joints)});

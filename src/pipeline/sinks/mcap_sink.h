@@ -23,7 +23,8 @@ class McapSink : public Sink {
     double fps = 0;     ///< nominal frame rate of the source; 0: unknown
     bool live = false;  ///< FrameSource::live()
     std::function<PipelineHealth()> health;
-    std::string source;  ///< FrameSource::name()
+    std::string source;                      ///< FrameSource::name()
+    std::optional<SE3> T_world_camera = {};  ///< none: the pose of the camera in the room is unknown
   };
   /// `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& path, bool overwrite,

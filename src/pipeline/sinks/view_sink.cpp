@@ -84,6 +84,7 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   content.focus = focus_on(places, tracked.frame->camera);
+  content.T_world_camera = input_.T_world_camera;
   if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as in the status of the page
     content.health = health_message(input_.health(), clock_.utime(), input_.source);
   return std::allocate_shared<const ViewFrame>(FrameAllocator<ViewFrame>(), std::move(content));
