@@ -5,9 +5,10 @@
 #include "core/format.h"
 
 namespace barehand {
-namespace {
 
 // Quotes texts for messages and command lines, and checks UTF-8.
+
+namespace {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 

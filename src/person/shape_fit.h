@@ -6,6 +6,9 @@
 
 namespace barehand {
 
+// ShapeFit: a running Gaussian estimate of the person's hand shape. ShapeFitParams also holds the settings of PersonFit
+// and PersonScan, which rebuild and scan the skin.
+
 /// When and how strongly frames contribute to the shape of a person's hand while it is tracked. A "look" is one frame
 /// that contributes.
 struct ShapeFitParams {

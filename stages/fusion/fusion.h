@@ -12,9 +12,11 @@
 
 namespace barehand {
 
+// Belief propagation over the hand's tree: combines the samples of all segments, level by level, into one pose.
+
 /// The final estimate of one frame, read from the belief of the last level.
 struct FusedPose {
-  HandPose pose;                                   ///< neighbouring segments need not meet exactly (Sec. 3.1)
+  HandPose pose;                                   ///< neighbouring segments need not meet exactly (paper, Sec. 3.1)
   std::array<Matrix6d, kSegmentCount> covariance;  ///< of the belief around `pose`; boxplus twist, camera frame
 };
 

@@ -1,4 +1,3 @@
-// Scenes of a person with and without a hand, at a desk or before the camera.
 #include "drivers/synthetic/people/people_sequences.h"
 
 #include <cmath>
@@ -12,6 +11,10 @@
 #include "math/angles.h"
 
 namespace barehand::synthetic {
+
+// Simulated scenes with people, built from a seed: with a moving hand (a person who faces the camera, desk work) and
+// without any hand (a person who hides the hands, empty desks, faces, feet).
+
 namespace {
 
 using Eigen::Vector3d;

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// A recording folder on disk (docs/formats.md).
+
 /// One line of depth.txt with the colour image nearest in time.
 struct RecordingEntry {
   std::int64_t utime = 0;    ///< microseconds

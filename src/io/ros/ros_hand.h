@@ -10,7 +10,9 @@
 
 namespace barehand::ros {
 
-/// The messages of one hand in one frame.
+// Converts the LCM messages of one hand to ROS messages.
+
+/// The LCM messages of one hand in one frame.
 struct HandState {
   hand_state_t state;
   glove_state_t glove;
@@ -20,9 +22,9 @@ struct HandState {
 /// "right" or "left": the first part of the names of a hand's joints and frames, "right_palm".
 std::string side_of(const hand_state_t& state);
 
-// The messages of ROS for one hand. joint_state() and add_transforms() must be called only for hands with a pose: a
-// hand without one is left out instead of being published with zeros. Poses are in the camera frame and smoothed; only
-// the ellipsoids of markers() lie at the raw positions.
+// joint_state() and add_transforms() must be called only for hands with a pose: a hand without one is left out instead
+// of being published with zeros. Poses are in the camera frame and smoothed; only the ellipsoids of markers() lie at
+// the raw positions.
 
 /// The angles [rad] of those joints of glove_state_t that can be observed.
 JointState joint_state(const HandState& hand);

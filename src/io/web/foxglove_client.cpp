@@ -6,6 +6,10 @@
 #include "io/ros/ros_time.h"
 
 namespace barehand {
+
+// The connection to one viewer that speaks Foxglove's WebSocket protocol: answers its requests and sends it the frames'
+// topics as ROS messages.
+
 namespace {
 
 using Json = nlohmann::json;
