@@ -12,9 +12,9 @@
 
 namespace barehand {
 
-/// Steps over the fields of a message type in the order of its .lcm file, which checks every length in it.
-/// decode_message does this before it calls the generated decoder. There is one overload for every type that is
-/// received.
+/// Steps `walker` over the fields of an encoded message, in the order of the .lcm file, and so checks every length in
+/// the message. decode_message() calls this before the generated decoder, which trusts the lengths. One overload per
+/// received type; the pointer only selects it and may be null.
 void walk(WireWalker& walker, const rgbd_frame_t*);
 void walk(WireWalker& walker, const command_t*);
 void walk(WireWalker& walker, const hand_state_t*);

@@ -98,8 +98,9 @@ TrackPhase TrackState::next_while_lost(Kind kind, double dt) {
 }
 
 void TrackState::enter(TrackPhase phase) {
-  // The count of bad frames continues between tracking and holding; the count of good frames and the time since the
-  // loss continue between lost and tentative. When holding begins, the time without data is already being counted.
+  // Keep the count of bad frames when the phase changes between tracking and holding; keep the count of good frames and
+  // the time since the loss when it changes between lost and tentative. Keep the time also on entering holding:
+  // next_while_tracked() has already added the frame without data.
   const bool same_track = tracked(phase) && tracked(phase_), same_loss = lost(phase) && lost(phase_);
   if (!same_track) bad_ = 0;
   if (!same_loss) good_ = 0;

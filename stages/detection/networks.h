@@ -15,15 +15,16 @@ inline constexpr NetworkShape kFullShape{160, 120, 2}, kCropShape{96, 96, 2 * kL
 /// Cell i of a heat map lies at input pixel i * kMapStep + kMapOffset.
 inline constexpr double kMapStep = 4, kMapOffset = 1.5;
 
-/// Views for `full` that together cover the frame: one, unless the camera's angle of view is wider than any in the
-/// training.
+/// Windows of the depth image for `full` that together cover the frame: one, unless the camera's angle of view is wider
+/// than any in the training.
 std::vector<DepthView> frame_views(const Intrinsics& camera);
-/// The view for `crop` around a point in the camera frame [m] with z > 0.
+/// The window of the depth image in which the network `crop` looks for a hand's joints, centred on `centre` (camera
+/// frame [m], z > 0).
 DepthView window_around(const Eigen::Vector3d& centre, const Intrinsics& camera);
 
-/// Makes the input of `full` from the depth image of a view [m].
+/// Makes the input of `full` from the depth image of such a window [m].
 void fill_full(const Image<float>& depth, NetworkInput& input);
-/// Makes the input of `crop` from the depth image of a view [m]. `middle`: depth of the window's centre [m].
+/// Makes the input of `crop` from the depth image of a window [m]. `middle`: depth of the window's centre [m].
 /// `mirrored`: the input is mirrored left to right, which turns a left hand into a right one.
 void fill_crop(const Image<float>& depth, double middle, bool mirrored, NetworkInput& input);
 

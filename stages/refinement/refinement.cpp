@@ -157,8 +157,9 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   for (int i = 0; i < iterations; ++i) {
     const double progress = iterations > 1 ? static_cast<double>(i) / (iterations - 1) : 1;
     weighting.widening = 1 + (params_.first_widening - 1) * (1 - progress);
-    // The last steps avoid the pull along the surface that is wrong near the silhouette (see hand_energy.cpp). A mean
-    // hand's silhouette has larger errors than that, so the full pull is kept.
+    // Towards the last step, unexplained data pulls the model less and less along its surface: near the silhouette such
+    // a pull is wrong even if the model fits (see add_unexplained() in hand_energy.cpp). If the profile was not
+    // measured, the model's silhouette is further off than the error that this avoids, so the full pull is kept.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds affect only fine steps
 

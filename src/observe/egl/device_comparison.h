@@ -32,11 +32,12 @@ class DeviceComparison {
   /// Finds EGL's functions.
   using Loader = std::function<Result<Egl>()>;
 
-  /// `cap` [m] as in patch_distance; `fence_limit`: how long the device may take for one dispatch.
+  /// `cap`: upper limit of a single pixel's distance [m]; infinity: none. `fence_limit`: how long the device may take
+  /// for one dispatch.
   DeviceComparison(float cap, DeviceChoice choice, Loader load, std::chrono::nanoseconds fence_limit)
       : cap_(cap), choice_(choice), load_(std::move(load)), fence_limit_(fence_limit) {}
 
-  /// Error: no such device, or too old (less than OpenGL ES 3.1, five storage buffers).
+  /// Fails if there is no such device, or if it lacks OpenGL ES 3.1 or has fewer than five storage buffers.
   Result<void> open();
   /// Enlarges the buffers for the job where they are too small.
   Result<void> reserve();

@@ -32,7 +32,8 @@ struct DeviceLimits {
 /// before it can draw the next level's samples. After an error the device is not used again.
 class EglObserver final : public DeviceObserver {
  public:
-  /// `cap` [m] as in patch_distance. Error: no such device, or too old (less than OpenGL ES 3.1, five storage buffers).
+  /// `cap`: upper limit of a single pixel's distance [m]; infinity: none. Fails if there is no such device, or if it
+  /// lacks OpenGL ES 3.1 or has fewer than five storage buffers.
   static Result<std::unique_ptr<EglObserver>> open(float cap, DeviceChoice choice,
                                                    const std::string& egl_library = kEglLibrary);
   /// The same with a given loader of EGL's functions and given time limits.

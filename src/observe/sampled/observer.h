@@ -17,16 +17,17 @@ namespace barehand {
 /// Result of comparing one sample's skin with the data (paper Sec. 4.1, 4.2). A skin point's weight is the number of
 /// pixels that it covers.
 struct PatchDistance {
-  float distance = 0;  ///< sum of weight * d_x over the counted points (Eq. 1) [pixel m]
+  float distance = 0;  ///< sum of weight * d_x over the counted points (paper, Eq. 1) [pixel m]
   float counted = 0;   ///< weight of the points that are neither occluded nor without data [pixel]
   float total = 0;     ///< weight of all front-facing points [pixel]
 
-  /// Mean over counted pixels: d hat of Eq. 2 [m]; 0 where nothing is counted.
+  /// Mean over counted pixels: d hat of the paper's Eq. 2 [m]; 0 if nothing is counted.
   double mean() const { return counted > 0 ? distance / counted : 0; }
   double counted_fraction() const { return total > 0 ? counted / total : 0; }
 };
 
-/// All samples of one level and the frame they are compared with.
+/// The sampled poses of all segments at one level of the coarse-to-fine search, and the depth data (`map`) that they
+/// are compared with.
 struct SampleBatch {
   const std::shared_ptr<const HandSurface>& surface;  ///< equal pointers mean the same skin
   const PixelMap& map;
@@ -40,7 +41,7 @@ struct SampleBatch {
 /// Results in the order of the poses; all zero for a segment that was not compared.
 using PatchDistances = std::array<std::vector<PatchDistance>, kSegmentCount>;
 
-/// Compares the samples of a level with the data. For one call at a time, from any thread.
+/// Compares the sampled poses of one search level with the depth data. For one call at a time, from any thread.
 class Observer {
  public:
   virtual ~Observer() = default;
