@@ -64,7 +64,7 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
   std::string what = whom() + " yet" + others;
   if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor lists what is found");
 
-  // Name the known sensors that are plugged in, and what to do if one may not be opened.
+  // Name the known sensors that are plugged in, and what to do if one of them cannot be opened.
   std::string remedy =
       "if OpenNI2 has no driver for it, copy the manufacturer's driver into OpenNI2/Drivers beside libOpenNI2.so.0";
   for (const UsbSensor& sensor : *plugged) {

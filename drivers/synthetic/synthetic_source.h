@@ -13,7 +13,7 @@ namespace barehand::synthetic {
 
 /// A simulated hand, and the truth about it in the frame that was delivered last.
 struct SimulatedHand {
-  HandProfile profile;              ///< measured on the hand
+  HandProfile profile;              ///< profile measured on the simulated hand
   std::optional<TableFrame> truth;  ///< none if the hand is not in view
   HandPose pose;                    ///< T_camera_segment
 };

@@ -12,7 +12,7 @@ struct MemoryUsage {
   std::int64_t resident = 0;
   std::int64_t peak = 0;  ///< largest `resident` since the start or the last reset_peak_memory()
 };
-/// Reads the present memory usage.
+/// Returns this process's current memory usage.
 MemoryUsage memory_usage();
 
 /// Sets the peak to the present resident memory. Returns false if the system does not allow it.

@@ -21,7 +21,7 @@ class TimeHistogram {
  public:
   /// Adds a duration in microseconds; negative ones (the clock was set back) count as 0.
   void add(std::int64_t duration_us);
-  /// Count, mean, percentiles and maximum of what was added so far.
+  /// Count, mean, percentiles and maximum of everything added so far.
   TimeSummary summary() const;
   void clear() { *this = {}; }
 

@@ -14,8 +14,8 @@ namespace barehand {
 
 // The pose of a hand, and a tracker's estimate of it.
 
-/// T_camera_segment of every segment: the paper's 96 numbers (Sec. 3.1). The ends of neighbouring segments need not
-/// meet exactly.
+/// T_camera_segment of every segment: 16 segments with 6 degrees of freedom, the 96 numbers of the paper (Sec. 3.1).
+/// The ends of neighbouring segments need not meet exactly.
 using HandPose = std::array<SE3, kSegmentCount>;
 
 /// A segment counts as correctly located if both of its ends are within this distance of the truth [m]; confidence is

@@ -10,7 +10,7 @@ struct JointJacobians {
   Eigen::Matrix<double, 3, 6> child, parent;
 };
 
-/// How far a joint is outside its limits (Eq. 6): flexion and abduction beyond them, and all twist.
+/// How far a joint is outside its limits (paper, Eq. 6): flexion and abduction beyond them, and all twist.
 struct AngleExcess {
   Eigen::Vector3d angles;  ///< flexion, abduction, twist [rad]
   Eigen::Vector3d counts;  ///< 1 for an angle outside its limits, 0 for one within them
@@ -18,8 +18,9 @@ struct AngleExcess {
 
 /// The state of one joint and its linearisation.
 struct JointLinearisation {
-  Eigen::Vector3d gap;              ///< joint according to the parent minus proximal end, camera frame [m] (Eq. 5)
-  Eigen::Vector3d lever;            ///< joint according to the parent minus the parent's origin, camera frame [m]
+  Eigen::Vector3d gap;    ///< joint position according to the parent minus the segment's own proximal end, camera frame
+                          ///< [m] (paper, Eq. 5)
+  Eigen::Vector3d lever;  ///< joint position according to the parent minus the parent's origin, camera frame [m]
   Eigen::Matrix3d R_camera_joint;   ///< orientation that the segment would have at zero angles
   Eigen::Matrix3d R_joint_segment;  ///< rotation of the joint away from rest
   JointAngles angles;               ///< of R_joint_segment

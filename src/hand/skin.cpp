@@ -257,7 +257,7 @@ Skin coarsened(const Skin& skin, double cell) {
 }
 
 HandSurface surface_points(const Skin& skin, const HandProfile& profile, int points_per_segment) {
-  // The area of a vertex is a third of every triangle around it.
+  // A vertex's area is a third of the summed area of the triangles around it.
   std::vector<Vector3f> posed;
   pose_skin(skin, rest_pose(profile), posed);
   std::vector<float> area(skin.vertices.size(), 0);

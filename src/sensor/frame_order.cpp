@@ -38,7 +38,8 @@ std::string overflow(double step_back) {
 }  // namespace
 
 std::string too_late(double stamp, StampUnit unit) {
-  // A present time [s since the epoch]; plausible times differ by at most this factor (the years 1972 to about 3000).
+  // A typical time of today [s since the epoch]; a plausible time is at most this factor smaller or larger (the years
+  // 1972 to about 3000).
   constexpr double kNow = 1.7e9, kFactor = 20;
   struct Guess {
     const char* name;

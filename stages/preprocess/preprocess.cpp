@@ -12,7 +12,8 @@ constexpr float kSurelySkin = 0.004f;  // cells this near to the predicted skin 
 // Cells farther than this from the predicted skin do not show the hand [m]: no finger can have moved that far
 // unnoticed.
 constexpr float kSurelyOther = 0.045f;
-constexpr float kSurroundings = 0.22f;  // cells farther than this from a hand's centre do not show it [m]
+// Cells of the coarse depth grid farther than this from a hand's centre cannot show that hand [m].
+constexpr float kSurroundings = 0.22f;
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 

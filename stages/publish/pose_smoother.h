@@ -12,8 +12,8 @@ namespace barehand {
 /// closed in the raw pose therefore stay closed, which sixteen filters in the camera frame would not achieve.
 class PoseSmoother {
  public:
-  /// Returns the smoothed pose. The filter starts again after a gap of more than a second, and if the time stamp did
-  /// not change.
+  /// Returns the smoothed pose. The filter restarts, and returns `raw`, after a gap of more than a second or if the
+  /// time stamp has not changed (no speed can be computed then).
   HandPose smooth(const HandPose& raw, std::int64_t utime, const OneEuroParams& params);
   void reset();
 

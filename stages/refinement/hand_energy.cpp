@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-// The terms of the energy that refinement minimises: data, joints and prior.
+// The terms of the energy that the refinement minimises: depth data, joints, and the prior at the predicted pose.
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -103,7 +103,8 @@ class DataTerm {
   float palm_trust_;
 };
 
-/// The skinning weight of the vertex's second segment after hidden segments lost theirs (DataWeighting::hidden).
+/// The vertex's skinning weight for its second segment, after the weights of hidden segments were reduced and both
+/// weights normalised (DataWeighting::hidden).
 float shown_weight_b(const SkinVertex& v, const std::array<double, kSegmentCount>& hidden) {
   const double a = (1 - v.weight_b) * (1 - hidden[v.a]), b = v.weight_b * (1 - hidden[v.b]);
   return a + b > 0 ? static_cast<float>(b / (a + b)) : v.weight_b;
@@ -135,14 +136,14 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree) {
   double total = 0;
   for (int s = 1; s < kSegmentCount; ++s) {
-    // Add the joint gap (Eq. 5).
+    // Add the penalty for the gap at the joint (paper, Eq. 5).
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
     const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
     tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
     total += joint.gap.squaredNorm() / sq(params.sigma_gap);
 
-    // Add angles beyond the limits, and twist (Eq. 6).
+    // Add the penalty for angles beyond their limits and for any twist (paper, Eq. 6).
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / sq(params.sigma_angle_deg * kDegree);
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W_angle);
@@ -154,7 +155,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
 double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
                        const std::array<double, kSegmentCount>& seen, const HandPose& pose, const EnergyParams& params,
                        GaussianTree& tree) {
-  // The palm is pulled to its predicted pose in the camera frame.
+  // Pull the palm to its predicted pose in the camera frame.
   Vector6d information;
   information << Vector3d::Constant(1 / sq(params.prior_translation)),
       Vector3d::Constant(1 / sq(params.prior_rotation_deg * kDegree));
@@ -169,7 +170,7 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
     const double seen_information = 1 / sq(params.prior_rotation_deg * kDegree);
     const double w = seen[s] * seen_information + (1 - seen[s]) * unseen_information;
     const JointLinearisation joint = linearise_joint(profile, pose, s);
-    // The rotation from the predicted joint to the present one.
+    // Compute the rotation from the predicted joint angles to the current ones.
     const JointLinearisation aim = linearise_joint(profile, predicted, s);
     const Vector3d turn = log_so3(joint.R_joint_segment * aim.R_joint_segment.transpose());
     const JointJacobians J = joint.of_turn();

@@ -79,7 +79,8 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
     hold_joint(joint, s, deviation, energy_.sigma_gap, tree);
   }
 
-  // Compute the marginal covariances, and add the uncertainty of the joint's position within the skin.
+  // Compute the marginal covariances, and add, for every segment, the uncertainty of where its joint lies inside the
+  // skin, which the data do not show.
   std::array<Matrix6d, kSegmentCount> covariance;
   if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * sq(kAnywhere));
   for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += sq(factor * params_.joint_deviation);

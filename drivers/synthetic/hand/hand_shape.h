@@ -4,7 +4,8 @@
 
 namespace barehand::synthetic {
 
-/// How a hand's shape differs from that of the mesh: factors on its dimensions.
+/// Shape of a simulated hand: factors on the dimensions of the hand mesh in its file. (Unrelated to
+/// barehand::HandShape.)
 struct HandShape {
   double scale = 1;
   double thickness = 1;

@@ -33,7 +33,7 @@ void ScanReport::add(const HandEstimate& estimate) {
 }
 
 std::vector<std::string> ScanReport::missing() const {
-  // Find what was seen too little.
+  // Find the segments whose palm or back side was seen in too few frames, or that were bent too little.
   std::vector<std::string> palm_sides, back_sides, stiff, sentences;
   for (int s = 0; s < kSegmentCount; ++s) {
     const ScannedSegment& segment = segments_[s];

@@ -121,7 +121,8 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
     fields >> interface >> std::hex >> destination >> gateway;
     for (auto& field : skipped) fields >> field;
     fields >> mask;
-    // The words are little-endian. 239.255.76.67 is LCM's default address; a default route (mask 0) covers it as well.
+    // The addresses in the route file are little-endian words. 239.255.76.67 is LCM's default address; a default route
+    // (mask 0) covers it as well.
     const std::uint32_t lcm_address = 239u | 255u << 8 | 76u << 16 | 67u << 24;
     if (fields && (lcm_address & mask) == destination)
       return {Level::ok, "multicast route", "through " + interface, ""};

@@ -51,7 +51,7 @@ Result<ExperimentPlan> plan_experiment(const std::string& name, const std::vecto
 }
 
 std::vector<ExperimentVariant> ablations(const Config& complete) {
-  // The complete method comes first.
+  // The first variant is the complete method.
   std::vector<ExperimentVariant> variants = {{"complete", complete}};
   const auto variant = [&](const char* label) -> Config& {
     variants.push_back({label, complete});
@@ -59,18 +59,18 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   };
   const auto without = [&](const char* label, auto change) { change(variant(label).tracker); };
 
-  // Without one of the parts that estimate the pose.
+  // Variants that each lack one of the parts that estimate the pose.
   without("no_sampling", [](TrackerParams& p) { p.sampling = false; });
   without("no_refinement", [](TrackerParams& p) { p.refinement.enabled = false; });
   without("no_icp", [](TrackerParams& p) { p.icp.enabled = false; });
   without("no_velocity", [](TrackerParams& p) { p.prediction.velocity = false; });
 
-  // Without one of the parts that treat hidden fingers, contact and the person's hand.
+  // Variants that each lack one of the parts that treat hidden fingers, contact and the person's hand shape.
   without("no_following", [](TrackerParams& p) { p.hidden_follow = false; });
   without("no_contact", [](TrackerParams& p) { p.refinement.energy.sigma_overlap = 10; });
   without("no_scan", [](TrackerParams& p) { p.shape_fit.scans = 0; });
 
-  // Without one of the rules of starts, choice and return.
+  // Variants that each lack one of the rules for starting a track, choosing between poses and finding a lost hand.
   variant("no_detection").detection.enabled = false;
   without("no_doubt", [](TrackerParams& p) { p.choice.doubt = 1000; });
   without("no_uncross", [](TrackerParams& p) { p.choice.uncross = false; });
@@ -81,7 +81,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_side_check", [](TrackerParams& p) { p.side_check = false; });
   without("no_size_check", [](TrackerParams& p) { p.size_check = false; });
 
-  // Without one of the additions to the local trackers.
+  // Variants that each lack one of the additions to the local trackers of the paper (Sec. 4).
   without("cylinder_samples", [](TrackerParams& p) { p.skin = "cylinders"; });
   without("palm_unobserved", [](TrackerParams& p) { p.segment_tracker.observe_palm = false; });
   without("missing_is_background", [](TrackerParams& p) { p.segment_tracker.missing_depth = "background"; });

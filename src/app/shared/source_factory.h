@@ -32,7 +32,7 @@ struct SourceRequest {
 
 /// A hand that a source knows.
 struct SourceHand {
-  std::function<Result<HandProfile>()> load;  ///< reads its profile
+  std::function<Result<HandProfile>()> load;  ///< reads the hand's profile
   std::string name;                           ///< where the profile comes from, for messages
 };
 

@@ -18,7 +18,7 @@ inline Result<Time> time_of(std::int64_t utime) {
 /// Converts ROS time to microseconds since the epoch, rounded down.
 inline std::int64_t utime_of(const Time& time) { return std::int64_t{time.sec} * 1'000'000 + time.nanosec / 1000; }
 
-/// Nanoseconds since the epoch, as MCAP and viewers count; 0 for times before it.
+/// Nanoseconds since the epoch, the unit of MCAP and the viewers; 0 for times before the epoch.
 inline std::uint64_t nanoseconds(const Time& time) {
   return time.sec < 0 ? 0 : static_cast<std::uint64_t>(time.sec) * 1'000'000'000 + time.nanosec;
 }

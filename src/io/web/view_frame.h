@@ -28,7 +28,8 @@ struct ViewFocus {
   int u = 0, v = 0, width = 0, height = 0;  ///< first column and row, and size [px]
   double near = 0, far = 0;                 ///< range of depths [m]
 };
-/// The part around `points` (camera frame [m]) with a margin; none if no point is in front of the camera and in view.
+/// The part of the depth image around `points` (camera frame [m]), with a margin; none if no point is in front of the
+/// camera and in view.
 std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const Intrinsics& camera);
 
 /// Everything that the page may show of one frame. Immutable once shared. Costly parts (point cloud, images) are made

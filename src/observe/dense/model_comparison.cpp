@@ -122,7 +122,7 @@ class Comparer {
     return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
   }
 
-  /// Classifies a cell that shows hand data but no model.
+  /// Adds a correspondence `unexplained` for a cell that shows hand data but no model, unless it is forearm.
   void judge_unexplained(int i, int j, int u, int v) {
     const Vector3f data = data_point(u, v);
     if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // the forearm is not part of the model
