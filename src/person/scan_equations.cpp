@@ -18,8 +18,8 @@ using Eigen::Vector3f;
 // Standard deviations of single residuals. A frame has thousands of them, whose errors are correlated.
 constexpr double kSigmaSkin = 0.00045;         // part of a surface distance that is due to the skin's shape [m]
 constexpr double kSigmaNoise = 2;              // part that is due to the sensor, relative to the sensor's noise
-constexpr double kSigmaGap = 0.00011;          // joint gap (Eq. 5) [m]
-constexpr double kSigmaAngle = 0.6 * kDegree;  // angles beyond the limits, and twist (Eq. 6)
+constexpr double kSigmaGap = 0.00011;          // joint gap (paper, Eq. 5) [m]
+constexpr double kSigmaAngle = 0.6 * kDegree;  // angles beyond the limits, and twist (paper, Eq. 6)
 constexpr double kSigmaTurn = 4.5 * kDegree;   // rotation of a joint in one step, so that a hidden joint stays in place
 
 // Geman-McClure scale of surface distances, composed like their standard deviation.
@@ -152,7 +152,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
                                     const std::array<JointLimits, kSegmentCount>& limits, GaussianTree& tree) {
   const double w_gap = 1 / sq(kSigmaGap);
 
-  // The two points of the joint must meet (Eq. 5).
+  // The two points of the joint must meet (paper, Eq. 5).
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
     const Matrix3d &R_parent = pose[parent_of(s)].R, &R_child = pose[s].R;
@@ -170,8 +170,8 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     sums.parent.leftCols<6>() = w_gap * J_parent.transpose() * J;
     sums.child.leftCols<6>() = w_gap * J_child.transpose() * J;
 
-    // Angles beyond the limits, and twist (Eq. 6). The small information of every rotation keeps a hidden joint in
-    // place.
+    // Angles beyond the limits, and twist (paper, Eq. 6). The small information of every rotation keeps a hidden joint
+    // in place.
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);

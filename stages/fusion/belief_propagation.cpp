@@ -13,7 +13,8 @@ namespace {
 using Log = std::vector<double>;
 constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// Shifts log values so that the best one is 0, where single precision is finest. Constant offsets cancel in Eq. 8.
+/// Shifts log values so that the best one is 0, where single precision is finest. Constant offsets cancel in the
+/// paper's Eq. 8.
 void relative_to_best(const Log& h, std::vector<float>& relative) {
   const double best = *std::max_element(h.begin(), h.end());
   relative.resize(h.size());
@@ -57,7 +58,7 @@ void BeliefPropagation::gather(const Input& input, int node, int without, bool w
   if (with_parent && parent_[node] >= 0) add(evidence, down_[node].log);
 }
 
-/// The message of Eq. 7 from a child to its parent.
+/// The message of the paper's Eq. 7 from a child to its parent.
 void BeliefPropagation::send_up(const Input& input, int node) {
   // Gather the child's evidence without the message from its parent.
   Message& m = up_[node];
@@ -91,7 +92,7 @@ void BeliefPropagation::send_up(const Input& input, int node) {
   for (std::size_t p = 0; p < e.parents; ++p) m.log[p] += std::log(static_cast<double>(sum[p]));
 }
 
-/// The message of Eq. 7 from a parent to its child.
+/// The message of the paper's Eq. 7 from a parent to its child.
 void BeliefPropagation::send_down(const Input& input, int node) {
   // Gather the parent's evidence without the message from this child.
   Message& m = down_[node];
@@ -131,7 +132,7 @@ void BeliefPropagation::run(std::span<const Log> log_phi, std::span<const EdgeEn
   for (std::size_t d = 1; d < layers_.size(); ++d)
     workers.for_each_index(static_cast<int>(layers_[d].size()), [&](int k) { send_down(input, layers_[d][k]); });
 
-  // Combine them to the beliefs (Eq. 8).
+  // Combine them to the beliefs (paper, Eq. 8).
   for (std::size_t i = 0; i < parent_.size(); ++i) {
     gather(input, static_cast<int>(i), -1, true, log_beliefs[i]);
     normalise(log_beliefs[i]);

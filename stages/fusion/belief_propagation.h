@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// -log psi (Eq. 4), >= 0, of all pairs of a child's and its parent's samples.
+/// -log psi (paper, Eq. 4), >= 0, of all pairs of a child's and its parent's samples.
 struct EdgeEnergy {
   std::size_t parents = 0, children = 0;  ///< numbers of samples
   std::vector<float> value;               ///< row-major: one row per child sample, contiguous over parent samples
@@ -19,8 +19,8 @@ struct EdgeEnergy {
 /// best states together form the most likely configuration.
 enum class Marginals { sum, max };
 
-/// Exact belief propagation on a tree (Eq. 7, 8), in the log domain to avoid underflow and overflow. An object keeps
-/// its buffers between calls but no other state.
+/// Exact belief propagation on a tree (paper, Eq. 7, 8), in the log domain to avoid underflow and overflow. An object
+/// keeps its buffers between calls but no other state.
 class BeliefPropagation {
  public:
   /// parent[i] < i is the parent of node i; parent[0] = -1.

@@ -37,7 +37,7 @@ const Proposals& Fusion::first_proposals(const HandPose& predicted, double inter
 }
 
 const HandBelief& Fusion::fuse(const SegmentSamples& samples, int level) {
-  // Compute the energies of all pairs of samples at every joint (Eq. 4).
+  // Compute the energies of all pairs of samples at every joint (paper, Eq. 4).
   const double sigma_prox = geometric(params_.sigma_prox_start, params_.sigma_prox_end, level, params_.levels);
   workers_.for_each_index(kSegmentCount - 1, [&](int i) {
     const int s = i + 1;
@@ -45,7 +45,7 @@ const HandBelief& Fusion::fuse(const SegmentSamples& samples, int level) {
     joint_energy(joints_[s], sigma_prox, frames_[s], samples.poses[s], energy_[s]);
   });
 
-  // Propagate the beliefs over the tree (Eq. 7, 8).
+  // Propagate the beliefs over the tree (paper, Eq. 7, 8).
   const Marginals marginals = params_.marginals == "max" ? Marginals::max : Marginals::sum;
   propagation_.run(samples.log_likelihood, energy_, marginals, workers_, belief_.log_belief);
   return belief_;

@@ -39,7 +39,7 @@ class ParentFrames {
   std::size_t size_ = 0;
 };
 
-/// -log psi (Eq. 4) of all pairs of samples (each a T_camera_segment): the squared distance between the joint's
+/// -log psi (paper, Eq. 4) of all pairs of samples (each a T_camera_segment): the squared distance between the joint's
 /// position in the parent and the child's origin, divided by sigma_prox^2 (Eq. 5), plus the squared angles beyond the
 /// widened limits, divided by their sigma^2 (Eq. 6). Flexion and abduction are wrapped to +-pi about the middle of
 /// their range. `energy` keeps its memory.

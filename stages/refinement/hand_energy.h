@@ -25,7 +25,7 @@ struct EnergyParams {
   double palm_trust = 0.1;
   double sigma_gap = 0.0005;
   double sigma_angle_deg = 2.0;
-  double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (Sec. 4.3)
+  double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (paper, Sec. 4.3)
   double sigma_overlap = 0.001;
   double prior_translation = 0.05;
   double prior_rotation_deg = 30.0;
@@ -79,8 +79,8 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
                       const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);
 
-/// Soft joints (Eq. 4-6) as least squares: the joint gap, flexion and abduction beyond `limits` [rad], and twist. Adds
-/// to `tree`; returns the energy.
+/// Soft joints (paper, Eq. 4-6) as least squares: the joint gap, flexion and abduction beyond `limits` [rad], and
+/// twist. Adds to `tree`; returns the energy.
 double add_joint_terms(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree);
 

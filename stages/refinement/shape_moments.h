@@ -52,8 +52,8 @@ class ShapeMoments {
   std::vector<Vertex> vertices_;
 };
 
-/// Adds the information about bone lengths that follows from closed joints (Eq. 5). `sigma_gap`: standard deviation of
-/// a joint gap [m].
+/// Adds the information about bone lengths that follows from closed joints (paper, Eq. 5). `sigma_gap`: standard
+/// deviation of a joint gap [m].
 void add_joint_shape(const HandProfile& profile, const HandPose& pose, const ShapeBasis& basis, double sigma_gap,
                      ShapeEquations& equations);
 

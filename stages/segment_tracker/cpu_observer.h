@@ -9,7 +9,7 @@ namespace barehand {
 /// Number of samples per parallel task: small enough to balance the load, large enough to outweigh a task's overhead.
 inline constexpr int kSampleChunk = 16;
 
-/// The cap on a single pixel's distance (Eq. 1) [m]; infinity if the distance is uncapped.
+/// The cap on a single pixel's distance (paper, Eq. 1) [m]; infinity if the distance is uncapped.
 float distance_cap(const SegmentTrackerParams& params);
 /// The first segment that is compared with the data.
 inline int first_compared(const SegmentTrackerParams& params) { return params.observe_palm ? kPalm : kPalm + 1; }

@@ -15,9 +15,9 @@ struct SampleKey {
   int levels = 1;  ///< number of levels; not part of the key, but it places `level` in the schedules
 };
 
-/// Draws sample `index` of a segment (Sec. 4.4). Samples are assigned to the kernels in turn. The first sample of each
-/// kernel is its centre; the others are uniform in its box, with translations along and rotations about the segment's
-/// own axes.
+/// Draws sample `index` of a segment (paper, Sec. 4.4). Samples are assigned to the kernels in turn. The first sample
+/// of each kernel is its centre; the others are uniform in its box, with translations along and rotations about the
+/// segment's own axes.
 SE3 draw_sample(const std::vector<Kernel>& kernels, int segment, int index, const SampleKey& key);
 
 }  // namespace barehand

@@ -9,8 +9,8 @@
 namespace barehand {
 namespace {
 
-/// Computes log L of Eq. 3 for all samples of a segment. A sample without evidence gets the mean distance of the
-/// others, so that it is neither penalised nor preferred.
+/// Computes log L of the paper's Eq. 3 for all samples of a segment. A sample without evidence gets the mean distance
+/// of the others, so that it is neither penalised nor preferred.
 void log_likelihood(const std::vector<PatchDistance>& patches, double min_counted, double alpha, double sigma_obs,
                     std::vector<double>& log_l) {
   const auto has_evidence = [&](const PatchDistance& p) {

@@ -18,7 +18,7 @@ namespace barehand {
 struct PreparedObservation {
   PixelMap map;
   std::uint64_t id = 0;                            ///< id of the map, unique within the tracker
-  std::array<double, kSegmentCount> unoccluded{};  ///< alpha of Eq. 3 at the predicted pose
+  std::array<double, kSegmentCount> unoccluded{};  ///< alpha of the paper's Eq. 3 at the predicted pose
 };
 
 /// The 16 local trackers (paper Sec. 4). Each draws samples for its own segment and evaluates them on the data around
@@ -36,9 +36,9 @@ class SegmentTracker {
   /// Prepares a frame; call once per frame.
   const PreparedObservation& prepare(const HandObservation& observation, const HandPose& predicted);
 
-  /// Draws `count` samples per segment from its kernels (at least one each) and computes log L of Eq. 3; call once per
-  /// level. A segment without observation has a flat likelihood: the palm, if so configured, and hidden segments, for
-  /// which alpha is 0.
+  /// Draws `count` samples per segment from its kernels (at least one each) and computes log L of the paper's Eq. 3;
+  /// call once per level. A segment without observation has a flat likelihood: the palm, if so configured, and hidden
+  /// segments, for which alpha is 0.
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key,
                                int count);
   /// The same with S samples per segment (parameter `samples`).

@@ -27,7 +27,7 @@ struct PredictedPatch {
   void predict(const SegmentSurface& skin, const SE3& T_camera_segment, const PixelMap& map, double margin);
 };
 
-/// Finds the pixels where the hand hides its own segments at the predicted pose (Sec. 4.2); the setting
+/// Finds the pixels where the hand hides its own segments at the predicted pose (paper, Sec. 4.2); the setting
 /// `self_occlusion` selects the rule.
 class SelfOcclusion {
  public:

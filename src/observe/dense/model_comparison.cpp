@@ -98,7 +98,7 @@ class Comparer {
     if (hand < 0) return;
 
     // The model should not be visible here. It should move to the nearer of two places: sideways, onto the hand's data
-    // (Eq. 1), or back behind the measured surface, if it is only slightly in front of it.
+    // (paper, Eq. 1), or back behind the measured surface, if it is only slightly in front of it.
     const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
     const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
     if (back < std::min(kStandsOut, distance_aside))
