@@ -6,6 +6,8 @@
 
 namespace barehand::synthetic {
 
+// Delivers the frames of the simulator, as a replay or at the pace of a clock.
+
 Result<std::unique_ptr<SyntheticSource>> SyntheticSource::open(const std::string& text, const Clock& clock) {
   auto spec = parse_synthetic_spec(text);
   if (!spec) return tl::unexpected(spec.error());

@@ -10,6 +10,9 @@
 #include "io/config/config_visitor.h"
 
 namespace barehand::synthetic {
+
+// Parses the text that selects and configures a simulation, such as "fist,noise=kinect,seed=3".
+
 namespace {
 
 template <typename T>

@@ -7,6 +7,8 @@
 
 namespace barehand::synthetic {
 
+// A simulated hand: its mesh, posed by joint angles, as triangles in the camera frame.
+
 Result<AnimatedHand> AnimatedHand::load(Handedness side, const HandShape& shape, const std::string& mesh_folder) {
   const auto path = find_hand_mesh(side, mesh_folder);
   if (!path) return tl::unexpected(path.error());

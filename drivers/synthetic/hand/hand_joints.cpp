@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace barehand::synthetic {
+
+// The names of a rigged hand's joints, and the recognition of the names that WebXR, OpenXR and other files use.
+
 namespace {
 
 constexpr std::array<std::string_view, kJointCount> kNames = {"wrist",

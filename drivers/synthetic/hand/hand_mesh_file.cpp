@@ -4,6 +4,9 @@
 #include <filesystem>
 
 namespace barehand::synthetic {
+
+// Finds the files of the hand meshes, which are fetched separately.
+
 namespace {
 
 std::string environment(const char* name) {

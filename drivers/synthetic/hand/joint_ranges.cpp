@@ -3,6 +3,9 @@
 #include "math/angles.h"
 
 namespace barehand::synthetic {
+
+// The axes and ranges of the simulated hand's joints.
+
 namespace {
 
 constexpr std::array<const char*, kFingerCount> kFingers = {"thumb", "index", "middle", "ring", "little"};

@@ -53,13 +53,13 @@ EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, d
       const double t = -s.point.z() / length;
       if (t < 0 || t > 1) continue;
 
-      // The section at the sample's position along the bone, and the distance from it.
+      // Compute the section at the sample's position along the bone, and the sample's distance from it.
       const Eigen::Vector4d e = (1 - t) * fit.head<4>() + t * fit.tail<4>();
       const double x = (s.point.x() - e[0]) / e[2], y = (s.point.y() - e[1]) / e[3];
       const double slope = std::max(2 * std::hypot(x / e[2], y / e[3]), 1e-6);
       const double residual = (x * x + y * y - 1) / slope;
 
-      // Its derivatives.
+      // Compute the derivatives of this distance.
       Eigen::Vector4d g(-x / e[2], -y / e[3], -x * x / e[2], -y * y / e[3]);
       g *= 2 / slope;
       Eigen::Matrix<double, 8, 1> J;
@@ -68,7 +68,7 @@ EllipticTaper fit_ellipses(const std::vector<SkinSample>& skin, double length, d
       b -= s.area * residual * J;
     }
 
-    // Step.
+    // Take one Gauss-Newton step.
     const Eigen::Matrix<double, 8, 1> step = A.ldlt().solve(b);
     fit += step;
     if (step.norm() < 1e-8) break;

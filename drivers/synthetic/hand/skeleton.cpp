@@ -3,6 +3,9 @@
 #include "math/angles.h"
 
 namespace barehand::synthetic {
+
+// Forward kinematics of the simulated hand, and its named shapes such as the fist.
+
 namespace {
 
 FingerAngles degrees(double abduction, double first, double second, double third) {

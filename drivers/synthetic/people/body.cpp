@@ -5,6 +5,9 @@
 #include "drivers/synthetic/rendering/body_shapes.h"
 
 namespace barehand::synthetic {
+
+// The body of a simulated person: its parts, and their poses at a given time.
+
 namespace {
 
 using Eigen::Vector3d;
@@ -80,7 +83,7 @@ std::vector<SceneObject> Body::objects() const {
   for (const char* name : {"right upper arm", "left upper arm"})
     list.push_back({name, make_limb(arm.upper, arm.shoulder_radius, arm.elbow_radius), {kClothColour}});
 
-  // The forearms follow, in the order of poses().
+  // Add the forearms and the head, in the order of poses().
   const SceneObject forearm{"forearm", make_limb(arm.forearm, arm.elbow_radius, arm.cuff_radius), {kClothColour}};
   list.insert(list.end(), setting_.right_forearm ? 2 : 1, forearm);
   if (!setting_.head) return list;
@@ -110,7 +113,7 @@ Vector3d Body::right_elbow(double time, const Vector3d& right_wrist) const {
 }
 
 std::vector<SE3> Body::poses(double time, const std::optional<Vector3d>& right_wrist) const {
-  // The torso, and both arms towards their wrists.
+  // Pose the torso, and point both arms towards their wrists.
   BodyKey key = at(time);
   const SE3 T_world_body = frame(key);
   if (right_wrist) key.wrists[0] = T_world_body.inverse() * *right_wrist;
@@ -124,7 +127,7 @@ std::vector<SE3> Body::poses(double time, const std::optional<Vector3d>& right_w
   list.insert(list.end(), forearms.begin(), forearms.end());
   if (!setting_.head) return list;
 
-  // The head turns on the neck.
+  // Turn the head on the neck.
   const Vector3d centre = setting_.size.head * Vector3d(0, -0.02, 0.09);
   const SE3 T_world_head = T_world_body * SE3{exp_so3(key.head_turn), kNeck} * SE3{Eigen::Matrix3d::Identity(), centre};
   list.insert(list.end(), kHeadParts, T_world_head);

@@ -54,7 +54,7 @@ bool is_free(const FreeLines& lines, const Eigen::Vector2d& place) {
 
 std::vector<PlacedObject> make_desk(double near_y, double far_y, const std::optional<FreeLines>& free,
                                     KeyedRandom& random) {
-  // The desk, and flat objects above which a hand may work.
+  // Place the desk, and flat objects above which a hand may work.
   const double half_depth = 0.5 * (far_y - near_y), middle = 0.5 * (near_y + far_y);
   std::vector<PlacedObject> list;
   list.push_back({make_slab("desk", {random.uniform(0.6, 0.9), half_depth, 0.5 * kThickness}, {148, 120, 92}),
@@ -67,7 +67,7 @@ std::vector<PlacedObject> make_desk(double near_y, double far_y, const std::opti
   list.push_back({make_slab("book", {0.075, 0.11, page_height}, {170, 40, 60}),
                   standing_at({random.uniform(-0.35, 0.35), middle, page_height}, random.uniform(-1.5, 1.5))});
 
-  // Tall objects, which must neither touch the arm nor hide the hand.
+  // Place tall objects, which must neither touch the arm nor hide the hand.
   for (int i = 0; i < kTallThings; ++i) {
     auto [object, height] = make_tall_thing(random);
     const Eigen::Vector2d place(random.uniform(-0.45, 0.45), random.uniform(near_y + 0.05, far_y - 0.05));

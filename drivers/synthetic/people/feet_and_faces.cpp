@@ -39,13 +39,13 @@ TriangleMesh make_sole(const Foot& foot) {
 /// Adds a foot, its toes if it is bare, and its leg, which leans back by `leg_lean` [rad].
 void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_world_foot, bool left,
               double leg_lean) {
-  // The loft's z axis becomes -y, and its y axis -z.
+  // Add the sole; the loft's z axis becomes -y of the foot, and its y axis -z.
   Eigen::Matrix3d R_lying;
   R_lying << -1, 0, 0, 0, 0, -1, 0, -1, 0;
   const Rgb colour = foot.bare ? kSkinColour : Rgb{48, 44, 44};
   things.push_back({{"foot", make_sole(foot), {colour}}, T_world_foot * SE3{R_lying, Vector3d::Zero()}});
 
-  // Toes from the large one inside to the small one outside.
+  // Add the toes, from the large one on the inner side to the small one on the outer side.
   const double inside = left ? -1 : 1;
   for (int i = 0; foot.bare && i < 5; ++i) {
     const double radius = i == 0 ? 0.0125 : 0.0085 - 0.0006 * i,
@@ -56,7 +56,7 @@ void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_
         {{"toe", make_limb((tip - root).norm(), radius, radius), {colour}}, T_world_foot * limb_between(root, tip)});
   }
 
-  // The leg.
+  // Add the leg.
   const Vector3d knee(0, 0.42 * std::sin(leg_lean), 0.42 * std::cos(leg_lean));
   things.push_back({{"leg", make_limb(0.42, 0.038, 0.058), {foot.bare ? kSkinColour : kClothColour}},
                     T_world_foot * limb_between(Vector3d::Zero(), knee)});
@@ -65,14 +65,14 @@ void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_
 }  // namespace
 
 std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
-  // The camera sees the feet from above, as people see their own, or from the front.
+  // Let the camera see the feet from above, as people see their own, or from the front.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(15, 80) * kDegree, random.uniform(0.5, 1.05));
   s.things.push_back(make_floor(0));
   s.things.push_back(make_wall(random.uniform(0.8, 2)));
 
-  // Both feet stand, or lie with the soles towards the camera.
+  // Let both feet stand, or lie with the soles towards the camera.
   Foot foot{random.uniform(0.23, 0.29), random.uniform() < 0.6};
   const double heading = random.uniform() < 0.5 ? random.uniform(-0.6, 0.6) : random.uniform(-3.1, 3.1);
   const bool lying = random.uniform() < 0.3;

@@ -12,8 +12,8 @@
 
 namespace barehand::synthetic {
 
-// Simulated scenes with people, built from a seed: with a moving hand (a person who faces the camera, desk work) and
-// without any hand (a person who hides the hands, empty desks, faces, feet).
+// Simulated scenes of a person or a desk, built from a seed: with a moving hand (a person who faces the camera, desk
+// work) and without any hand (a person who hides the hands, an empty desk).
 
 namespace {
 
@@ -52,7 +52,7 @@ struct HandSetting {
 /// Adds a hand that moves about `centre`, and the body that it belongs to.
 void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_world_body, const Vector3d& centre,
                 const HandSetting& hand, bool head, KeyedRandom& random) {
-  // The body, which sways a little.
+  // Add the body, which sways a little.
   Body::Setting body{size, T_world_body, {}, head, false};
   const Vector3d left_wrist = wrist_at_rest(size, random);
   for (double time = 0; time <= kDuration; time += 2)
@@ -74,21 +74,21 @@ void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_w
 }  // namespace
 
 std::unique_ptr<Sequence> make_person(std::uint64_t seed) {
-  // The camera, which faces the hand, and a wall.
+  // Place the camera, which faces the hand, and a wall.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = setting(seed);
   const double distance = random.uniform(0.5, 0.85), range = 0.11 * distance;
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, distance);
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
 
-  // The body, behind the hand at the distance of a bent arm.
+  // Place the body behind the hand, at the distance of a bent arm.
   const BodySize size = random_body(random);
   const Vector3d centre = random_within({0.12 * distance, 0, 0.05 * distance}, random);
   const Vector3d to_shoulder(random.uniform(-0.4, 0.4), random.uniform(0.6, 1), random.uniform(-0.1, 0.6));
   const Vector3d shoulder = centre + random.uniform(0.6, 0.9) * size.arm.reach() * to_shoulder.normalized();
   const SE3 T_world_body = standing(size, shoulder, random.uniform(-0.4, 0.4));
 
-  // Four of five hands show the palm, the others the back.
+  // Add the hand: four of five hands show the palm, the others the back.
   const Vector3d palm = random.uniform() < 0.8 ? Vector3d(0, -1, 0) : Vector3d(0, 1, 0);
   add_person(s, size, T_world_body, centre, {Vector3d::UnitZ(), palm, 0.5, {range, range, 0.6 * range}}, true, random);
   return std::make_unique<StagedSequence>(std::move(s));
@@ -99,14 +99,14 @@ std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
   StagedSequence::Setting s = setting(seed);
   s.T_camera_world = camera_above_table(random.uniform(30, 65) * kDegree, random.uniform(0.65, 0.85), 0.1);
 
-  // The body, on the far side of the desk.
+  // Place the body on the far side of the desk.
   const BodySize size = random_body(random);
   const Vector3d centre(random.uniform(-0.08, 0.08), random.uniform(-0.05, 0.05), random.uniform(0.1, 0.16));
   const Vector3d shoulder =
       centre + Vector3d(random.uniform(-0.15, 0.1), random.uniform(0.32, 0.4), random.uniform(0.2, 0.28));
   const SE3 T_world_body = standing(size, shoulder, random.uniform(-0.3, 0.3));
 
-  // The desk, between the body and the camera.
+  // Place the desk between the body and the camera.
   s.things = make_desk(-0.45, T_world_body.t.y() - size.depth - 0.04,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
   s.things.push_back(make_floor(kFloor));
@@ -122,7 +122,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   s.T_camera_world = camera_above_table(random.uniform(35, 60) * kDegree, random.uniform(0.55, 0.7), 0.06);
   const Vector3d eyes = s.T_camera_world.inverse().t;
 
-  // The body, below the eyes, leans forward until the hand is within reach.
+  // Place the body below the eyes, leaning forward until the hand is within reach.
   const BodySize size = random_body(random);
   const Vector3d centre(random.uniform(-0.06, 0.1), random.uniform(-0.04, 0.06), random.uniform(0.09, 0.15));
   Vector3d shoulder = eyes + Vector3d(size.shoulder, -0.03, -random.uniform(0.22, 0.28));
@@ -130,7 +130,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   shoulder += std::max(0.0, beyond.norm() - 0.92 * size.arm.reach()) * beyond.normalized();
   const SE3 T_world_body = standing(size, shoulder, std::numbers::pi);
 
-  // The desk, before the body.
+  // Place the desk in front of the body.
   s.things = make_desk(T_world_body.t.y() + size.depth + 0.04, 0.55,
                        FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
   s.things.push_back(make_floor(kFloor));
@@ -146,7 +146,7 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, random.uniform(0.6, 1.1));
   s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
 
-  // Each arm is visible and ends in a sleeve, or it rests.
+  // Let each arm either be visible and end in a sleeve, or rest out of sight.
   Body::Setting body{random_body(random), {}, {}, true, true};
   const bool shown[] = {random.uniform() < 0.6, random.uniform() < 0.6};
   const Vector3d rest = wrist_at_rest(body.size, random);
@@ -164,7 +164,7 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
     body.keys.push_back(key);
   }
 
-  // The body stands before the camera, turned a little.
+  // Place the body in front of the camera, turned a little.
   body.T_world_body = {exp_so3({0, 0, random.uniform(-0.5, 0.5)}),
                        {random.uniform(-0.1, 0.1), random.uniform(0.2, 0.5), random.uniform(0, 0.2)}};
   s.bodies.emplace_back(std::move(body));

@@ -3,6 +3,9 @@
 #include <utility>
 
 namespace barehand::synthetic {
+
+// Plays a scene with a moving camera, objects that stand still, moving bodies and, optionally, one hand.
+
 namespace {
 
 SmoothTrack make_track(const std::vector<CameraKey>& keys) {
@@ -32,12 +35,12 @@ SE3 StagedSequence::world_in_camera(double time) const {
 }
 
 SceneState StagedSequence::at(double time) const {
-  // The objects that stand still.
+  // Place the objects that stand still.
   const SE3 T_camera = world_in_camera(time);
   SceneState state;
   for (const PlacedObject& thing : setting_.things) state.T_camera_object.push_back(T_camera * thing.T_world_object);
 
-  // The hand, and the elbow of its arm.
+  // Pose the hand, and find the elbow of its arm.
   std::optional<Eigen::Vector3d> wrist;
   if (hand_) {
     HandState hand{with_tremor(hand_->at(time), time, setting_.seed), {}};
@@ -47,7 +50,7 @@ SceneState StagedSequence::at(double time) const {
     state.hands.push_back(hand);
   }
 
-  // The bodies; the hand belongs to the first one.
+  // Pose the bodies; the hand belongs to the first one.
   for (const Body& body : setting_.bodies) {
     for (const SE3& T_world_object : body.poses(time, wrist))
       state.T_camera_object.push_back(T_camera * T_world_object);

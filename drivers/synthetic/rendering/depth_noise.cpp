@@ -96,7 +96,7 @@ Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& vi
   const Patches patches(view.depth.width(), view.depth.height(), seed, frame);
   std::vector<bool> lit;
 
-  // Row by row; pixels in the projector's shadow have no depth.
+  // Process the image row by row; pixels in the projector's shadow have no depth.
   for (int v = 0; v < view.depth.height(); ++v) {
     lit_by_projector(camera, noise.baseline, view.depth.row(v), lit);
     for (int u = 0; u < view.depth.width(); ++u) {

@@ -6,6 +6,9 @@
 #include "drivers/synthetic/rendering/scan_convert.h"
 
 namespace barehand::synthetic {
+
+// Draws triangles into a z-buffer, and counts the pixels that classes of triangles cover.
+
 namespace {
 
 std::array<Eigen::Vector3d, 3> corners_of(std::span<const Eigen::Vector3f> vertices, const Triangle& t) {

@@ -4,6 +4,8 @@
 
 namespace barehand::synthetic {
 
+// Collects the triangles of all objects of a scene in the camera frame.
+
 void SceneGeometry::add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index) {
   const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const Eigen::Vector3f t = T_camera_mesh.t.cast<float>();

@@ -107,12 +107,12 @@ TriangleMesh make_tube(std::span<const Vector3d> path, std::span<const double> r
 }
 
 TriangleMesh make_mug(const MugSize& size) {
-  // The body.
+  // Make the body.
   const double r = size.radius, h = size.height / 2, w = size.wall;
   const Eigen::Vector2d outline[] = {{1e-6, -h}, {r, -h}, {r, h}, {r - w, h}, {r - w, -h + w}, {1e-6, -h + w}};
   TriangleMesh mug = make_turned(outline);
 
-  // The handle.
+  // Make the handle.
   std::vector<Vector3d> path;
   for (int i = 0; i <= 24; ++i) {
     const double a = std::numbers::pi * (i / 24.0 - 0.5);
@@ -126,7 +126,7 @@ TriangleMesh make_pliers(const PliersSize& size) {
   TriangleMesh pliers;
   const double pivot = -0.3 * size.length, front = -0.55 * size.length, back = 0.45 * size.length;
   for (const double side : {-1.0, 1.0}) {
-    // One handle, from the pivot to its end.
+    // Make one handle, from the pivot to its end.
     std::vector<Vector3d> path;
     std::vector<double> radii;
     for (int i = 0; i <= 20; ++i) {
@@ -136,7 +136,7 @@ TriangleMesh make_pliers(const PliersSize& size) {
     }
     pliers.append(make_tube(path, radii));
 
-    // One jaw, which becomes thinner towards the front.
+    // Make one jaw, which becomes thinner towards the front.
     TriangleMesh jaw = make_box({(pivot - front) / 2, 0.004, 0.006});
     for (auto& v : jaw.vertices) {
       const float t = v.x() / static_cast<float>(pivot - front) + 0.5f;
@@ -145,7 +145,7 @@ TriangleMesh make_pliers(const PliersSize& size) {
     pliers.append(jaw);
   }
 
-  // The rivet.
+  // Make the rivet.
   const Eigen::Vector2d disc[] = {{1e-6, -0.008}, {0.012, -0.008}, {0.012, 0.008}, {1e-6, 0.008}};
   TriangleMesh rivet = make_turned(disc);
   for (auto& v : rivet.vertices) v.x() += static_cast<float>(pivot);

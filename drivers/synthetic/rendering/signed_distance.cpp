@@ -5,6 +5,8 @@
 
 namespace barehand::synthetic {
 
+// Signed distances of simple solids, with which the grasp planner finds contacts.
+
 using Eigen::Vector3d;
 
 SignedDistance sphere_distance(double radius) {

@@ -7,6 +7,8 @@
 
 namespace barehand::synthetic {
 
+// What several simulated scenes share: the camera above a table, the table, and a hand that moves in the air.
+
 SE3 camera_above_table(double tilt, double distance, double height) {
   SE3 T;
   T.R.col(0) = Eigen::Vector3d::UnitX();

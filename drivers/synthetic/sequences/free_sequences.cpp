@@ -73,7 +73,7 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
   const HandAngles hook = with_fingers(0.05, 1.5, 0.95), table_top = with_fingers(1.25, 0.1, 0.05),
                    straight_fist = with_fingers(1.25, 1.5, 0.05);
 
-  // Helpers that append keys.
+  // Define functions that append keyframes.
   std::vector<HandKey> keys;
   double time = 0;
   const auto show = [&](double seconds, const Vector3d& turn, const HandAngles& angles) {
@@ -81,7 +81,7 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
     time += 0.8 * seconds;
   };
   const auto bend_all = [&](const Vector3d& side) {
-    // The thumb bends while the fingers are out of its way.
+    // Bend the thumb while the fingers are out of its way.
     show(0.7, side, with_thumb(open, {0.5, {-0.25, 0, 0}}));
     show(0.7, side + Vector3d(0, 0.4, 0), with_thumb(open, {0.5, {0.5, 0, 0}}));
     show(0.7, side, with_thumb(open, {-0.3, {0.5, 0.1, 0.1}}));
@@ -90,7 +90,7 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
     show(0.8, side + Vector3d(0, -0.5, 0), with_thumb(open, {0.15, {0, 0.85, 1.2}}));
     show(0.8, side + Vector3d(0, 0.5, 0), with_thumb(open, {0.15, {0.1, 0.85, 0}}));
 
-    // The fingers: hook, table top, straight fist and full fist.
+    // Bend the fingers: hook, table top, straight fist and full fist.
     show(1.0, side, open);
     show(0.8, side + Vector3d(0, 0.5, 0), hook);
     show(1.0, side + Vector3d(0, -0.5, 0), hook);

@@ -50,7 +50,7 @@ HandAngles closed_shape(double thumb_abduction) {
 
 /// Grasp of a vertical cylinder: the mug's axis lies across the palm, and the thumb is on top.
 GraspPlan plan_mug() {
-  // The orientation of the palm.
+  // Choose the orientation of the palm.
   const MugSize size;
   GraspPlan plan;
   const double heading = 128 * kDegree;  // direction of the fingers on the table
@@ -62,7 +62,7 @@ GraspPlan plan_mug() {
   const Vector3d handle = (0.86 * -y_palm - 0.5 * fingers).normalized();
   const Eigen::Matrix3d R_world_thing = axes(handle, up.cross(handle));
 
-  // The objects of the scene, and the shapes of the hand.
+  // Place the mug, and choose the shapes of the hand before and after the grasp.
   plan.objects = {{"mug", make_mug(size), {{182, 48, 40}, 0.6}}};
   plan.distance = cylinder_distance(size.radius, size.height / 2);
   plan.T_world_thing = {R_world_thing, {0.02, 0.03, size.height / 2}};
@@ -75,7 +75,7 @@ GraspPlan plan_mug() {
 
 /// Power grasp of a 65 mm ball on a post, from above and from the side.
 GraspPlan plan_ball() {
-  // The orientation of the palm.
+  // Choose the orientation of the palm.
   constexpr double kRadius = 0.0325, kPost = 0.07;
   GraspPlan plan;
   const Vector3d fingers = Vector3d(-0.82, 0.12, -0.42).normalized();
@@ -83,13 +83,13 @@ GraspPlan plan_ball() {
   const Vector3d x_palm = (across - across.dot(fingers) * fingers).normalized();
   const Eigen::Matrix3d R_world_palm = axes(x_palm, (-fingers).cross(x_palm));
 
-  // The objects of the scene.
+  // Make the grasped object and what it rests on, and place them.
   const Eigen::Vector2d outline[] = {{1e-6, 0}, {0.022, 0}, {0.022, 0.004}, {0.007, 0.006}, {0.005, kPost}};
   plan.objects = {{"ball", make_sphere(kRadius), {{176, 190, 38}}}, {"post", make_turned(outline), {{52, 52, 58}}}};
   plan.T_world_thing = {Eigen::Matrix3d::Identity(), {0, 0.02, kPost + kRadius - 0.001}};
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {0, 0.02, 0}}};
 
-  // The start of the grasp, and the shapes of the hand.
+  // Choose where the search for the contact starts, and the shapes of the hand.
   plan.distance = sphere_distance(kRadius);
   plan.T_palm_thing = {R_world_palm.transpose(), {-0.010, -0.10, -0.090}};
   plan.towards_palm_out = -Vector3d::UnitY();
@@ -100,7 +100,7 @@ GraspPlan plan_ball() {
 
 /// Grasp of pliers that lie in a rack with one handle above the other; the hand closes around both handles.
 GraspPlan plan_pliers() {
-  // The orientation of the palm.
+  // Choose the orientation of the palm.
   const PliersSize size;
   constexpr double kHeight = 0.11;
   GraspPlan plan;
@@ -109,19 +109,19 @@ GraspPlan plan_pliers() {
   const Vector3d x_palm = (across - across.dot(fingers) * fingers).normalized();
   const Eigen::Matrix3d R_world_palm = axes(x_palm, (-fingers).cross(x_palm));
 
-  // The handles as tubes, for the distance.
+  // Approximate the handles by tubes, which have a simple signed distance.
   std::vector<Vector3d> upper = {{-0.3 * size.length, 0, 0}, {0.0, 0.0125, 0}, {0.4 * size.length, 0.0145, 0}};
   std::vector<Vector3d> lower = upper;
   for (Vector3d& p : lower) p.y() = -p.y();
 
-  // The objects of the scene.
+  // Make the grasped object and what it rests on, and place them.
   plan.objects = {{"pliers", make_pliers(size), {{196, 60, 32}, 0.3}},
                   {"rack", make_box({0.012, 0.02, 0.045}), {{92, 74, 56}}}};
   plan.T_world_thing = {R_world_palm, {0.0, 0.03, kHeight}};
   const Vector3d jaws = plan.T_world_thing * Vector3d(-0.45 * size.length, 0, 0);
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {jaws.x(), jaws.y(), 0.045}}};
 
-  // The start of the grasp, and the shapes of the hand.
+  // Choose where the search for the contact starts, and the shapes of the hand.
   plan.distance = union_of({tube_distance(upper, size.handle_radius), tube_distance(lower, size.handle_radius)});
   plan.T_palm_thing = {Eigen::Matrix3d::Identity(), {0.006, -0.08, -0.082}};
   plan.towards_palm_out = -Vector3d::UnitY();
@@ -135,7 +135,7 @@ GraspPlan plan_for(GraspedThing thing) {
   return thing == GraspedThing::ball ? plan_ball() : plan_pliers();
 }
 
-/// The sequence: reach, grasp, lift, turn, lower, release, withdraw. Times in seconds.
+/// A hand that reaches for an object, grasps, lifts, turns, lowers and releases it, and withdraws. Times in seconds.
 class GraspSequence : public Sequence {
  public:
   GraspSequence(const HandRig& rig, GraspPlan plan, std::uint64_t seed)
@@ -156,19 +156,19 @@ class GraspSequence : public Sequence {
   const std::vector<SceneObject>& objects() const override { return objects_; }
 
   SceneState at(double time) const override {
-    // The palm moves along its track.
+    // Move the palm along its track.
     HandState hand{track_->at(time)};
     const SE3 T_world_palm = hand.skeleton.T_camera_palm;  // the track is given in the world frame
     hand.skeleton.T_camera_palm = T_camera_world_ * T_world_palm;
 
-    // The object moves with the palm while it is held.
+    // Move the object with the palm while it is held.
     SceneState state;
     const bool in_hand = time > kGrasped && time < kReleasing;
     state.T_camera_object.push_back(T_camera_world_ * (in_hand ? T_world_palm * T_palm_thing_ : T_world_thing_));
     for (const SE3& T : T_world_stand_) state.T_camera_object.push_back(T_camera_world_ * T);
     state.T_camera_object.push_back(T_camera_world_);  // the table
 
-    // The elbow moves 0.8 times as far as the wrist.
+    // Move the elbow 0.8 times as far as the wrist.
     const Vector3d elbow_at_grasp = T_world_grasp_ * Vector3d(0, 0.03, 0.38);
     hand.elbow = T_camera_world_ * Vector3d(elbow_at_grasp + 0.8 * (T_world_palm.t - T_world_grasp_.t));
     state.hands = {hand};
@@ -186,7 +186,7 @@ class GraspSequence : public Sequence {
       return Vector3d(random.uniform(-size, size), random.uniform(-size, size), 0);
     };
 
-    // Positions and orientations on the way, relative to the grasp.
+    // Choose positions and orientations on the way, relative to the grasp.
     const Vector3d grasp = T_world_grasp_.t, outwards = T_world_grasp_.R.col(1), back = T_world_grasp_.R.col(2);
     const Vector3d before = grasp + 0.055 * outwards + 0.035 * back;
     const Vector3d start = grasp + 0.08 * outwards + 0.07 * back + Vector3d(0.04, -0.02, 0.0) + vary(0.01);
@@ -194,7 +194,7 @@ class GraspSequence : public Sequence {
     const Vector3d none = Vector3d::Zero(), turn_a(0.15 + random.uniform(-0.08, 0.08), 0.2, 0.25),
                    turn_b(-0.2, -0.15 + random.uniform(-0.08, 0.08), -0.2);
 
-    // The keyframes.
+    // List the keyframes: time, position of the wrist, rotation, shape of the hand.
     return {{0.0, start, none, open_relaxed()}, {0.5, start, none, open_relaxed()},
             {1.5, before, none, open},          {2.1, grasp, none, open},
             {kGrasped, grasp, none, held_},     {2.9, grasp, none, held_},

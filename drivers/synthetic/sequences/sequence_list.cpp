@@ -19,12 +19,12 @@ std::vector<SequenceInfo> make_list() {
                     "fingers spread and rejoin, " + std::to_string(degree) + "/6 of them behind a plate (Fig. 6b, c)",
                     45, 25});
 
-  // The grasps.
+  // Add the grasps.
   list.push_back({"grasp_mug", "reaches for a mug, lifts, turns, lowers and releases it", 200, 30});
   list.push_back({"grasp_ball", "the same with a 65 mm ball", 200, 30});
   list.push_back({"grasp_pliers", "the same with pliers", 200, 30});
 
-  // Free motion.
+  // Add the motions of hands in the air.
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
   list.push_back({"returns", "a hand leaves the view again and again and comes back elsewhere", 1125, 30});
   list.push_back({"open", "an open hand turns slowly", 180, 30});
@@ -32,7 +32,7 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"two_hands", "a right and a left hand pass each other, meet as fists, leave and come back", 408, 30,
                   ShownHands::both});
 
-  // Scenes with people, and what else is seen around them.
+  // Add the scenes with people, and those without any hand.
   list.push_back({"person", "a person before the camera, one of whose hands moves and bends", 180, 30});
   list.push_back({"desk", "a hand works above a desk with clutter; its owner sits at the far side", 180, 30});
   list.push_back({"egocentric", "the same as its owner sees it, from the eyes", 180, 30});
