@@ -28,7 +28,7 @@ inline constexpr double kConfidenceRadius = 0.010;
 /// initial poses.
 enum class TrackStatus { searching = 0, tracking = 1, holding = 2, lost = 3 };
 
-/// NaN, for a velocity that is not known: it needs two poses of one track that are not too far apart in time.
+/// A velocity of NaN, which means "not known": a velocity needs two poses of one track that are close in time.
 inline Vector6d unknown_velocity() { return Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
 /// The estimate of one segment in one frame. Camera frame, metres, radians.

@@ -10,8 +10,8 @@
 
 namespace barehand {
 
-/// The shape of a person's hand relative to a mean hand: logarithms of size factors, shifts of the flesh relative to
-/// the thickness, and shifts of the knuckles [m]. Zero is the mean hand.
+/// The shape of a person's hand relative to the mean hand, the average of many people: logarithms of size factors,
+/// shifts of the flesh relative to the thickness, and shifts of the knuckles [m]. Zero is the mean hand.
 inline constexpr int kShapeCount = 51;
 using HandShape = Eigen::Matrix<double, kShapeCount, 1>;
 
@@ -34,7 +34,7 @@ struct ShapeBasis {
   std::array<Eigen::Matrix<double, 3, kShapeCount>, kSegmentCount> joint;
   std::vector<Eigen::Vector3f> normal_in_b;  ///< of every skin vertex, in the frame of its second segment
 };
-/// The derivative at `shape`; `skin` must be the skin of reshaped(mean, shape).
+/// The first-order change at `shape`; `skin` must be the skin of reshaped(mean, shape).
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin);
 /// The skin after the small change `change` of the shape, to first order: much faster than rebuilding it.
 Skin morphed(const Skin& skin, const ShapeBasis& basis, const HandShape& change);

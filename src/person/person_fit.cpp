@@ -5,7 +5,8 @@ namespace barehand {
 PersonFit::PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandProfile> mean)
     : params_(params), mean_(mean), profile_(std::move(mean)), fit_(params), next_skin_(params.first_rebuild) {}
 
-// The first looks contribute most. Later ones only follow slow changes, so they are less frequent.
+// Counts a frame, and returns whether it should contribute to the person's hand shape. The first contributions change
+// the shape most; later ones only follow slow changes, so they are less frequent.
 bool PersonFit::due() {
   const int every = fit_.looks() < params_.eager_looks ? params_.every : params_.every_later;
   return frames_++ % every == 0;

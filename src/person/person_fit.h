@@ -9,8 +9,8 @@
 
 namespace barehand {
 
-/// Adapts a mean hand to the person in view. It evaluates frames that the tracked hand fits well and returns how that
-/// hand should change.
+/// Adapts a mean hand (the average of many people) to the tracked person. It evaluates frames that the tracked hand
+/// fits well, and returns how the tracked hand should change.
 class PersonFit {
  public:
   /// `mean`: the mean hand that is to be adapted.
@@ -40,7 +40,7 @@ class PersonFit {
   HandShape shape_ = HandShape::Zero(), made_shape_ = HandShape::Zero();  // the current shape, and that of made_skin_
   std::optional<ShapeBasis> basis_;                                       // belongs to made_skin_
   ShapeEquations equations_;
-  int frames_ = 0, next_skin_;  // next_skin_: number of looks at which the skin is rebuilt next
+  int frames_ = 0, next_skin_;  // next_skin_: number of contributing frames at which the skin is rebuilt next
 };
 
 }  // namespace barehand

@@ -52,12 +52,12 @@ class BatchFit {
   std::unique_ptr<Refinement> refinement_;
 };
 
-/// The work of one scan: fits a mean hand to the frames, refines their poses and scans the skin. Returns null if it was
-/// stopped or the frames do not yield a hand.
+/// Runs one scan: adapts the hand to the frames if it is a mean hand, refines the poses, and scans the skin. Returns
+/// null if it was stopped or the frames do not yield a hand.
 std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::shared_ptr<const HandProfile> given,
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
-  // Only a mean hand needs to be fitted first.
+  // Fit the bones and the joints first if the given profile is a mean hand (the average of many people).
   BatchFit fit(params, given);
   const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
   for (int pass = 0; pass < passes; ++pass)

@@ -170,8 +170,8 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     sums.parent.leftCols<6>() = w_gap * J_parent.transpose() * J;
     sums.child.leftCols<6>() = w_gap * J_child.transpose() * J;
 
-    // Angles beyond the limits, and twist (paper, Eq. 6). The small information of every rotation keeps a hidden joint
-    // in place.
+    // Add the penalty for angles beyond the limits and for any twist (paper, Eq. 6). The small information of every
+    // rotation keeps a hidden joint in place.
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);

@@ -30,7 +30,7 @@ struct ScanEquations {
   std::vector<Eigen::Triplet<double>> H;  ///< lower triangle; entries at the same place add up
   /// J of terms that involve many unknowns; J^T J is part of the matrix, too
   std::vector<Eigen::Triplet<double>> means;
-  int mean_rows = 0;  ///< of J
+  int mean_rows = 0;  ///< number of rows of J
   Eigen::VectorXd g;
 
   /// Removes all terms; `count`: number of unknowns.

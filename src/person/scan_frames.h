@@ -19,7 +19,7 @@ class ScanFrames {
   bool wants();
   /// Keeps a frame; if there are too many, every other one is dropped.
   void keep(HandObservationPtr observation, const HandPose& pose);
-  /// Counts the frame and keeps it if it should be. Frames in which the hand is not tracked are ignored.
+  /// Counts the frame, and keeps it if wants() says so. Frames in which the hand is not tracked are ignored.
   void add(const HandObservationPtr& observation, const HandEstimate& estimate);
   const std::vector<ScanFrame>& frames() const { return frames_; }
   int tracked() const { return tracked_; }

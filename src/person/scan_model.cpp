@@ -91,7 +91,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
   const HandPose& bind = hand.pose();  // in this pose both segments carry a vertex to the same place
   ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}, {}};
 
-  // Every vertex gets a second segment.
+  // Give every vertex a second segment.
   for (SkinVertex& v : model.skin.vertices) {
     if (v.a == v.b) {
       v.b = static_cast<std::int16_t>(partner(hand, profile, v));

@@ -9,8 +9,8 @@ namespace barehand {
 // ShapeFit: a running Gaussian estimate of the person's hand shape. ShapeFitParams also holds the settings of PersonFit
 // and PersonScan, which rebuild and scan the skin.
 
-/// When and how strongly frames contribute to the shape of a person's hand while it is tracked. A "look" is one frame
-/// that contributes.
+/// When and how strongly frames contribute to the shape of a person's hand while it is tracked. Each contribution of a
+/// frame is called a "look".
 struct ShapeFitParams {
   bool enabled = true;
   int every = 1, every_later = 8;

@@ -132,7 +132,7 @@ void BeliefPropagation::run(std::span<const Log> log_phi, std::span<const EdgeEn
   for (std::size_t d = 1; d < layers_.size(); ++d)
     workers.for_each_index(static_cast<int>(layers_[d].size()), [&](int k) { send_down(input, layers_[d][k]); });
 
-  // Combine them to the beliefs (paper, Eq. 8).
+  // Combine the messages into the beliefs (paper, Eq. 8).
   for (std::size_t i = 0; i < parent_.size(); ++i) {
     gather(input, static_cast<int>(i), -1, true, log_beliefs[i]);
     normalise(log_beliefs[i]);

@@ -8,6 +8,10 @@
 #include "math/schedule.h"
 
 namespace barehand {
+
+// Combines the samples of all segments by belief propagation, places the boxes in which the next search level draws,
+// and reads the pose from the last level.
+
 namespace {
 
 constexpr std::array<int, kSegmentCount> kParents = [] {
@@ -70,7 +74,7 @@ const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const Han
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {
   FusedPose fused;
 
-  // The pose: the mean of the best mode, or the best sample.
+  // Read each segment's pose: the mean of the samples around the best one, or the best sample alone.
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& poses = samples.poses[s];
     const auto& log_belief = belief.log_belief[s];
@@ -78,7 +82,8 @@ FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& beli
     const bool mean = params_.read_out == "mean";
     fused.pose[s] = mode_mean(poses, log_belief, mean ? params_.mode_radius : 0, params_.mode_angle_deg * kDegree);
 
-    // The covariance. n samples fill a box in six dimensions with a spacing of n^(-1/6) of its width.
+    // Compute the covariance from the samples and their spacing: n samples fill a box in six dimensions with a spacing
+    // of n^(-1/6) of its width.
     const double per_kernel = std::max(1.0, static_cast<double>(poses.size()) / params_.kernels);
     const Vector6d spacing = half_width(s, params_.levels - 1, interval_factor) * std::pow(per_kernel, -1.0 / 6);
     Matrix6d axes = Matrix6d::Zero();

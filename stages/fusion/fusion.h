@@ -20,9 +20,9 @@ struct FusedPose {
   std::array<Matrix6d, kSegmentCount> covariance;  ///< of the belief around `pose`; boxplus twist, camera frame
 };
 
-/// Combines the local trackers through the structure of the hand (paper Sec. 4.3) and narrows the search level by
-/// level (Sec. 4.4). Results depend on the arguments only. A returned reference is valid until the same function is
-/// called again, because its memory is reused. Every segment of `samples` needs at least one sample.
+/// Combines the local trackers through the structure of the hand (paper Sec. 4.3) and narrows the search from level to
+/// level, coarse to fine (Sec. 4.4). Results depend on the arguments only. A returned reference is valid until the same
+/// function is called again, because its memory is reused. Every segment of `samples` needs at least one sample.
 class Fusion {
  public:
   /// `workers` must outlive this object.

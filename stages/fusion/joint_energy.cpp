@@ -59,19 +59,19 @@ JointModels make_joint_models(const HandProfile& profile, const FusionParams& pa
   const auto limits = widened_limits(profile, params.limit_widening_deg * kDegree);
   JointModels models;
   for (int s = 1; s < kSegmentCount; ++s) {
-    // The joint at rest.
+    // Copy the joint's position and orientation at rest.
     const JointLimits& l = limits[s];
     JointModel& m = models[s];
     m.joint_in_parent = profile.rest_relative(s).t;
     m.R_parent_rest = profile.rest_relative(s).R;
 
-    // Its widened ranges.
+    // Compute the middle and the half width of its widened ranges.
     m.flexion_mid = static_cast<float>((l.flexion_lo + l.flexion_hi) / 2);
     m.flexion_half = static_cast<float>((l.flexion_hi - l.flexion_lo) / 2);
     m.abduction_mid = static_cast<float>((l.abduction_lo + l.abduction_hi) / 2);
     m.abduction_half = static_cast<float>((l.abduction_hi - l.abduction_lo) / 2);
 
-    // The cost of leaving them.
+    // Compute the weights of flexion and abduction beyond these ranges, and of twist.
     m.inv_flexion_sq = inverse_square(params.sigma_flexion_deg * kDegree);
     m.inv_abduction_sq = inverse_square(params.sigma_abduction_deg * kDegree);
     m.inv_twist_sq = inverse_square(params.sigma_twist_deg * kDegree);

@@ -39,7 +39,7 @@ bool may_overlap_by_nature(int a, int b) {
 }  // namespace
 
 HandContact::HandContact(const HandProfile& profile) {
-  // One capsule per phalanx. The thumb's metacarpal has none, because it lies within the flesh of the palm.
+  // Make one capsule per phalanx. The thumb's metacarpal has none, because it lies within the flesh of the palm.
   for (int s = segment_of(0, 1); s < kSegmentCount; ++s) {
     const SegmentProfile& phalanx = profile.segments[s];
     Rod rod{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
@@ -48,7 +48,7 @@ HandContact::HandContact(const HandProfile& profile) {
     rods_.push_back(rod);
   }
 
-  // One capsule in the palm for each finger but the thumb, from the carpus to the knuckle.
+  // Make one capsule in the palm for each finger but the thumb, from the carpus to the knuckle.
   const int phalanges = static_cast<int>(rods_.size());
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const int root = segment_of(finger, 0);
@@ -57,7 +57,7 @@ HandContact::HandContact(const HandProfile& profile) {
     rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, kPalmShare * std::min(s.half_width[0], s.half_thickness[0])});
   }
 
-  // Pairs to test: phalanges against phalanges, and all but the proximal phalanges against the palm.
+  // List the pairs to test: phalanges against phalanges, and all but the proximal phalanges against the palm.
   const int rods = static_cast<int>(rods_.size());
   for (int a = 0; a < phalanges; ++a) {
     const int s = rods_[a].segment;

@@ -98,8 +98,8 @@ class DataTerm {
   }
 
   Robust surface_, outside_, unexplained_;
-  float tangential_;  // see DataWeighting::tangential
-  float folds_;       // see fold_penalty()
+  float tangential_;  // fraction of the pull of unexplained data that acts in all directions
+  float folds_;       // strength of fold_penalty(), which down-weights skin near joints
   float palm_trust_;
 };
 

@@ -10,11 +10,11 @@ namespace {
 
 // Minimises the energy of a pose by Gauss-Newton steps, with a coarse and then a fine comparison.
 
-// EnergyParams::palm_trust while the shape is fitted: the palm's skin is being corrected, so it gets more weight than
-// in tracking.
+// Value of EnergyParams::palm_trust while the hand's shape is fitted: the palm's skin is being corrected, so it gets
+// more weight than in tracking.
 constexpr double kShapePalmTrust = 0.3;
-// EnergyParams::robust_scale while the shape is fitted [m]: a mean hand's skin must change most where its error is
-// largest, so large distances are not outliers.
+// Value of EnergyParams::robust_scale while the hand's shape is fitted [m]: the skin of a mean hand (the average of
+// many people) must change most where its error is largest, so large distances are not outliers.
 constexpr double kShapeRobustScale = 0.012;
 
 // Number of final steps that compare finely. Far from the optimum, a coarse comparison yields about the same step at a
@@ -142,7 +142,8 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   }
   summarise(*work, result);
 
-  // How freely each segment may leave its prediction depends on how much of it is seen there.
+  // Compute how much of each segment is seen at the start pose: the more is seen, the more freely it may leave its
+  // prediction.
   const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
 
   const bool measured = profile_->origin == ProfileOrigin::measured;

@@ -48,8 +48,8 @@ struct RefinedPose {
 };
 
 /// Robust Gauss-Newton on all 96 numbers of the pose with the paper's soft joints. It optimises the same model as the
-/// sampler: the energy is the negative logarithm of Eq. 3 and Eq. 4-6. All const functions may be called from several
-/// threads at once.
+/// sampler: the energy is the negative logarithm of the paper's Eq. 3 and Eq. 4-6. All const functions may be called
+/// from several threads at once.
 class Refinement {
  public:
   Refinement(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
@@ -59,8 +59,8 @@ class Refinement {
   /// at `start`, the more freely it may leave its prediction. `iterations`: number of Gauss-Newton steps.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                      int iterations) const;
-  /// The same from the one of `starts` (at least one) that fits the frame best before any step; among equally good
-  /// ones, from the first.
+  /// The same, but starts from the one of `starts` (at least one) that fits the frame best before any step; among
+  /// equally good ones, from the first.
   RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                           const HandPose& predicted, int iterations) const;
   /// Score and visibility of an unchanged pose.

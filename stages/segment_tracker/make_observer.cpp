@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Chooses who compares the sampled poses with the depth data: the CPU, a graphics device, or the faster of both.
+
 std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Workers& workers,
                                         std::shared_ptr<spdlog::logger> log, std::shared_ptr<const Clock> clock) {
   const float cap = distance_cap(params);

@@ -18,7 +18,8 @@ std::unique_ptr<Observer> make_observer(const SegmentTrackerParams& params, Work
                                         std::shared_ptr<spdlog::logger> log,
                                         std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>());
 
-/// Whether both ask for the same observer, so that it can be kept: opening and measuring a device takes long.
+/// Whether both parameter sets ask for the same observer, so that the present one can be kept: opening and measuring a
+/// device takes long.
 bool same_observer(const SegmentTrackerParams& a, const SegmentTrackerParams& b);
 
 }  // namespace barehand

@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// The key of the random numbers of one level of a frame. Those of a sample depend only on this key, its segment and
-/// its index, not on the order in which samples are drawn.
+/// The key of the random numbers of one search level in one frame. The random numbers of a sample depend only on this
+/// key, its segment and its index, not on the order in which samples are drawn.
 struct SampleKey {
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;

@@ -17,7 +17,7 @@ void log_likelihood(const std::vector<PatchDistance>& patches, double min_counte
     return p.counted > 0 && p.counted_fraction() >= min_counted;
   };
 
-  // The mean distance of the samples with evidence.
+  // Compute the mean distance of the samples with evidence.
   double sum = 0;
   int count = 0;
   for (const PatchDistance& patch : patches) {
@@ -27,7 +27,7 @@ void log_likelihood(const std::vector<PatchDistance>& patches, double min_counte
   }
   const double neutral = count > 0 ? sum / count : 0;
 
-  // Eq. 3.
+  // Compute the log-likelihoods (paper, Eq. 3).
   log_l.resize(patches.size());
   for (std::size_t i = 0; i < log_l.size(); ++i) {
     const double d = (has_evidence(patches[i]) ? patches[i].mean() : neutral) / sigma_obs;

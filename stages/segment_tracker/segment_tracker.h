@@ -13,8 +13,8 @@
 
 namespace barehand {
 
-/// Data of one frame that all levels share: the pixel map, in which the pixels are marked where the hand hides its own
-/// segments at the predicted pose.
+/// Data of one frame that all search levels share: the pixel map, which also marks the pixels where the hand hides its
+/// own segments at the predicted pose.
 struct PreparedObservation {
   PixelMap map;
   std::uint64_t id = 0;                            ///< id of the map, unique within the tracker

@@ -70,7 +70,8 @@ class Comparer {
     total_weight_ += weight;
   }
 
-  /// Classifies a cell that shows the model; (u, v): its pixel in the region of interest.
+  /// Adds the correspondence of a cell that shows the model, and counts whether its segment is visible and matched. (u,
+  /// v): pixel of the cell in the region of interest.
   void judge_model(int i, int j, int u, int v) {
     const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
@@ -82,7 +83,7 @@ class Comparer {
       return;
     }
 
-    // Both are hand: a surface correspondence.
+    // Model and data both show the hand: add a surface correspondence.
     if (label == PixelLabel::hand) {
       ++out_.visible[segment];
       if (std::abs(z_data - z_model) < params_.self_occlusion) ++out_.matched[segment];

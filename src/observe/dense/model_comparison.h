@@ -58,7 +58,7 @@ struct ModelComparison {
   PixelRays rays;                            ///< scratch: points of the observed pixels
 };
 
-/// The cells that cover the whole region of interest with this stride.
+/// The grid of every `stride`-th pixel that covers the whole region of interest.
 CellGrid grid_of(const HandObservation& observation, int stride);
 
 /// Compares the observation with the rendered `skin` cell by cell. The grid of `rendered` sets the spacing; the stride

@@ -6,6 +6,9 @@
 #include <sstream>
 
 namespace barehand {
+
+// Loads EGL at run time, and lists the displays on which OpenGL ES may run.
+
 namespace {
 
 template <class Function>

@@ -24,12 +24,12 @@ struct DeviceLimits {
   std::chrono::milliseconds close{2'000};  ///< destroying the context
 };
 
-/// Compares all samples of a level in one dispatch of a compute shader. The results are those of CpuObserver, up to
-/// single-precision rounding. A skin is sent to the device once, a map once per frame, poses once per level; 12 bytes
-/// per sample come back. The paper (Sec. 4.1) renders the samples into one texture and averages its pixels; here every
-/// skin point is weighted by the number of pixels that it covers, so that CPU and GPU agree.
-/// A separate thread makes all calls of the driver. compare() waits for it, because the tracker needs the distances
-/// before it can draw the next level's samples. After an error the device is not used again.
+/// Compares all sampled poses of one search level in one dispatch of a compute shader. The results are those of
+/// CpuObserver, up to single-precision rounding. A skin is sent to the device once, a pixel map once per frame, poses
+/// once per level; 12 bytes per sample come back. The paper (Sec. 4.1) renders the samples into one texture and
+/// averages its pixels; here every skin point is weighted by the number of pixels that it covers, so that CPU and GPU
+/// agree. A separate thread makes all calls of the driver. compare() waits for it, because the tracker needs the
+/// distances before it can draw the next level's samples. After an error the device is not used again.
 class EglObserver final : public DeviceObserver {
  public:
   /// `cap`: upper limit of a single pixel's distance [m]; infinity: none. Fails if there is no such device, or if it

@@ -52,13 +52,13 @@ void visit(V& v, IcpParams& p) {
   v("max_angular_speed", p.max_angular_speed, 0.0, 1000.0, "rad/s, faster motion between two frames is rejected");
 }
 
-/// Largest plausible motion.
+/// Largest plausible motion; a larger one is rejected.
 struct MotionBound {
-  double shift;  ///< [m] of the model's centroid
-  double angle;  ///< [rad]
+  double shift;  ///< translation of the model's centroid [m]
+  double angle;  ///< rotation [rad]
 };
 inline MotionBound motion_bound(const RegistrationParams& p) { return {p.slack, p.slack / 0.1}; }
-/// `dt` [s] since the frame in which the model was posed.
+/// The bound for a model that was posed `dt` [s] ago: the slack plus the largest speeds times `dt`.
 inline MotionBound motion_bound(const IcpParams& p, double dt) {
   const MotionBound always = motion_bound(p);
   return {always.shift + p.max_speed * dt, always.angle + p.max_angular_speed * dt};
@@ -77,7 +77,8 @@ struct IcpResult {
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
                       const MotionBound& bound, const RegistrationParams& params);
 
-/// A matched pair with the plane normal used for it.
+/// A model point, the data point that it was matched with, and the normal of the plane used for their distance. Camera
+/// frame [m].
 struct IcpPair {
   Eigen::Vector3d model, data, normal;
 };

@@ -6,6 +6,9 @@
 #include "core/format.h"
 
 namespace barehand {
+
+// Measures which of two observers, the CPU or a device, compares a batch of sampled poses faster.
+
 namespace {
 
 constexpr int kCalls = 7;  // measured calls of each observer; odd, so that the median is one of them

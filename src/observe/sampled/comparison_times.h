@@ -18,8 +18,8 @@ struct ComparisonTimes {
 std::string to_text(const ComparisonTimes& times);
 
 /// Returns the median times of several calls of each, after one that is not measured. The device receives the map again
-/// in every call, as for the first level of a frame. `distances` gets the CPU's results, even if the device fails.
-/// Error: the device fails.
+/// in every call, as for the first search level of a frame. `distances` gets the CPU's results, even if the device
+/// fails. Error: the device fails.
 Result<ComparisonTimes> time_comparison(const SampleBatch& batch, Observer& cpu, DeviceObserver& device,
                                         const Clock& clock, PatchDistances& distances);
 

@@ -6,6 +6,8 @@
 
 namespace barehand {
 
+// Times the first batch on the CPU and on the device, and keeps the faster one for all later batches.
+
 FasterObserver::FasterObserver(std::unique_ptr<DeviceObserver> device, std::string name, std::unique_ptr<Observer> cpu,
                                std::shared_ptr<spdlog::logger> log, std::shared_ptr<const Clock> clock)
     : device_(std::move(device)),

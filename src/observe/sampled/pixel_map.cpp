@@ -33,7 +33,7 @@ class Cells {
   // The cell of a pixel that is not hand and hides what is behind `occluder_z` [m].
   PixelMap::Cell not_hand(std::size_t pixel, float occluder_z) const {
     const std::int32_t nearest = o_.nearest_hand[pixel];
-    if (nearest < 0) return kSilent;  // no hand pixel anywhere: Eq. 1 is undefined
+    if (nearest < 0) return kSilent;  // no hand pixel anywhere: the paper's Eq. 1 is undefined
     const Eigen::Vector3f p = rays_.point(nearest, o_.depth);
     return {p.x(), p.y(), -p.z(), occluder_z};
   }

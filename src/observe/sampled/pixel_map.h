@@ -9,8 +9,9 @@
 
 namespace barehand {
 
-/// The observation in the form that the inner loop of the local trackers needs: one look-up yields everything that Eq.
-/// 1 depends on. It covers the region of interest plus a border of one pixel that represents everything outside.
+/// The observation in the form that the inner loop of the local trackers needs: one look-up yields everything that the
+/// paper's Eq. 1 depends on. It covers the region of interest plus a border of one pixel that represents everything
+/// outside.
 struct PixelMap {
   /// (x, y, |z|) is the nearest hand point in the camera frame [m]. z > 0: the pixel itself is hand and this is its own
   /// point; z < 0: the pixel is not hand. Skin behind the depth `occluder_z` [m] is hidden by data that is not skin
