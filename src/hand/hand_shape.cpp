@@ -29,7 +29,7 @@ std::array<ShapeParameter, kShapeCount> make_parameters() {
   p[kPalmLength] = {"palm_length", 0.06};
   p[kPalmThickness] = {"palm_thickness", 0.15};
 
-  // One component per finger.
+  // Describe the components that exist once per finger.
   for (int f = 0; f < kFingerCount; ++f) {
     const std::string finger = kFingerNames[f];
     p[kFingerLength + f] = {finger + "_length", 0.05};
@@ -38,10 +38,10 @@ std::array<ShapeParameter, kShapeCount> make_parameters() {
       p[kKnuckle + 3 * f + axis] = {finger + "_knuckle_" + "xyz"[axis], f == 0 ? 0.004 : 0.002};
   }
 
-  // One component per bone.
+  // Describe the components that exist once per bone.
   for (int s = 1; s < kSegmentCount; ++s) p[kBoneLength + s - 1] = {std::string(kSegmentNames[s]) + "_length", 0.05};
 
-  // Components that all fingers share.
+  // Describe the components that all fingers share.
   p[kFingersThickness] = {"fingers_thickness", 0.12};
   p[kFlatness] = {"fingers_flatness", 0.08};
   p[kRootThickness] = {"knuckle_thickness", 0.2};

@@ -11,9 +11,9 @@
 
 namespace barehand {
 
-/// The model of the tracked hand, which learns the person while tracking: the bones of a mean hand are fitted, a skin
-/// that was not scanned before is scanned, and the size of any other profile is checked. What is learnt is used from
-/// the next frame on.
+/// The model of the tracked hand, which learns the person while tracking: the bones of a mean hand (the average of many
+/// people) are fitted, a skin that was not scanned before is scanned, and the size of any other profile is checked.
+/// What is learnt is used from the next frame on.
 class PersonModel {
  public:
   /// `given`: the profile before anything is learnt. `context` must outlive this object.

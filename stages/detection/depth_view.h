@@ -4,9 +4,9 @@
 
 namespace barehand {
 
-/// A virtual pinhole camera with the optical centre and the axes of the real one: a grid of square pixels over the
-/// depth image, independent of that image's resolution and focal length. The middle of the grid lies on frame pixel
-/// (u0, v0).
+/// A window ("view") of the depth image, resampled for a network. It is a virtual pinhole camera with the optical
+/// centre and the axes of the real one: a grid of square pixels over the depth image, independent of that image's
+/// resolution and focal length. The middle of the grid lies on frame pixel (u0, v0).
 struct DepthView {
   int width = 0, height = 0;
   double focal = 0;               ///< [pixels of the view]

@@ -27,8 +27,8 @@ class HandDetector {
 
   /// A place where a hand is expected.
   struct Expected {
-    Eigen::Vector3d centre;          ///< of the palm, camera frame [m]
-    std::optional<Handedness> side;  ///< none: either
+    Eigen::Vector3d centre;          ///< centre of the palm, camera frame [m]
+    std::optional<Handedness> side;  ///< none: the hand may be of either side
   };
   /// Finds the hands at the given places without searching the rest of the frame. Places without a hand are left out.
   Result<Detection> detect_at(const RgbdFrame& frame, std::span<const Expected> places);
@@ -60,8 +60,8 @@ class HandDetector {
     double probability;
   };
   std::vector<Palm> palms_;  // of the current frame, most probable first
-  Image<float> depth_;       // scratch: depth image of the current view
-  NetworkInput input_;       // scratch
+  Image<float> depth_;       // scratch: the depth image, resampled for the current window
+  NetworkInput input_;       // scratch: input of the network for this window
 };
 
 }  // namespace barehand

@@ -12,7 +12,7 @@ namespace barehand {
 /// The input of a network: a part of a depth image in two channels of equal size.
 struct NetworkInput {
   Image<float> depth;  ///< scaled and clipped as in the training
-  Image<float> valid;  ///< 1 = measured, 0 = not
+  Image<float> valid;  ///< 1 = the pixel has a depth, 0 = it has none
 };
 
 /// The output of a network. The planes are stored one after the other, row-major; they are valid until the next call.

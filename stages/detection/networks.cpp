@@ -8,9 +8,11 @@
 namespace barehand {
 namespace {
 
-// Longest and shortest focal length of a view for `full` [px of the view].
+// Longest and shortest focal length of a window (DepthView) that is resampled for the network `full` [px of the
+// window].
 constexpr double kFullFocal = 131.25, kShortestFocal = 105;
-// Depth that is 0 in the input of `full`, and the limits to which the difference from it is clipped [m].
+// The input of `full` is the difference from the depth kMiddleDepth, clipped to the range from kFullNear to kFullFar
+// [m].
 constexpr float kMiddleDepth = 1, kFullNear = -1, kFullFar = 1.5;
 constexpr double kWindow = 0.34;      // width of the window of `crop` at the palm's depth [m]
 constexpr float kWindowDepth = 0.15;  // depth range of that window, in front of the palm and behind it [m]
@@ -24,7 +26,8 @@ double square(double x) { return x * x; }
 }  // namespace
 
 std::vector<DepthView> frame_views(const Intrinsics& camera) {
-  // Choose the focal length with which one view covers the frame, within the limits; then count the views.
+  // Choose the focal length with which one window covers the frame, within the limits; then count the windows that are
+  // needed.
   const double wide =
       std::max(camera.width / (camera.fx * kFullShape.width), camera.height / (camera.fy * kFullShape.height));
   const double focal = std::clamp(1 / wide, kShortestFocal, kFullFocal);
@@ -34,7 +37,7 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
   const int columns = count(camera.width, camera.fx, kFullShape.width),
             rows = count(camera.height, camera.fy, kFullShape.height);
 
-  // Several views are spaced evenly and overlap.
+  // Space the windows evenly; several windows overlap.
   const auto middle = [](int i, int n, int pixels, double covered) {
     return n == 1 ? 0.5 * (pixels - 1) : 0.5 * (covered - 1) + i * (pixels - covered) / (n - 1);
   };

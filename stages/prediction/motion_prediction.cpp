@@ -68,7 +68,7 @@ HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, 
   HandPose pose = carried;
   std::array<Vector6d, kSegmentCount> velocity;
   for (int s = 0; s < kSegmentCount; ++s) {
-    // The velocities turn with the hand.
+    // Turn the velocities with the hand.
     velocity[s].head<3>() = motion.R * velocity_[s].head<3>();
     velocity[s].tail<3>() = motion.R * velocity_[s].tail<3>();
 

@@ -12,8 +12,8 @@ namespace barehand {
 struct CoarseGrid {
   int step = 1;       ///< pixels per cell side
   Intrinsics camera;  ///< intrinsics of the grid: cell (c, r) is a pixel of this camera
-  Image<float> z;     ///< median of the cell's measurements [m]; 0 = none in the working range
-  Image<Rgb> colour;  ///< colour of the pixel that measured z; black = none
+  Image<float> z;     ///< median depth of the cell [m]; 0 = no depth in the working range
+  Image<Rgb> colour;  ///< colour of the pixel whose depth is z; black = none
   Image<float> odds;  ///< log odds of skin, of that pixel or of the cell's mean, whichever is weaker; 0 = no evidence
   bool coloured = false;  ///< false: there is no colour, or the image is grey, so depth alone decides
 

@@ -50,7 +50,7 @@ GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
   GloveAngles glove;
   glove.channel.fill(std::numeric_limits<double>::quiet_NaN());
 
-  // The joints, finger by finger.
+  // Fill in the joints, finger by finger.
   auto joint = glove.joint.begin();
   for (int finger = 0; finger < kFingerCount; ++finger) {
     const JointAngles& a = angle[segment_of(finger, 0)];

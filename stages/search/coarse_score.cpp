@@ -12,10 +12,11 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Pixels without depth that are this close to the hand may belong to it: sensors lose depth at its border [m].
 constexpr float kCloseToHand = 0.008f;
-constexpr float kCloseCost = 0.1f;  // cost of a model cell there, and of a forearm cell without measured depth
-constexpr float kNearest = 0.02f;   // points nearer to the camera plane are not drawn [m]
-constexpr int kBorder = 1;          // width of the border around the grid [cells]
-constexpr std::size_t kLanes = 8;   // number of partial sums, so that the summation can be vectorised
+// Cost of a cell of the model at such a pixel, and of a cell of the forearm without depth.
+constexpr float kCloseCost = 0.1f;
+constexpr float kNearest = 0.02f;  // points nearer to the camera plane are not drawn [m]
+constexpr int kBorder = 1;         // width of the border around the grid [cells]
+constexpr std::size_t kLanes = 8;  // number of partial sums, so that the summation can be vectorised
 // A splat covers 2 x 2 cells, which makes the model's silhouette about one cell too wide. The silhouette of the data is
 // too wide by less, since a cell counts as hand from a third of its pixels on. Points are pulled inwards by this
 // fraction of a cell to compensate for the difference.

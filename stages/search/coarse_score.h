@@ -42,8 +42,8 @@ class CoarseScorer {
   /// `skin` must outlive the scorer; `grid` is copied.
   CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const CoarseScoreParams& params);
 
-  /// Sum of the costs of all cells divided by the number of hand cells; infinity if the grid is empty or the pose is
-  /// not finite.
+  /// The sum of the costs of all cells divided by the number of hand cells; infinity if the grid is empty or the pose
+  /// is not finite.
   double operator()(const HandPose& pose);
 
  private:

@@ -126,7 +126,7 @@ std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& obs
   const double distinct = kNearDistinct * params_.distinct;
   trials = most_promising(std::move(trials), params_.near_survivors, distinct, 0);
 
-  // Improve these by local search.
+  // Improve the best trials by a local random search.
   for_each_trial(trials, cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& own) {
     const KeyedRandom random(seed, frame, 3, number);
     trial.scored = search_pose(trial.scored, own, limits_, params_.near_evaluations, random, params_.search);

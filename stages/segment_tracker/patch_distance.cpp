@@ -96,13 +96,13 @@ inline void add_distances(const Block& block, int n, std::int32_t bit, float cap
 #pragma omp simd reduction(+ : distance, counted, total)
   for (int i = 0; i < n; ++i) {
     const PixelMap::Cell& cell = block.cell[i];
-    // Eq. 1: on hand pixels only the difference of depth counts.
+    // Compute the distance of the paper's Eq. 1: on hand pixels only the difference of depth counts.
     const float dx = block.x[i] - cell.x, dy = block.y[i] - cell.y, dz = block.z[i] - std::fabs(cell.z);
     const float lateral = cell.z < 0.0f ? dx * dx + dy * dy : 0.0f;
     float d = std::sqrt(lateral + dz * dz);
     d = d < cap ? d : cap;
 
-    // Hidden points do not count.
+    // Leave out hidden points.
     const bool seen = (block.z[i] <= cell.occluder_z) & ((block.hidden[i] & bit) == 0);
     const float seen_weight = seen ? block.weight[i] : 0.0f;
     distance += seen_weight * d;
@@ -124,7 +124,7 @@ BAREHAND_SIMD PatchDistance patch_distance(const SegmentSurface& skin, const SE3
   PatchDistance sum;
   Block block;
 
-  // Block by block: project, look up, add.
+  // Project the points block by block, look up their pixels, and add their distances.
   for (int begin = 0; begin < size; begin += kBlock) {
     const int n = std::min(kBlock, size - begin);
     project(skin, begin, n, view, block);

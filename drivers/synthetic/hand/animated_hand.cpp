@@ -30,7 +30,7 @@ HandPose AnimatedHand::pose(const SkeletonPose& skeleton) const {
 
 SceneGeometry AnimatedHand::geometry(const HandState& state, const std::string& sleeve,
                                      std::uint8_t first_surface) const {
-  // The skin.
+  // Deform the skin.
   const HandPose pose = pose_segments(rig_.profile, state.skeleton);
   TriangleMesh skin;
   skin.triangles = rig_.mesh.triangles;

@@ -22,8 +22,7 @@ struct TofNoise {
   double flying = 0.6;    ///< fraction of the pixels at a depth edge that lie between both surfaces ("flying pixels")
 };
 
-/// Adds a sensor's noise to an ideal depth image [m]. Lost pixels become 0. The result is a pure function of view, seed
-/// and frame.
+/// Adds a sensor's noise to an ideal depth image [m]. Lost pixels become 0. The result depends on the arguments only.
 class DepthNoise {
  public:
   DepthNoise();

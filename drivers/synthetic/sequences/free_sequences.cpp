@@ -143,7 +143,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
     HandAngles angles;
   };
 
-  // Where the hand enters from, and its position, orientation and shape in the view.
+  // Choose where the hand enters the view from, and its position, orientation and shape there.
   const Vector3d left(-0.75, 0.1, 0.6), right(0.75, 0.1, 0.6), below(0.05, 0.65, 0.6);
 
   const Visit visits[] = {{right, {0.0, 0.08, 0.6}, {0, 0, 0}, open_spread()},
@@ -158,7 +158,7 @@ std::unique_ptr<Sequence> make_returns(std::uint64_t seed) {
                           {below, {0.04, 0.06, 0.7}, {-0.3, 3.0, 0.2}, open_spread()},
                           {left, {0.0, 0.08, 0.55}, {0, 0, 0.2}, open_relaxed()}};
 
-  // Each visit: enter, turn a little, leave.
+  // Add the keyframes of each visit: enter, turn a little, leave.
   constexpr double kVisit = 3.5;  // time from one visit to the next [s]; the last 1.4 s are out of view
   std::vector<HandKey> keys;
   for (const Visit& visit : visits) {

@@ -34,7 +34,7 @@ std::pair<double, double> finger_extent(const HandRig& rig, const SkeletonPose& 
 /// The motion of the paper's Fig. 6b, c: the fingers spread and rejoin behind a plate that covers the upper part of the
 /// image, down to a fraction of the fingers' length.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed) {
-  // The motion of the hand.
+  // List the keyframes of the hand.
   const Vector3d here(0.0, 0.09, 0.58), still(0.1, 0, 0);
   FreeSequence::Setting s;
   s.duration = 1.8;
@@ -44,8 +44,8 @@ std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::ui
             {0.9, here, still, open_spread()},
             {1.7, here, still, open_joined()}};
 
-  // The plate's lower edge for this degree of occlusion (y / z). With the margin, degree 0 leaves the hand fully
-  // visible, and degree 6 covers the fingers fully.
+  // Compute the plate's lower edge (y / z) for this degree of occlusion. With the margin, degree 0 leaves the hand
+  // fully visible, and degree 6 covers the fingers fully.
   const auto [top, bottom] = finger_extent(rig, HandTrack(s.base, s.keys).at(0));
   const double margin = 0.02;
   const double edge = (top - margin) + degree / 6.0 * (bottom - top + 2 * margin);

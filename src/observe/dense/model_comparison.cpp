@@ -70,8 +70,8 @@ class Comparer {
     total_weight_ += weight;
   }
 
-  /// Adds the correspondence of a cell that shows the model, and counts whether its segment is visible and matched. (u,
-  /// v): pixel of the cell in the region of interest.
+  /// Adds the correspondence of a cell that shows the model, and counts whether its segment is visible and matched. The
+  /// cell is pixel (u, v) of the region of interest.
   void judge_model(int i, int j, int u, int v) {
     const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;

@@ -9,7 +9,8 @@ namespace barehand {
 namespace {
 
 constexpr int kRuns = 3;  // timed runs for each number of samples, after an untimed one that grows the buffers
-// Factor from one number of samples to the next. A level's time grows at most with the square, by less than half.
+// Factor from one number of samples to the next. The time of a search level grows at most with the square of the
+// number, so each step adds less than half.
 constexpr double kGrowth = 1.2;
 
 }  // namespace

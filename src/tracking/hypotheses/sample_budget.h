@@ -9,13 +9,13 @@
 
 namespace barehand {
 
-/// Determines how many samples are drawn per segment on each level. On the CPU this is S, a parameter. If a GPU
-/// compares the samples with the data, it is the largest number with which a whole level stays within a time budget.
-/// The GPU makes only the comparison cheap: belief propagation stays on the CPU, and its cost grows with the square of
-/// the number of samples.
+/// Determines how many samples are drawn per segment on each level of the coarse-to-fine search. On the CPU this is S
+/// (SegmentTrackerParams::samples). If a GPU compares the samples with the data, it is the largest number with which a
+/// whole level stays within a time budget. The GPU makes only the comparison cheap: belief propagation stays on the
+/// CPU, and its cost grows with the square of the number of samples.
 class SampleBudget {
  public:
-  /// Runs one level: draws, compares and fuses `samples` samples of every segment.
+  /// Runs one search level: draws, compares and fuses `samples` samples of every segment.
   using Level = std::function<void(int samples)>;
 
   explicit SampleBudget(const SegmentTrackerParams& params,
@@ -38,8 +38,9 @@ class SampleBudget {
 
   SegmentTrackerParams params_;
   std::shared_ptr<const Clock> clock_;
-  int on_device_ = 0;         // number of samples on a device; 0: not measured yet
-  double level_seconds_ = 0;  // time of a level with that number; 0: it is that of the CPU, and no more fit
+  int on_device_ = 0;  // number of samples on a device; 0: not measured yet
+  // Time of a level with that number of samples [s]; 0: even the first larger number exceeds the budget.
+  double level_seconds_ = 0;
 };
 
 }  // namespace barehand

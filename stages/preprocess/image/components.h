@@ -13,8 +13,8 @@ namespace barehand {
 struct Components {
   struct Part {
     int cells = 0;
-    float area = 0;    ///< [m^2] facing the camera
-    float mean_z = 0;  ///< [m]
+    float area = 0;    ///< area, as if it faced the camera [m^2]
+    float mean_z = 0;  ///< mean depth [m]
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();
   };
   Image<std::int32_t> id;                  ///< index into parts; -1 where the mask is empty
@@ -28,7 +28,7 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
 
 /// Finds the cells that may be skin. Cells with clear colours are decided by their own colour; others (dark,
 /// overexposed, pale or without colour) by the clear cells to which they are joined without a depth step. Without
-/// colour, all measured cells are candidates.
+/// colour, all cells with depth are candidates.
 class CandidateFinder {
  public:
   void find(const CoarseGrid& grid, const PreprocessParams& params, Image<std::uint8_t>& mask);
