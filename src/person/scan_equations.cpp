@@ -99,7 +99,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
   const bool joints_move = !model.joints_are_known();
   ResidualMoments poses(frame.pose);
 
-  // Only skin that faces the camera and is near the data counts.
+  // Use only skin that faces the camera and is near the data.
   for (const Correspondence& c : comparison.correspondences) {
     const float r = c.normal.dot(c.model - c.data);
     if (c.kind != Correspondence::Kind::surface || std::abs(r) > kGate) continue;
@@ -134,7 +134,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     };
     const PoseColumn a = twist(v.a, 1 - v.weight_b), b = twist(v.b, v.weight_b);
 
-    // Add to the vertex's sums. The derivative with respect to its offset is 1.
+    // Add the residual to the vertex's sums. The derivative with respect to its offset is 1.
     sums.oo += w;
     sums.os += w * by_share;
     sums.ss += w * sq(by_share);

@@ -147,7 +147,7 @@ class Prior {
       beside += change * offset_[vertex];
     }
 
-    // Add the one residual.
+    // Add this distance as one residual.
     const auto count = static_cast<Eigen::Index>(J.size());
     add_mean_rows(unknowns, Eigen::RowVectorXd::Map(J.data(), count) / kBesideMiddle,
                   Eigen::VectorXd::Constant(1, beside / kBesideMiddle));

@@ -15,7 +15,7 @@ constexpr float kRing = 0.035f;      // width of a ring around the silhouette th
 constexpr float kOutside = -0.6f;    // weight of a candidate in the ring; inside the silhouette it is 1
 constexpr float kBlur = 0.008f;      // width of the transition between these weights [m]
 constexpr float kHidden = 0.5f;      // value of a cell in which something nearer could hide the hand; a candidate has 1
-constexpr float kLeastScore = 0.3f;  // lowest score that is accepted; a perfect overlap has 1
+constexpr float kLeastScore = 0.3f;  // lowest score that is accepted; a perfect overlap has a score of 1
 constexpr float kMotionCost = 0.15f;  // reduction of the score for the largest motion allowed
 
 /// The silhouette of a hand as weights of cells: positive inside, negative in a ring around it, and zero beyond the
@@ -40,7 +40,7 @@ Eigen::Vector2f project(const Intrinsics& camera, const Eigen::Vector3f& p) {
 
 /// Distance and depth of the nearest capsule for every pixel of a row.
 struct RowOfDistances {
-  std::vector<float> distance;  ///< from its outline [pixels]; above `border` only an upper bound
+  std::vector<float> distance;  ///< distance from its outline [pixels]; above `border` only an upper bound
   std::vector<float> z;         ///< depth of its skin [m]
 
   void reset(int width) {
@@ -126,7 +126,7 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
   }
 }
 
-/// What the silhouette is compared with: cells that may be hand, and cells where a hand may be hidden.
+/// The frame with which the silhouette is compared: cells that may be hand, and cells where a hand may be hidden.
 struct Scene {
   Image<float> hand;      ///< fraction of a cell that may be hand
   Image<float> possible;  ///< the same, but kHidden where something nearer could hide the hand

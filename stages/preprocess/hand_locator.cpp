@@ -8,7 +8,8 @@ namespace {
 
 // Finds the hands in the coarse grid: first near their predictions, then in the rest of the image.
 
-constexpr float kOnModel = 0.02f;  // largest distance of a matching cell from the moved prediction [m]
+constexpr float kOnModel = 0.02f;  // largest distance of a matching cell from the prediction's skin, after the
+                                   // prediction was moved to this frame [m]
 
 // A surface belongs to the hand if this fraction of its cells, or this number of cells, matches the prediction.
 constexpr float kOwnShare = 0.3f;
@@ -187,7 +188,7 @@ std::optional<Eigen::Vector3f> HandLocator::motion(const CoarseGrid& grid, const
   for (std::size_t i = 0; i < movable_.size(); ++i)
     movable_[i] = candidates_[i] && surfaces_.parts[surfaces_.id[i]].area < params_.max_hand_area;
   if (const auto step = translation_.find(hand, grid, movable_, reach)) return step;
-  // The hand may touch such a surface. Include them, but only close to the prediction.
+  // The hand may touch a large surface, so include these surfaces, but only close to the prediction.
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       if (!candidates_.at(u, v) || movable_.at(u, v)) continue;

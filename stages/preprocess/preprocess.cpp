@@ -8,7 +8,7 @@ namespace {
 
 // Runs the steps of preprocessing, and learns the skin colour from tracked hands.
 
-constexpr float kSurelySkin = 0.004f;  // cells this near to the predicted skin certainly show skin [m]
+constexpr float kSurelySkin = 0.004f;  // cells at most this far from the predicted skin certainly show skin [m]
 // Cells farther than this from the predicted skin do not show the hand [m]: no finger can have moved that far
 // unnoticed.
 constexpr float kSurelyOther = 0.045f;

@@ -23,8 +23,8 @@ constexpr int kFewestContacts = 3;         // cells at the image's border that s
 struct Cell {
   Eigen::Vector3f p;
   float area;
-  int gaps;      // neighbours outside the part
-  bool contact;  // at the border of the image
+  int gaps;      // number of neighbours outside the part
+  bool contact;  // whether the cell is at the border of the image
 };
 
 std::vector<Cell> cells_of(const CoarseGrid& grid, const Components& surfaces, int part) {

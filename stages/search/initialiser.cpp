@@ -49,9 +49,9 @@ Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector
 
 }  // namespace
 
-/// A pose that is tried, with its cost once that is known.
+/// A pose that is tried, and its cost once the cost is known.
 struct Initialiser::Trial {
-  std::string name;  ///< of the template
+  std::string name;  ///< name of the template that it was made from
   ScoredPose scored;
   bool stays = false;  ///< scored at its own position instead of being moved onto the data
 };
@@ -93,14 +93,14 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
                  [&](Trial& trial, std::uint32_t, PoseCost& cost) { place(trial, coarse, cost); });
   trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct, work.elsewhere);
 
-  // First round: improve these on the coarse grid.
+  // First round: improve the kept poses by a random search on the coarse grid.
   for_each_trial(trials, coarse_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     const KeyedRandom random(seed, frame, 1, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.first_evaluations, random, params_.search);
   });
   trials = most_promising(std::move(trials), work.second_survivors, params_.distinct, work.elsewhere);
 
-  // Second round: align the best to the points by ICP, and improve them on the fine grid.
+  // Second round: align the best of these to the hand's points by ICP, and improve them on the fine grid.
   const ObservedCloud cloud(observation);
   for_each_trial(trials, fine_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     trial.scored.cost = cost(trial.scored.articulated);
@@ -198,7 +198,7 @@ Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, dou
 
 /// Moves a trial onto the data in three ways and keeps the best one: the mean of the visible skin on the centroid of
 /// the hand; the centre of the palm on the widest place of the hand, which is right even if fingers are hidden; the
-/// heel of the palm there, in case half of the palm is hidden, too.
+/// heel of the palm on the widest place, in case half of the palm is hidden, too.
 void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const {
   const ArticulatedPose shape = trial.scored.articulated;
   if (trial.stays) {

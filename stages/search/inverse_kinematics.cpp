@@ -19,9 +19,9 @@ constexpr double kDamping = 1e-3;                // Levenberg-Marquardt factor o
 constexpr double kOutlier = 3;                   // scale of the Cauchy cost of a detected joint [standard deviations]
 constexpr double kGapDeviation = 0.001;          // standard deviation of the gap at a soft joint [m]
 constexpr double kLimitDeviation = 4 * kDegree;  // standard deviation of angles beyond their limits, and of twist
-constexpr double kLimitWidening = 10 * kDegree;  // by which the profile's joint limits are widened
+constexpr double kLimitWidening = 10 * kDegree;  // angle by which the profile's joint limits are widened at both ends
 constexpr double kRestFlexion = 20 * kDegree;    // prior mean of every flexion angle
-constexpr double kRestDeviation = 50 * kDegree;  // its standard deviation
+constexpr double kRestDeviation = 50 * kDegree;  // standard deviation of this prior
 constexpr double kLongestTurn = 30 * kDegree,    // largest rotation of a segment in one iteration
     kLongestStep = 0.05;                         // largest translation of a segment in one iteration [m]
 
@@ -58,7 +58,7 @@ void add_landmarks(const HandProfile& profile, const DetectedJoints& joints, con
     const Vector3d r = pose[s].t + arm - joints[k].position;
     const Matrix3d information = joints[k].covariance.inverse();
 
-    // Cauchy's robust cost, by iteratively reweighted least squares.
+    // Weight the joint by Cauchy's robust cost (iteratively reweighted least squares).
     const double distance_sq = r.dot(information * r), scale_sq = square(kOutlier);
     const Matrix3d W = information / (1 + distance_sq / scale_sq);
     const double cost = scale_sq * std::log1p(distance_sq / scale_sq);
@@ -119,7 +119,8 @@ std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& j
   return T;
 }
 
-/// A first pose: the joint angles, within the limits, that give each bone the direction between its detected ends.
+/// An initial pose for the iteration: the joint angles, within the limits, that give each bone the direction between
+/// its detected ends.
 HandPose posed_by_bones(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                         const DetectedJoints& joints, const SE3& T_camera_palm) {
   std::array<JointAngles, kSegmentCount> angles{};

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Sum over neighbouring fingers (not the thumb) of their squared flexion differences [rad^2], per joint.
+/// Sum of the squared differences in flexion between neighbouring fingers (without the thumb), per joint [rad^2].
 double shape_roughness(const std::array<JointAngles, kSegmentCount>& angles) {
   double sum = 0;
   for (int finger = 1; finger + 1 < kFingerCount; ++finger) {

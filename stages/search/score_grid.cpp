@@ -97,7 +97,7 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
   ScoreGrid grid;
   grid.cell = size * z / camera.fx;
 
-  // The camera whose pixels are the cells: the centre of cell i lies at frame pixel u0 + (i + 0.5) * size - 0.5.
+  // Make the camera whose pixels are the cells: the centre of cell i lies at frame pixel u0 + (i + 0.5) * size - 0.5.
   grid.camera = {w,
                  h,
                  camera.fx / size,
@@ -107,7 +107,7 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
   grid.i_lo = -observation.u0 / size, grid.j_lo = -observation.v0 / size;
   grid.i_hi = (camera.width - observation.u0) / size, grid.j_hi = (camera.height - observation.v0) / size;
 
-  // Label and depth of every cell, and the quantities derived from them.
+  // Compute the label and the depth of every cell, and the quantities derived from them.
   grid.depth.reset(w, h, 0);
   grid.label.reset(w, h, PixelLabel::unknown);
   for (int j = 0; j < h; ++j) {

@@ -8,7 +8,8 @@ namespace barehand {
 
 namespace {
 
-/// Flexion of a finger's three joints [degrees]; spread of the fingers away from the middle one [degrees].
+/// A hand shape: flexion of the three joints of every finger and of the thumb, and spread of the fingers away from the
+/// middle one [degrees].
 struct Curl {
   std::string_view name;
   std::array<double, 3> finger, thumb;

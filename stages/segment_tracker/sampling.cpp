@@ -8,13 +8,13 @@
 namespace barehand {
 
 SE3 draw_sample(const std::vector<Kernel>& kernels, int segment, int index, const SampleKey& key) {
-  // The first sample of each kernel is its centre.
+  // Use the centre of each kernel as its first sample.
   assert(!kernels.empty());
   const int count = static_cast<int>(kernels.size());
   const Kernel& kernel = kernels[index % count];
   if (index < count) return kernel.T_camera_segment;
 
-  // The others are uniform in its box.
+  // Draw the other samples uniformly in the kernel's box.
   const std::uint32_t place = static_cast<std::uint32_t>(segment) | static_cast<std::uint32_t>(key.level) << 8;
   KeyedRandom random(key.seed, key.frame, place, static_cast<std::uint32_t>(index));
   Vector6d offset;

@@ -44,7 +44,7 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   project_front(skin, T, map, points);
   if (points.empty()) return;
 
-  // Find its bounding box in the image.
+  // Find the bounding box of the projected points in the image.
   float u_lo = kFar, v_lo = kFar, u_hi = -kFar, v_hi = -kFar, z_lo = kFar;
   for (const ImagePoint& p : points) {
     u_lo = std::min(u_lo, p.u);
@@ -109,7 +109,7 @@ void SelfOcclusion::label_by_model(float threshold, PixelMap& map) {
       if (patch.gap_sq[cell] <= patch.outline_sq) front_[pixel] = std::min(front_[pixel], patch.z[cell]);
     });
 
-  // Compare each segment with it.
+  // Compare each segment with the depth buffer.
   for (int s = 0; s < kSegmentCount; ++s)
     for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
       if (front_[pixel] < patches_[s].z[cell] - threshold) map.hidden[pixel] |= 1 << s;

@@ -66,9 +66,9 @@ class Registration {
   struct Fit {
     double cost = 0, rms = 0, inliers = 0;
   };
-  /// How well the moved model fits the cloud. The cost is the robust mean of the squared distances to the nearest
-  /// points, with a constant for hidden points; rms (point-to-plane [m]) and inliers (fraction) leave out hidden
-  /// points.
+  /// Computes how well the moved model fits the cloud. The cost is the robust mean of the squared distances to the
+  /// nearest points, with a constant for hidden points; rms (point-to-plane [m]) and inliers (fraction) leave out
+  /// hidden points.
   Fit fit(const SE3& motion) {
     const double scale = 2 * params_.scale_end;
     Fit fit;
