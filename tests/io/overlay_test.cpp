@@ -190,12 +190,13 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
 class OverlayFiles : public testing::Test {
  protected:
   test::TempFolder folder_;
+  const HandEstimates hand_ = shared(open_hand());  // one profile, so that its skin is made once a writer
 };
 
 TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   auto writer = OverlayWriter::open(folder_ / "overlay", 30);
   ASSERT_TRUE(writer) << writer.error().message();
-  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), shared(open_hand())));
+  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), hand_));
   ASSERT_TRUE(writer->finish());
   const auto picture = read_colour(folder_ / "overlay/000011.jpg");
   ASSERT_TRUE(picture) << picture.error().message();
@@ -220,13 +221,13 @@ TEST_F(OverlayFiles, NewPicturesTakeThePlaceOfThoseOfAnEarlierRunAndOfNothingEls
 
   auto writer = OverlayWriter::open(folder_.path(), 30, true).value();
   EXPECT_EQ(names().size(), kept.size() + 3) << "before there is a new one";
-  for (std::int64_t number : {11, 12}) ASSERT_TRUE(writer.write(grey_frame(320, number), shared(open_hand())));
+  for (std::int64_t number : {11, 12}) ASSERT_TRUE(writer.write(grey_frame(320, number), hand_));
   kept.insert({"000011.jpg", "000012.jpg"});
   EXPECT_EQ(names(), kept);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "000003.jpg"), {}), 1);
 
   auto without = OverlayWriter::open(folder_.path(), 30).value();
-  ASSERT_TRUE(without.write(grey_frame(320, 13), shared(open_hand())));
+  ASSERT_TRUE(without.write(grey_frame(320, 13), hand_));
   kept.insert("000013.jpg");
   EXPECT_EQ(names(), kept);
 }
@@ -236,7 +237,7 @@ TEST_F(OverlayFiles, VideosHoldEveryFrame) {
     const std::string path = folder_ / name;
     auto writer = OverlayWriter::open(path, 30);
     ASSERT_TRUE(writer) << writer.error().message();
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), shared(open_hand())));
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), hand_));
     ASSERT_TRUE(writer->finish());
     const test::ReadVideo video = test::read_video(path);
     ASSERT_EQ(video.pictures.size(), 5) << name;
@@ -249,7 +250,7 @@ TEST_F(OverlayFiles, AVideoThatIsCutByAFullDiskIsAnError) {
   for (const char* name : {"overlay.avi", "overlay.mp4"}) {
     auto writer = OverlayWriter::open(folder_ / name, 30);
     const test::FileSizeLimit full(20'000);
-    for (int i = 0; i < 20; ++i) (void)writer->write(grey_frame(320, i), shared(open_hand()));
+    for (int i = 0; i < 20; ++i) (void)writer->write(grey_frame(320, i), hand_);
     const auto finished = writer->finish();
     ASSERT_FALSE(finished) << name;
     EXPECT_THAT(finished.error().message(), HasSubstr("free space"));
@@ -275,12 +276,12 @@ TEST_F(OverlayFiles, OutsideConditionsAreReported) {
               HasSubstr("/proc/overlay: cannot be created"));
 
   auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
-  ASSERT_TRUE(video->write(grey_frame(320), shared(open_hand())));
-  EXPECT_THAT(video->write(grey_frame(800, 8), shared(open_hand())).error().message(), HasSubstr("differs in size"));
+  ASSERT_TRUE(video->write(grey_frame(320), hand_));
+  EXPECT_THAT(video->write(grey_frame(800, 8), hand_).error().message(), HasSubstr("differs in size"));
 
   auto pictures = OverlayWriter::open(folder_ / "overlay", 30);
   fs::create_symlink("/dev/full", folder_ / "overlay/000007.jpg");
-  EXPECT_THAT(pictures->write(grey_frame(), shared(open_hand())).error().message(),
+  EXPECT_THAT(pictures->write(grey_frame(), hand_).error().message(),
               AllOf(HasSubstr("000007.jpg"), HasSubstr("free space")));
 }
 
