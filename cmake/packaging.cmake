@@ -14,7 +14,7 @@ install(DIRECTORY deploy/systemd/ DESTINATION lib/systemd/system)
 install(FILES deploy/OPERATIONS.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/deploy)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.svg"
-                                                                          PATTERN "*.png")
+                                                                          PATTERN "*.png" PATTERN "*.webp")
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}-video COMPONENT video)
 set(python_docs ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-barehand)

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -48,10 +49,22 @@ HandEstimate open_hand(double confidence = 1) {
 
 HandEstimates shared(const HandEstimate& estimate) { return {std::make_shared<HandEstimate>(estimate)}; }
 
-Image<Rgb> draw(const HandEstimate& estimate) {
-  const HandSurface surface = make_cylinder_surface(test::small_hand(), 200);
-  const DrawnHand hand{estimate, surface};
-  return draw_overlay(grey_frame(), {&hand, 1});
+const Skin& skin() {
+  static const Skin kSkin = make_skin(test::small_hand(), 0.004);
+  return kSkin;
+}
+
+Image<Rgb> draw(const HandEstimate& estimate, const RgbdFrame& frame = grey_frame(),
+                SegmentNames names = SegmentNames::left_out) {
+  const DrawnHand hand{estimate, skin()};
+  return draw_overlay(frame, {&hand, 1}, names);
+}
+
+/// The frame with a surface at the depth of `counts` [mm] everywhere.
+RgbdFrame frame_with_depth(std::uint16_t counts) {
+  RgbdFrame frame = grey_frame();
+  frame.depth.reset(frame.depth.width(), frame.depth.height(), counts);
+  return frame;
 }
 
 /// Pixel of the left picture at a point in the camera frame.
@@ -82,16 +95,77 @@ TEST(Overlay, DistalEndsAreBlueDotsAndHollowWhereInferred) {
   EXPECT_LT(inferred.b, 200);
 }
 
-TEST(Overlay, SkinIsFilledTheMoreTheHigherTheConfidence) {
-  // Beside the bone of the middle finger (green), within its skin.
+/// A point within the skin of the middle finger (green), beside its bone.
+Eigen::Vector3d beside_middle_bone(const HandEstimate& estimate) {
+  return estimate.segments[segment_of(2, 0)].T_camera_segment * Eigen::Vector3d(0.004, 0, -0.015);
+}
+
+int greenness(const Rgb& p) { return p.g - p.r; }
+
+TEST(Overlay, SkinIsTheGreenerTheHigherTheConfidence) {
   const auto green_at = [](double confidence) {
     const HandEstimate estimate = open_hand(confidence);
-    const SE3& T = estimate.segments[segment_of(2, 0)].T_camera_segment;
-    const Rgb p = pixel_at(draw(estimate), T * Eigen::Vector3d(0.006, 0, -0.015));
-    return p.g - p.r;
+    return greenness(pixel_at(draw(estimate), beside_middle_bone(estimate)));
   };
   EXPECT_GT(green_at(1.0), green_at(0.5) + 10);
   EXPECT_GT(green_at(0.5), green_at(0.0) + 10);
+}
+
+TEST(Overlay, SkinBehindTheMeasuredSurfaceIsFainter) {
+  const HandEstimate estimate = open_hand();
+  const auto green_at = [&](std::uint16_t depth) {
+    return greenness(pixel_at(draw(estimate, frame_with_depth(depth)), beside_middle_bone(estimate)));
+  };
+  const int on_the_skin = green_at(400), unknown = green_at(0), hidden = green_at(300);
+  EXPECT_EQ(unknown, on_the_skin);
+  EXPECT_LT(hidden, on_the_skin / 2);
+  EXPECT_GT(hidden, 5);
+}
+
+TEST(Overlay, TheSkinOfTheNearerFingerHidesThatOfTheOther) {
+  // The ring finger (blue) is put before or behind the middle finger (green).
+  const auto colour_with_ring_at = [](double dz) {
+    HandEstimate estimate = open_hand();
+    const Eigen::Vector3d point = beside_middle_bone(estimate);
+    for (int k = 0; k < 3; ++k) {
+      SE3& ring = estimate.segments[segment_of(3, k)].T_camera_segment;
+      ring = estimate.segments[segment_of(2, k)].T_camera_segment;
+      ring.t.z() += dz;
+    }
+    return pixel_at(draw(estimate), point);
+  };
+  const Rgb in_front = colour_with_ring_at(-0.03), behind = colour_with_ring_at(0.03);
+  EXPECT_GT(in_front.b, in_front.g);
+  EXPECT_GT(behind.g, behind.b);
+}
+
+TEST(Overlay, InferredSegmentsAreHatched) {
+  // How much neighbouring pixels differ in a piece of skin of one segment.
+  const auto contrast = [](bool seen) {
+    HandEstimate estimate = open_hand();
+    estimate.segments[segment_of(2, 0)].seen = seen;
+    const Image<Rgb> sheet = draw(estimate);
+    const Eigen::Vector2d pixel = grey_frame().camera.project(beside_middle_bone(estimate)) * 2;
+    int lowest = 255, highest = -255;
+    for (int dv = -6; dv <= 6; ++dv) {
+      const int green = greenness(sheet.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()) + dv));
+      lowest = std::min(lowest, green);
+      highest = std::max(highest, green);
+    }
+    return highest - lowest;
+  };
+  EXPECT_GT(contrast(false), contrast(true) + 30);
+}
+
+TEST(Overlay, NamesAppearOnlyOnRequestAndOverTheColourImage) {
+  const HandEstimate estimate = open_hand();
+  const Image<Rgb> without = draw(estimate), with = draw(estimate, grey_frame(), SegmentNames::drawn);
+  int on_colour = 0, on_depth = 0;
+  for (int v = 0; v < with.height(); ++v)
+    for (int u = 0; u < with.width(); ++u)
+      if (with.at(u, v) != without.at(u, v)) ++(u < with.width() / 2 ? on_colour : on_depth);
+  EXPECT_GT(on_colour, 16 * 100);  // some hundred pixels a name
+  EXPECT_EQ(on_depth, 0);
 }
 
 TEST(Overlay, NothingIsDrawnWithoutAPoseAndAHandBehindTheCameraDoesNoHarm) {
@@ -116,12 +190,13 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
 class OverlayFiles : public testing::Test {
  protected:
   test::TempFolder folder_;
+  const HandEstimates hand_ = shared(open_hand());  // one profile, so that its skin is made once a writer
 };
 
 TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   auto writer = OverlayWriter::open(folder_ / "overlay", 30);
   ASSERT_TRUE(writer) << writer.error().message();
-  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), shared(open_hand())));
+  for (std::int64_t number : {12, 11}) ASSERT_TRUE(writer->write(grey_frame(320, number), hand_));
   ASSERT_TRUE(writer->finish());
   const auto picture = read_colour(folder_ / "overlay/000011.jpg");
   ASSERT_TRUE(picture) << picture.error().message();
@@ -146,13 +221,13 @@ TEST_F(OverlayFiles, NewPicturesTakeThePlaceOfThoseOfAnEarlierRunAndOfNothingEls
 
   auto writer = OverlayWriter::open(folder_.path(), 30, true).value();
   EXPECT_EQ(names().size(), kept.size() + 3) << "before there is a new one";
-  for (std::int64_t number : {11, 12}) ASSERT_TRUE(writer.write(grey_frame(320, number), shared(open_hand())));
+  for (std::int64_t number : {11, 12}) ASSERT_TRUE(writer.write(grey_frame(320, number), hand_));
   kept.insert({"000011.jpg", "000012.jpg"});
   EXPECT_EQ(names(), kept);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "000003.jpg"), {}), 1);
 
   auto without = OverlayWriter::open(folder_.path(), 30).value();
-  ASSERT_TRUE(without.write(grey_frame(320, 13), shared(open_hand())));
+  ASSERT_TRUE(without.write(grey_frame(320, 13), hand_));
   kept.insert("000013.jpg");
   EXPECT_EQ(names(), kept);
 }
@@ -162,7 +237,7 @@ TEST_F(OverlayFiles, VideosHoldEveryFrame) {
     const std::string path = folder_ / name;
     auto writer = OverlayWriter::open(path, 30);
     ASSERT_TRUE(writer) << writer.error().message();
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), shared(open_hand())));
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(grey_frame(320, i), hand_));
     ASSERT_TRUE(writer->finish());
     const test::ReadVideo video = test::read_video(path);
     ASSERT_EQ(video.pictures.size(), 5) << name;
@@ -175,7 +250,7 @@ TEST_F(OverlayFiles, AVideoThatIsCutByAFullDiskIsAnError) {
   for (const char* name : {"overlay.avi", "overlay.mp4"}) {
     auto writer = OverlayWriter::open(folder_ / name, 30);
     const test::FileSizeLimit full(20'000);
-    for (int i = 0; i < 20; ++i) (void)writer->write(grey_frame(320, i), shared(open_hand()));
+    for (int i = 0; i < 20; ++i) (void)writer->write(grey_frame(320, i), hand_);
     const auto finished = writer->finish();
     ASSERT_FALSE(finished) << name;
     EXPECT_THAT(finished.error().message(), HasSubstr("free space"));
@@ -201,12 +276,12 @@ TEST_F(OverlayFiles, OutsideConditionsAreReported) {
               HasSubstr("/proc/overlay: cannot be created"));
 
   auto video = OverlayWriter::open(folder_ / "overlay.avi", 30);
-  ASSERT_TRUE(video->write(grey_frame(320), shared(open_hand())));
-  EXPECT_THAT(video->write(grey_frame(800, 8), shared(open_hand())).error().message(), HasSubstr("differs in size"));
+  ASSERT_TRUE(video->write(grey_frame(320), hand_));
+  EXPECT_THAT(video->write(grey_frame(800, 8), hand_).error().message(), HasSubstr("differs in size"));
 
   auto pictures = OverlayWriter::open(folder_ / "overlay", 30);
   fs::create_symlink("/dev/full", folder_ / "overlay/000007.jpg");
-  EXPECT_THAT(pictures->write(grey_frame(), shared(open_hand())).error().message(),
+  EXPECT_THAT(pictures->write(grey_frame(), hand_).error().message(),
               AllOf(HasSubstr("000007.jpg"), HasSubstr("free space")));
 }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand::test {

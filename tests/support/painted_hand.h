@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 #include "observe/dense/nearest_cell.h"
 #include "observe/observation.h"
 #include "support/adult_hand.h"

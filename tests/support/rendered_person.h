@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 #include "support/adult_hand.h"
 #include "support/scene.h"
 

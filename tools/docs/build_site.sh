@@ -10,7 +10,7 @@ pages=build/site_pages
 rm -rf "$pages"
 mkdir -p "$pages"
 cp --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE deploy/*.md "$pages"
-find docs -name '*.md' -o -name '*.png' -o -name '*.jpg' -o -name '*.svg' | xargs cp --parents -t "$pages"
+find docs -name '*.md' -o -name '*.png' -o -name '*.jpg' -o -name '*.webp' -o -name '*.svg' | xargs cp --parents -t "$pages"
 grep -rhoE '\]\(\.\./[^)#]+' docs | sed 's|^](\.\./||' | sort -u | while read -r linked; do
   if [ -f "$linked" ]; then cp --parents "$linked" "$pages"; fi
 done

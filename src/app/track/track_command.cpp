@@ -54,6 +54,8 @@ void add_track_command(CLI::App& app, int& exit_code) {
                     "write every decision of the tracker with the rule that made it (CSV)");
   track->add_option("--overlay", o.overlay,
                     "draw the tracked hand over the images: into a folder, or a video (.mp4, .mkv, .webm, .avi)");
+  track->add_flag("--overlay-names", o.overlay_names, "write the names of the segments beside the drawn hand")
+      ->needs("--overlay");
   track->add_option("--save-hand", o.save_hand, "write the hand profile as fitted to the person (hand.json)");
   track->add_option("--overlay-every", o.overlay_every, "draw every N-th frame only")
       ->check(CLI::PositiveNumber)

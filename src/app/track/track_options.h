@@ -20,6 +20,7 @@ struct TrackOptions {
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
   bool overwrite = false;   ///< outputs may replace existing files
   int overlay_every = 1;    ///< every n-th frame is drawn
+  bool overlay_names = false;  ///< segments are named
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< replaces the configuration's seed
   int threads = 1;

@@ -221,7 +221,8 @@ Step TrackRun::open_outputs() {
   if (ok && !options_.mcap.empty()) ok = open_mcap();
   if (ok && !options_.decisions.empty()) ok = add(DecisionSink::create(options_.decisions, options_.overwrite));
   if (ok && !options_.overlay.empty())
-    ok = add(OverlaySink::create(options_.overlay, rate(kUsualRate), options_.overlay_every, options_.overwrite));
+    ok = add(OverlaySink::create(options_.overlay, rate(kUsualRate), options_.overlay_every, options_.overwrite,
+                                 options_.overlay_names ? SegmentNames::drawn : SegmentNames::left_out));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (ok && options_.view) ok = open_view();
   if (!ok) return ok;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/format.h"
-#include "io/overlay/overlay_drawing.h"
 #include "io/recording/image_file.h"
 #include "io/video/video_file.h"
 
@@ -71,39 +70,40 @@ class OverlayWriter::Video : public OverlayWriter::Output {
   VideoFile file_;
 };
 
-Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps, bool overwrite) {
+Result<OverlayWriter> OverlayWriter::open(const std::string& path, double fps, bool overwrite, SegmentNames names) {
   if (video_format(path)) {
     return VideoFile::create(path, fps).map(
-        [](VideoFile&& file) { return OverlayWriter(std::make_unique<Video>(std::move(file))); });
+        [&](VideoFile&& file) { return OverlayWriter(std::make_unique<Video>(std::move(file)), names); });
   }
   if (is_other_video(path))
     return fail("is not a supported video format", path, "use a name that ends in .mp4, .mkv, .webm or .avi");
   std::error_code error;
   fs::create_directories(path, error);
   if (error) return fail("cannot be created: " + error.message(), path, "check the path and its permissions");
-  return OverlayWriter(std::make_unique<Folder>(path, overwrite));
+  return OverlayWriter(std::make_unique<Folder>(path, overwrite), names);
 }
 
-OverlayWriter::OverlayWriter(std::unique_ptr<Output> output) : output_(std::move(output)) {}
+OverlayWriter::OverlayWriter(std::unique_ptr<Output> output, SegmentNames names)
+    : output_(std::move(output)), names_(names) {}
 OverlayWriter::OverlayWriter(OverlayWriter&&) noexcept = default;
 OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
 OverlayWriter::~OverlayWriter() = default;
 
-void OverlayWriter::Outline::follow(const HandEstimate& estimate) {
-  constexpr int kPoints = 240;  // points per segment, enough for a smooth outline
-  if (!estimate.profile || estimate.profile == profile) return;
+void OverlayWriter::HandSkin::follow(const HandEstimate& estimate) {
+  constexpr double kCell = 0.004;  // m; finer is not seen in the picture
+  if (!estimate.has_pose() || estimate.profile == profile) return;
   profile = estimate.profile;
-  surface = make_cylinder_surface(*profile, kPoints);
+  skin = make_skin(*profile, kCell);
 }
 
 Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimates& estimates) {
-  outlines_.resize(estimates.size());
+  skins_.resize(estimates.size());
   std::vector<DrawnHand> hands;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
-    outlines_[k].follow(*estimates[k]);
-    hands.push_back({*estimates[k], outlines_[k].surface});
+    skins_[k].follow(*estimates[k]);
+    hands.push_back({*estimates[k], skins_[k].skin});
   }
-  return output_->write(draw_overlay(frame, hands), frame.number);
+  return output_->write(draw_overlay(frame, hands, names_), frame.number);
 }
 
 Result<void> OverlayWriter::finish() { return output_->finish(); }

@@ -6,7 +6,8 @@
 
 #include "core/error.h"
 #include "hand/hand_pose.h"
-#include "hand/surface.h"
+#include "hand/skin.h"
+#include "io/overlay/overlay_drawing.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand {
@@ -17,7 +18,8 @@ class OverlayWriter {
  public:
   /// `fps`: frame rate of a video. `overwrite`: the first image that is written to a folder replaces all images that an
   /// earlier writer left there; other files stay. Errors: a folder that cannot be created; those of VideoFile.
-  static Result<OverlayWriter> open(const std::string& path, double fps, bool overwrite = false);
+  static Result<OverlayWriter> open(const std::string& path, double fps, bool overwrite = false,
+                                    SegmentNames names = SegmentNames::left_out);
   OverlayWriter(OverlayWriter&&) noexcept;
   OverlayWriter& operator=(OverlayWriter&&) noexcept;
   ~OverlayWriter();
@@ -31,17 +33,18 @@ class OverlayWriter {
   class Output;
   class Folder;
   class Video;
-  explicit OverlayWriter(std::unique_ptr<Output> output);
+  OverlayWriter(std::unique_ptr<Output> output, SegmentNames names);
 
-  /// Surface of the cylinders of a hand's profile, whose outline is drawn.
-  struct Outline {
+  /// The skin of a hand's profile.
+  struct HandSkin {
     std::shared_ptr<const HandProfile> profile;
-    HandSurface surface;
+    Skin skin;
     void follow(const HandEstimate& estimate);
   };
 
   std::unique_ptr<Output> output_;
-  std::vector<Outline> outlines_;  // one for each hand
+  SegmentNames names_;
+  std::vector<HandSkin> skins_;  // one for each hand
 };
 
 }  // namespace barehand

@@ -4,7 +4,7 @@
 
 #include "core/image.h"
 #include "hand/hand_pose.h"
-#include "hand/surface.h"
+#include "hand/skin.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand {
@@ -14,15 +14,20 @@ inline constexpr int kCaptionHeight = 28;
 /// The factor by which small frames are enlarged, so that lines stay legible.
 int overlay_scale(const Intrinsics& camera);
 
+/// A hand with a skin of its profile.
 struct DrawnHand {
   const HandEstimate& estimate;
-  const HandSurface& surface;  ///< skin to outline
+  const Skin& skin;
 };
 
-/// Draws colour and depth side by side with the hands over both: bones in one colour per finger, the outline of the
-/// skin filled with an opacity that grows with the confidence, distal ends as blue dots (paper Fig. 8). Inferred
-/// segments are not filled. The caption below states frame number, time and the status of each hand. Without a pose,
-/// only images and caption are drawn.
-Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands);
+/// Whether an overlay names the segments.
+enum class SegmentNames { left_out, drawn };
+
+/// Draws colour and depth side by side with the hands over both: the skin, translucent and shaded, in one colour for
+/// each finger (paint_skin); on top thin bones, and the distal ends of the segments as blue dots (paper Fig. 8), hollow
+/// where a segment is inferred. Names stand over the colour image. The caption below states frame number, time and the
+/// status of each hand. Without a pose, only images and caption are drawn.
+Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands,
+                        SegmentNames names = SegmentNames::left_out);
 
 }  // namespace barehand

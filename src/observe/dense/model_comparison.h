@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 #include "observe/dense/nearest_cell.h"
 #include "observe/dense/pixel_rays.h"
 #include "observe/observation.h"

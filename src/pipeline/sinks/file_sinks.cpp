@@ -51,10 +51,11 @@ Result<void> DecisionSink::consume(const TrackedFrame& tracked) {
 
 Result<void> DecisionSink::finish() { return frames_ > 0 ? table_.finish() : Result<void>(); }
 
-Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every, bool overwrite) {
+Result<std::unique_ptr<Sink>> OverlaySink::create(const std::string& path, double fps, int every, bool overwrite,
+                                                  SegmentNames names) {
   std::error_code ignored;
   const bool there = std::filesystem::exists(path, ignored);
-  auto writer = OverlayWriter::open(path, fps / every, overwrite);
+  auto writer = OverlayWriter::open(path, fps / every, overwrite, names);
   if (!writer) return tl::unexpected(writer.error());
   const bool made = !there && std::filesystem::is_directory(path, ignored);
   return std::unique_ptr<Sink>(new OverlaySink(std::move(*writer), every, made ? path : ""));

@@ -47,7 +47,8 @@ class DecisionSink : public Sink {
 /// --overlay: draws the tracked hands over the images of the first and then of each `every`-th frame.
 class OverlaySink : public Sink {
  public:
-  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every, bool overwrite);
+  static Result<std::unique_ptr<Sink>> create(const std::string& path, double fps, int every, bool overwrite,
+                                              SegmentNames names);
   std::string name() const override { return "overlay"; }
   Result<void> consume(const TrackedFrame& tracked) override {
     if (seen_++ % every_ != 0) return {};

@@ -1,4 +1,4 @@
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 
 #include <algorithm>
 #include <cmath>

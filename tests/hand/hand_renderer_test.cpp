@@ -1,11 +1,13 @@
-#include "observe/dense/hand_renderer.h"
+#include "hand/rendering/hand_renderer.h"
 
 #include <limits>
 
-#include "support/painted_hand.h"
+#include "support/adult_hand.h"
 
 namespace barehand {
 namespace {
+
+const Intrinsics kCamera{320, 240, 262.0, 262.0, 159.5, 119.5};
 
 // Depth of the nearest triangle that faces the camera along the ray of a pixel (Moeller-Trumbore); 0 = none.
 double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, const Eigen::Vector3d& ray) {
@@ -30,15 +32,14 @@ TEST(RenderHand, AgreesWithRayCasting) {
   const auto profile = test::adult_hand();
   const Skin skin = make_blended_skin(*profile, 0.005);
   const HandPose pose = test::facing_pose(*profile, 0.45, 0.9);
-  const Intrinsics camera = test::small_camera();
   RenderedHand rendered;
-  render_hand(skin, pose, camera, {7, 3, 3, 100, 75}, rendered);
+  render_hand(skin, pose, kCamera, {7, 3, 3, 100, 75}, rendered);
 
   // Compare every other cell with a ray.
   int covered = 0, differ = 0;
   for (int j = 0; j < 75; j += 2)
     for (int i = 0; i < 100; i += 2) {
-      const double expected = ray_cast(skin, rendered.position, camera.unproject(7 + 3 * i, 3 + 3 * j, 1.0));
+      const double expected = ray_cast(skin, rendered.position, kCamera.unproject(7 + 3 * i, 3 + 3 * j, 1.0));
       const double depth = rendered.depth.at(i, j);
       if ((expected > 0) != (depth > 0)) {
         ++differ;  // a ray may hit an edge exactly
@@ -56,7 +57,7 @@ TEST(RenderHand, CountsHiddenSkinAsProjected) {
   const Skin skin = make_blended_skin(*profile, 0.005);
   RenderedHand rendered;
   const CellGrid grid{0, 0, 1, 320, 240};
-  render_hand(skin, test::facing_pose(*profile, 0.45, 1.4), test::small_camera(), grid, rendered);
+  render_hand(skin, test::facing_pose(*profile, 0.45, 1.4), kCamera, grid, rendered);
   std::array<int, kSegmentCount> front{};
   for (std::size_t i = 0; i < rendered.vertex.size(); ++i)
     if (rendered.vertex[i] >= 0) ++front[skin.vertices[rendered.vertex[i]].a];

@@ -1,0 +1,89 @@
+#include "io/overlay/segment_labels.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/overlay/finger_colours.h"
+
+namespace barehand {
+namespace {
+
+constexpr int kLineHeight = 15;  // px
+constexpr int kGap = 28;         // from the outermost middle of a segment to the labels [px]
+constexpr double kFontScale = 0.38;
+
+struct Label {
+  std::string text;
+  cv::Scalar colour;
+  cv::Point segment;  // middle of the segment [px]
+  int v = 0;          // centre of the text [px]
+};
+
+/// One label for every segment whose middle lies in the picture.
+std::vector<Label> labels_of(const HandEstimate& estimate, const Intrinsics& camera, const cv::Size& picture) {
+  std::vector<Label> labels;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto pixel = pixel_of(camera, 0.5 * (proximal_end_of(estimate, s) + distal_end_of(estimate, s)));
+    if (!pixel) continue;
+    const cv::Point middle(pixel->x >> kFractionBits, pixel->y >> kFractionBits);
+    if (!cv::Rect({0, 0}, picture).contains(middle)) continue;
+    std::string text(kSegmentNames[s]);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    const Rgb colour = finger_colour(s);
+    labels.push_back({text, cv::Scalar(colour.r, colour.g, colour.b), middle, middle.y});
+  }
+  return labels;
+}
+
+/// Moves the labels of a column apart, so that they neither overlap nor leave the picture, where it is high enough.
+void spread(std::vector<Label>& column, int height) {
+  std::stable_sort(column.begin(), column.end(), [](const Label& a, const Label& b) { return a.v < b.v; });
+  int lowest = kLineHeight;
+  for (Label& label : column) {
+    label.v = std::max(label.v, lowest);
+    lowest = label.v + kLineHeight;
+  }
+  int highest = height - kLineHeight;
+  for (auto label = column.rbegin(); label != column.rend(); ++label) {
+    label->v = std::min(label->v, highest);
+    highest = label->v - kLineHeight;
+  }
+}
+
+/// Draws a column whose inner edge is at `edge`, to its left or right.
+void draw_column(const std::vector<Label>& column, int edge, bool to_left, cv::Mat& picture) {
+  for (const Label& label : column) {
+    // Place the text beside the edge, but within the picture.
+    const cv::Size size = cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, nullptr);
+    const int left = std::clamp(to_left ? edge - size.width : edge, 2, std::max(2, picture.cols - size.width - 2));
+    const cv::Point text(left, label.v + size.height / 2), joint(to_left ? left + size.width + 2 : left - 2, label.v);
+
+    // A dark rim keeps the text legible over any picture; a rim of the line would cover the hand.
+    cv::line(picture, label.segment, joint, label.colour, 1, cv::LINE_AA);
+    for (const auto& [colour, thickness] : {std::pair{cv::Scalar(20, 20, 20), 3}, {label.colour, 1}})
+      cv::putText(picture, label.text, text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, colour, thickness, cv::LINE_AA);
+  }
+}
+
+}  // namespace
+
+void draw_segment_names(const HandEstimate& estimate, const Intrinsics& camera, cv::Mat& picture) {
+  std::vector<Label> labels = labels_of(estimate, camera, picture.size());
+  if (labels.empty()) return;
+
+  // The left half of the segments is named on the left, the other half on the right.
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const Label& a, const Label& b) { return a.segment.x < b.segment.x; });
+  const auto middle = labels.begin() + static_cast<std::ptrdiff_t>(labels.size() / 2);
+  const int left_edge = labels.front().segment.x - kGap, right_edge = labels.back().segment.x + kGap;
+  std::vector<Label> on_left(labels.begin(), middle), on_right(middle, labels.end());
+  spread(on_left, picture.rows);
+  spread(on_right, picture.rows);
+  draw_column(on_left, left_edge, true, picture);
+  draw_column(on_right, right_edge, false, picture);
+}
+
+}  // namespace barehand
