@@ -17,9 +17,10 @@ constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 
 constexpr double kAllMatched = 0.3;  // fraction of the segments' skin, from which on the pose shows where joints are
 
 // Evidence over frames.
-constexpr double kKept = 0.9;    // of the sum, from frame to frame
-constexpr double kCounts = 0.2;  // share of the sum that is new to the present frame
-constexpr double kApart = 0.1;   // m, farther away something else is seen
+constexpr double kKept = 0.9;          // of the sum, from frame to frame
+constexpr double kCounts = 0.2;        // share of the sum that is new to the present frame
+constexpr double kApart = 0.1;         // m, farther away something else is seen
+constexpr std::uint32_t kFaded = 100;  // frames, after which nothing of it is left
 
 }  // namespace
 
@@ -62,13 +63,24 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
 }
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {
-  if (frame != frame_) {
-    before_ = (centre - centre_).norm() < kApart ? std::pow(kKept, frame - frame_) * sum_ : 0;
-    frame_ = frame;
+  // Forget what has faded, and find the nearest place.
+  std::erase_if(places_, [&](const Place& place) { return frame - place.frame > kFaded; });
+  const auto distance = [&](const Place& place) { return (centre - place.centre).norm(); };
+  auto place = std::ranges::min_element(places_, {}, distance);
+  if (place == places_.end() || distance(*place) >= kApart) place = places_.insert(places_.end(), {.frame = frame});
+
+  // Add to it.
+  if (frame != place->frame) {
+    place->before = std::pow(kKept, frame - place->frame) * place->sum;
+    place->frame = frame;
   }
-  centre_ = centre;
-  sum_ = std::max(0.0, before_ + log_odds);
-  return log_odds + kCounts * before_;
+  place->centre = centre;
+  place->sum = std::max(0.0, place->before + log_odds);
+  return log_odds + kCounts * place->before;
+}
+
+void HandEvidence::forget(const Eigen::Vector3d& centre) {
+  std::erase_if(places_, [&](const Place& place) { return (centre - place.centre).norm() < kApart; });
 }
 
 }  // namespace barehand

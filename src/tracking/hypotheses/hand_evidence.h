@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "observe/detection.h"
 #include "stages/refinement/refinement.h"
@@ -25,19 +26,25 @@ double log_odds_of_hand(const HandCues& cues);
 /// left the joints. Joints that are not seen may be anywhere.
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected);
 
-/// Log odds of what is seen at one place, kept over frames. Successive frames share most of their errors, so those
+/// Log odds of what is seen at each place, kept over frames. Successive frames share most of their errors, so those
 /// before the present one count little.
 class HandEvidence {
  public:
-  /// Adds the log odds of a frame at `centre`, camera frame [m], and returns those of all frames. A frame counts once:
-  /// of several looks at it, the last one. What is seen elsewhere than before is something new.
+  /// Adds the log odds of a frame at `centre`, camera frame [m], and returns those of all frames. A frame counts once
+  /// at each place: of several looks, the last one. What is seen elsewhere than before is something new.
   double add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds);
-  void forget() { *this = {}; }
+  /// Forgets what was seen at `centre`.
+  void forget(const Eigen::Vector3d& centre);
+  /// Forgets all places.
+  void forget() { places_.clear(); }
 
  private:
-  std::uint32_t frame_ = 0;  // the last one that was added
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  double before_ = 0, sum_ = 0;  // leaky sums: before the last frame, and with it
+  struct Place {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // where it was seen last
+    std::uint32_t frame = 0;                           // the last one that was added
+    double before = 0, sum = 0;                        // leaky sums: before that frame, and with it
+  };
+  std::vector<Place> places_;
 };
 
 }  // namespace barehand
