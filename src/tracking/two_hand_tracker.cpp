@@ -176,9 +176,14 @@ void TwoHandTracker::search_one(int k, const HandObservations& observations, Han
 void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
-  // A side that finds no hand counts like one with a bad explanation, not worse.
+  // A side that finds no hand counts like one with a bad explanation, not worse. A detection that confirms a pose
+  // counts here as it does for the start of the track: with much noise every score is bad.
   const double none = params_.loss.lost_score;
-  const auto score = [&](int k, int j) { return found[k][j] ? std::min(found[k][j]->score(), none) : none; };
+  const Choice choice(params_.choice);
+  const auto score = [&](int k, int j) {
+    if (!found[k][j]) return none;
+    return std::min(choice.judged_score(*observations[j], *hands_[k]->view().profile, found[k][j]->refined), none);
+  };
 
   // Whether one of the sides explains the observation well enough already.
   const auto confident = [&](int j) {

@@ -133,5 +133,34 @@ TEST(HandEvidence, WhatIsSeenElsewhereIsSomethingNew) {
   EXPECT_EQ(evidence.add(6, kHere + Eigen::Vector3d(0.2, 0, 0), 1), 1);
 }
 
+const Eigen::Vector3d kThere = kHere + Eigen::Vector3d(0.2, 0, 0);
+
+TEST(HandEvidence, GrowsAtEachOfTwoPlacesAsAtOneAlone) {
+  HandEvidence both, here, there;
+  for (int frame = 0; frame < 5; ++frame) {
+    EXPECT_EQ(both.add(frame, kHere, 1), here.add(frame, kHere, 1));
+    EXPECT_EQ(both.add(frame, kThere, 2), there.add(frame, kThere, 2));
+    EXPECT_EQ(both.add(frame, kHere, 1), here.add(frame, kHere, 1)) << "looked at once more";
+  }
+}
+
+TEST(HandEvidence, FollowsWhatMoves) {
+  HandEvidence still, moving;
+  for (int frame = 0; frame < 5; ++frame)
+    EXPECT_EQ(moving.add(frame, kHere + Eigen::Vector3d(0.06 * frame, 0, 0), 1), still.add(frame, kHere, 1));
+}
+
+TEST(HandEvidence, WhatIsForgottenAtOnePlaceIsKeptAtAnother) {
+  HandEvidence both, there;
+  for (int frame = 0; frame < 5; ++frame) {
+    both.add(frame, kHere, 1);
+    both.add(frame, kThere, 1);
+    there.add(frame, kThere, 1);
+  }
+  both.forget(kHere + Eigen::Vector3d(0.02, 0, 0));
+  EXPECT_EQ(both.add(5, kHere, 1), 1);
+  EXPECT_EQ(both.add(5, kThere, 1), there.add(5, kThere, 1));
+}
+
 }  // namespace
 }  // namespace barehand

@@ -291,6 +291,19 @@ TEST_F(StartOfDetectedHand, KeepsItsSizeWhereNoCopyExplainsItBetter) {
   EXPECT_EQ(out.str(), "");
 }
 
+TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsOne) {
+  const HandObservationPtr hand = detected(*right_, 0.15);
+  const double score = next(tracker_, hand, nothing(), {})[kRight]->score;
+
+  // As if it was explained badly.
+  TrackerParams strict = test::quick_tracker();
+  strict.loss.lost_score = strict.loss.recovered_score = 0.7 * score;
+  TwoHandTracker tracker(strict, {right_, left_}, 1, workers_);
+  const HandEstimates found = next(tracker, hand, nothing(), {});
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking) << score;
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::searching);
+}
+
 /// A detection that may be something else than a hand, `aside` [m] of what is explained well by one.
 class DoubtfulDetection : public StartOfDetectedHand {
  protected:

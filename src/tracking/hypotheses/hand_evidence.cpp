@@ -20,9 +20,10 @@ constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 
 constexpr double kAllMatched = 0.3;
 
 // Evidence over frames.
-constexpr double kKept = 0.9;    // factor by which the sum of earlier frames decays per frame
-constexpr double kCounts = 0.2;  // weight of the sum of earlier frames, which share most errors with the present one
-constexpr double kApart = 0.1;   // m, beyond this distance from the last centre the sum starts again
+constexpr double kKept = 0.9;          // factor by which the sum of earlier frames decays per frame
+constexpr double kCounts = 0.2;        // weight of the sum of earlier frames, which share most errors with this one
+constexpr double kApart = 0.1;         // m, beyond this distance from its last centre another place begins
+constexpr std::uint32_t kFaded = 100;  // number of frames after which a place is forgotten
 
 }  // namespace
 
@@ -66,13 +67,24 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
 }
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {
-  if (frame != frame_) {
-    before_ = (centre - centre_).norm() < kApart ? std::pow(kKept, frame - frame_) * sum_ : 0;
-    frame_ = frame;
+  // Forget what has faded, and find the nearest place.
+  std::erase_if(places_, [&](const Place& place) { return frame - place.frame > kFaded; });
+  const auto distance = [&](const Place& place) { return (centre - place.centre).norm(); };
+  auto place = std::ranges::min_element(places_, {}, distance);
+  if (place == places_.end() || distance(*place) >= kApart) place = places_.insert(places_.end(), {.frame = frame});
+
+  // Add to it.
+  if (frame != place->frame) {
+    place->before = std::pow(kKept, frame - place->frame) * place->sum;
+    place->frame = frame;
   }
-  centre_ = centre;
-  sum_ = std::max(0.0, before_ + log_odds);
-  return log_odds + kCounts * before_;
+  place->centre = centre;
+  place->sum = std::max(0.0, place->before + log_odds);
+  return log_odds + kCounts * place->before;
+}
+
+void HandEvidence::forget(const Eigen::Vector3d& centre) {
+  std::erase_if(places_, [&](const Place& place) { return (centre - place.centre).norm() < kApart; });
 }
 
 }  // namespace barehand

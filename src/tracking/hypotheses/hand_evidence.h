@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "observe/detection.h"
 #include "stages/refinement/refinement.h"
@@ -29,20 +30,26 @@ double log_odds_of_hand(const HandCues& cues);
 /// joints that are hidden are uncertain.
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected);
 
-/// Accumulates over frames the log odds that the thing detected at one place is a hand. Successive frames share most of
-/// their errors, so the earlier frames have a small weight.
+/// Accumulates over frames, separately for each place, the log odds that the thing detected there is a hand. Successive
+/// frames share most of their errors, so the earlier frames have a small weight.
 class HandEvidence {
  public:
   /// Adds the log odds of a frame for a detection at `centre`, camera frame [m], and returns the log odds from all
-  /// frames. If a frame is added several times, only the last call counts. A detection far from the last centre is
-  /// another thing, for which the sum starts again.
+  /// frames. If a frame is added several times at one place, only the last call counts. A detection far from the last
+  /// centre of every place begins a new place.
   double add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds);
-  void forget() { *this = {}; }
+  /// Forgets the place at `centre`.
+  void forget(const Eigen::Vector3d& centre);
+  /// Forgets all places.
+  void forget() { places_.clear(); }
 
  private:
-  std::uint32_t frame_ = 0;  // number of the last frame that was added
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  double before_ = 0, sum_ = 0;  // leaky sums of log odds: without the last frame, and with it
+  struct Place {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of the last detection there
+    std::uint32_t frame = 0;                           // number of the last frame that was added
+    double before = 0, sum = 0;                        // leaky sums of log odds: without the last frame, and with it
+  };
+  std::vector<Place> places_;
 };
 
 }  // namespace barehand

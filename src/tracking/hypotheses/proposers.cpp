@@ -29,7 +29,7 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
   const DetectedHand* const unproven = track.was_followed() ? nullptr : observation.detected.get();
   const double log_odds = unproven ? log_odds_of_hand(hand_cues(*unproven, *hand.profile)) : kCertainHand;
   if (log_odds < kPossibleHand) {
-    track.evidence.forget();
+    track.evidence.forget(unproven->centre);
     return std::nullopt;
   }
 
