@@ -71,8 +71,8 @@ export class HandMesh {
     }
   }
 
-  // `poses`: Matrix4 of every segment; null hides the hand. `shares`: values in [0, 1] that colour the segments instead
-  // of their confidence; null: none.
+  // `poses`: Matrix4 of every segment; null hides the hand. `shares`: a value in [0, 1] for each segment,
+  // shown as its colour in place of its confidence; null: show the confidence.
   setPose(poses, segments, shares) {
     if (!this.mesh) return;
     this.mesh.visible = poses !== null;

@@ -56,15 +56,15 @@ constexpr double kBorderLittle = 1.13;
 constexpr double kWebBlend = 0.00427;    // width of the smooth transition [m]
 constexpr double kWebAt = 0.232;         // position, as a fraction of the proximal phalanges
 constexpr double kWebHalfLength = 1.14;  // along the fingers, relative to their half thickness at the next joint
-constexpr double kWebThickness = 0.94;   // half thickness, relative to the same
+constexpr double kWebThickness = 0.94;   // half thickness, relative to the fingers' half thickness at the next joint
 constexpr double kWebOffset = 1.54;      // along y, relative to the knuckles' flesh offset, which is towards the palm
 
-// The web between thumb and index finger.
+// The web between thumb and index finger. Sizes are relative to the half thickness of the thumb at its next joint.
 constexpr double kThumbWebAlongThumb = 0.799;  // where it begins, as a fraction of the thumb's metacarpal
 constexpr double kThumbWebAlongPalm = 0.661;   // where it ends, as a fraction of the way from wrist to index knuckle
-constexpr double kThumbWebThickness = 0.484;   // half thickness, relative to that of the thumb's next joint
-constexpr double kThumbWebHalfLength = 1.18;   // half extent along the bones, relative to the same
-constexpr double kThumbWebOffset = -0.35;      // shift of its end towards the back of the hand, relative to the same
+constexpr double kThumbWebThickness = 0.484;   // half thickness
+constexpr double kThumbWebHalfLength = 1.18;   // half extent along the bones
+constexpr double kThumbWebOffset = -0.35;      // shift of its end towards the back of the hand
 constexpr double kThumbWebBlend = 0.00821;     // width of the smooth transition [m]
 
 // A section of a phalanx relative to the profile's section at an end or, in the middle, to one interpolated from both.

@@ -16,7 +16,8 @@ class PersonFit {
   /// `mean`: the mean hand that is to be adapted.
   PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandProfile> mean);
 
-  /// none: nothing changes; small: use `profile` and `skin` from now on; large: build a new skin for `profile`, too.
+  /// What the caller must do. none: nothing; small: use profile() and skin() from now on; large: use profile() and
+  /// build a new skin for it, since skin() is out of date.
   enum class Change { none, small, large };
   /// Evaluates one frame at its refined pose. `refinement` and `skin` are those of the tracked hand.
   Change look(const HandObservation& observation, const HandPose& pose, const Refinement& refinement,

@@ -15,7 +15,7 @@ struct ScanModel {
   HandProfile profile;  ///< the hand that the scan started from: its frames and limits
   Skin skin;            ///< every vertex is bound to two segments with a weight of 0 to 1 for the second
   std::vector<Eigen::Vector3f> normal_in_b;  ///< outward unit normal of every vertex in the frame of its second segment
-  /// Joint of every segment but the palm in the frames of its parent and of itself [m].
+  /// Position of the joint of every segment but the palm, in its parent's frame and in its own [m].
   std::array<Eigen::Vector3d, kSegmentCount> in_parent{}, in_segment;
   std::array<Eigen::Matrix3d, kSegmentCount> rest;  ///< R_parent_segment at rest, of every segment but the palm
   /// A measured profile states where the joints lie, so a scan must not move them.

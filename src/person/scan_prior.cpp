@@ -10,7 +10,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Standard deviations of the joints, about as large as the error of a fit to elliptic sections.
+// Standard deviations of the joints around their positions at the start of the scan: about as large as the errors of
+// the fit that precedes it, which approximates the hand by elliptic sections.
 constexpr double kAcrossBone = 0.002;    // position of a joint across the bone [m]
 constexpr double kAlongBone = 0.003;     // along the bone [m]; in all directions for the thumb's root, deep in flesh
 constexpr double kBetweenBones = 0.001;  // distance of the two points of a joint [m]

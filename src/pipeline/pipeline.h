@@ -20,6 +20,8 @@
 
 namespace barehand {
 
+// Passes frames from a source through preprocessing and tracking to the sinks, on one thread or on several.
+
 /// Preprocessing of frame k gets the estimates of exactly frame k - kFeedbackLag, so that the threaded and the inline
 /// runner give identical results. With 1, preprocessing would wait until the previous frame is tracked, and nothing
 /// would run in parallel; 2 lets preprocessing of one frame overlap with tracking of the one before.

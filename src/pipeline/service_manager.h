@@ -32,7 +32,7 @@ class ServiceManager {
   const Clock& clock_;
   const bool present_;
   std::int64_t watchdog_us_ = 0;  // period of the watchdog; 0: there is none
-  std::int64_t due_us_ = 0;       // when it may be fed next; steady clock
+  std::int64_t due_us_ = 0;       // earliest time of the next watchdog message; steady clock
 };
 
 }  // namespace barehand

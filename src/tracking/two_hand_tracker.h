@@ -37,9 +37,10 @@ class TwoHandTracker {
  private:
   // Replaces the profile verifiers, which belong to the former profiles and parameters.
   void renew_verifiers();
-  // Tracks the k-th hand and, in parallel, the mirrored hand of its verification.
+  // Tracks the k-th hand while its side (left or right) is being verified: a hand of the other side is tracked in the
+  // same data, in parallel.
   HandEstimatePtr track_with_mirrored(int k, const HandObservation& observation);
-  // Gives up the k-th hand if its verification shows that it is of the other side.
+  // Gives up the k-th hand if the verification finds that it is a hand of the other side.
   void apply_verification(int k, const HandEstimate& estimate);
   // Marks the size of a tracked hand as wrong if the detected joints indicate another size.
   void check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate);

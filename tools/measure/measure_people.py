@@ -15,7 +15,7 @@ import sys
 
 WITH_HAND, WITHOUT_HAND = ["person", "desk", "egocentric"], ["empty_person", "empty_desk", "faces", "feet"]
 TRACKING, EARLY = 1, 5
-# Scenes without a hand: frames per second (low, since they change slowly), and the noise of even and odd seeds.
+# Scenes without a hand: frames per second (low, since they change slowly), and noise models: for even seeds, for odd ones.
 RATE, NOISE = 2.5, ("tof", "kinect")
 SEGMENT, CONFIDENCE = 64 * 8 + 1, 62 * 8  # size of a segment_state_t, and offset of its confidence [bytes]
 

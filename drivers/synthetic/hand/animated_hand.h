@@ -14,7 +14,7 @@ class AnimatedHand {
  public:
   /// Index of the sleeve's surface, which follows those of the segments.
   static constexpr std::uint8_t kSleeve = kSegmentCount;
-  static constexpr std::uint8_t kSurfaceCount = kSegmentCount + 1;  ///< number of surfaces of one hand
+  static constexpr std::uint8_t kSurfaceCount = kSegmentCount + 1;  ///< one for each segment, and the sleeve
 
   /// Loads the mesh of this side. Errors: the hand mesh was not fetched or is unusable. `mesh_folder`: see
   /// hand_mesh_folder().

@@ -104,7 +104,8 @@ EllipticTaper fit_extents(const std::vector<SkinSample>& skin, double length) {
   return fit;
 }
 
-/// Fits a round taper about the bone: the radii at both ends, by least squares on the samples' distances from the bone.
+/// Fits a circular cone frustum around the bone: its radii at both ends, by least squares on the samples' distances
+/// from the bone.
 std::array<double, 2> fit_round(const std::vector<SkinSample>& skin, double length) {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity() * 1e-15;
   Eigen::Vector2d b = Eigen::Vector2d::Zero();

@@ -13,9 +13,10 @@ namespace barehand {
 /// The live page of a run with the recorder that its button starts and stops. It may outlive the run.
 class LivePage {
  public:
-  /// Error: what `options` say of the page cannot be meant: an address that is none, a folder that is not there.
+  /// Checks the page's settings in `options`. Errors: an invalid address, a folder that does not exist.
   static Result<void> check(const TrackOptions& options);
-  /// As `options` say, which want a page. Errors: the port is taken, the page's files are missing.
+  /// Opens the page according to `options`, which must ask for one. Errors: the port is taken, the page's files are
+  /// missing.
   static Result<std::unique_ptr<LivePage>> open(const TrackOptions& options, std::shared_ptr<spdlog::logger> log);
 
   ViewServer& server() { return *server_; }

@@ -18,7 +18,7 @@ using json_fields::Json;
 using json_fields::Object;
 using json_fields::rounded;
 
-constexpr double kLongest = 0.3;      // longest bone [m]; a longer one is perhaps given in millimetres
+constexpr double kLongest = 0.3;      // longest bone [m]; a larger value was probably given in millimetres
 constexpr double kThinnest = 0.0005;  // smallest radius of the skin [m]
 constexpr double kThickest = 0.1;     // largest radius of the skin [m]
 

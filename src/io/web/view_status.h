@@ -34,7 +34,7 @@ inline constexpr std::int64_t kNoFramesUs = 2'000'000;  ///< time without a fram
 struct ViewState {
   std::string source;   ///< name of the source of frames, for display
   bool live = false;    ///< whether frames arrive in real time
-  std::string trouble;  ///< a sentence that says why no frames arrive; "": they do
+  std::string trouble;  ///< why no frames arrive, as a sentence; empty while they do
   int clients = 0;
   std::optional<PipelineHealth> health;      ///< none: unknown
   std::optional<PlayedLog> log;              ///< none: nothing to play

@@ -11,6 +11,9 @@
 namespace barehand {
 namespace {
 
+// Hypotheses that do not continue the track: from the detected joints, from searches of the observation, and from
+// uncrossing fingers.
+
 constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the random seeds of two attempts in one frame
 
 // Thresholds on the log odds that a detection is a hand (HandEvidence).
@@ -57,7 +60,7 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
 
 std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, const HandModel& hand, Track& track,
                                             const Hypothesis& followed, std::uint32_t frame) const {
-  // A tentative track gets a full search: the quick one that found it may be wrong again.
+  // A tentative track gets a full search, since the quick search that found it might repeat its mistake.
   const TrackerParams& params = context_.params;
   if (track.tentative()) return searched(observation, hand, track, Effort::full, 0, frame);
   if (!track.exceeds_baseline(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
