@@ -6,6 +6,7 @@
 
 #include "io/recording/recording.h"
 #include "sensor/frame_source.h"
+#include "sensor/replay_position.h"
 
 namespace barehand {
 
@@ -29,15 +30,14 @@ class FolderSource : public FrameSource {
 
   const Recording& recording() const { return recording_; }
   /// Number of events that `next` will still deliver, for showing progress.
-  std::int64_t remaining() const;
+  std::int64_t remaining() const { return position_.remaining(); }
 
  private:
-  FolderSource(Recording recording, std::int64_t start, std::int64_t step)
-      : recording_(std::move(recording)), next_(start), step_(step) {}
+  FolderSource(Recording recording, const ReplayPosition& position)
+      : recording_(std::move(recording)), position_(position) {}
 
   Recording recording_;
-  std::int64_t next_;
-  std::int64_t step_;
+  ReplayPosition position_;
 };
 
 }  // namespace barehand

@@ -37,9 +37,9 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
   if (auto ready = source->open_files().and_then([&] { return source->choose(); }); !ready)
     return tl::unexpected(ready.error());
   const auto count = static_cast<std::int64_t>(source->frames_.size());
-  source->next_ = options.start.value_or(options.step > 0 ? 0 : count - 1);
-  if (source->next_ < 0 || source->next_ >= count) {
-    return fail("there is no frame " + std::to_string(source->next_), path,
+  source->position_ = ReplayPosition(options.start, options.step, count);
+  if (source->position_.at_end()) {
+    return fail("there is no frame " + std::to_string(source->position_.next()), path,
                 "the log holds frames 0 to " + std::to_string(count - 1));
   }
   source->put_in_order();
@@ -118,17 +118,10 @@ std::int64_t LcmLogSource::damaged_bytes() const {
   return bytes;
 }
 
-std::int64_t LcmLogSource::remaining() const {
-  const auto count = static_cast<std::int64_t>(frames_.size());
-  if (next_ < 0 || next_ >= count) return 0;
-  return options_.step > 0 ? (count - 1 - next_) / options_.step + 1 : next_ / -options_.step + 1;
-}
-
 SourceEvent LcmLogSource::next(std::chrono::milliseconds) {
-  if (remaining() == 0) return EndOfStream{};
-  const std::int64_t position = next_;
-  next_ += options_.step;
-  return read(position);
+  const auto position = position_.take();
+  if (!position) return EndOfStream{};
+  return read(*position);
 }
 
 SourceEvent LcmLogSource::read(std::int64_t position) {

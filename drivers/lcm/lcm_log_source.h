@@ -10,6 +10,7 @@
 #include "drivers/lcm/foreign_frames.h"
 #include "io/lcm/lcm_log_reader.h"
 #include "sensor/frame_source.h"
+#include "sensor/replay_position.h"
 
 namespace barehand {
 
@@ -36,7 +37,7 @@ class LcmLogSource : public FrameSource {
   std::string name() const override { return "log:" + path_; }
 
   /// Number of events that `next` will still deliver, for showing progress.
-  std::int64_t remaining() const;
+  std::int64_t remaining() const { return position_.remaining(); }
   /// Number of bytes that belong to no complete event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
   /// The reason for each log that was left out: it cannot be read, holds nothing, or is still being written.
@@ -64,7 +65,7 @@ class LcmLogSource : public FrameSource {
   std::vector<Event> frames_;             ///< events of the chosen channels, in the order of the files
   std::map<std::int64_t, Error> unused_;  ///< by index in frames_: why FrameOrder rejects the frame
   std::vector<std::string> doubts_;
-  std::int64_t next_ = 0;
+  ReplayPosition position_;
   std::size_t open_ = 0;  ///< index of the only file that may be open
 };
 

@@ -62,9 +62,9 @@ Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, co
   if (auto chosen = source->choose(); !chosen) return tl::unexpected(chosen.error());
 
   const auto count = static_cast<std::int64_t>(source->frames_.size());
-  source->next_ = options.start.value_or(options.step > 0 ? 0 : count - 1);
-  if (source->next_ < 0 || source->next_ >= count)
-    return fail("there is no frame " + std::to_string(source->next_), path,
+  source->position_ = ReplayPosition(options.start, options.step, count);
+  if (source->position_.at_end())
+    return fail("there is no frame " + std::to_string(source->position_.next()), path,
                 "the file holds frames 0 to " + std::to_string(count - 1));
   return source;
 }
@@ -74,6 +74,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
   stream.type = channel.type;
   if (channel.encoding != "cdr") return stream;
   if (channel.type == ros::schema_name<ros::CameraInfo>()) stream.kind = Kind::camera;
+
+  // A raw image: its encoding tells depth from colour.
   if (channel.type == ros::schema_name<ros::Image>()) {
     const auto head = ros::decode<ImageHead>(bytes);
     if (!head) return stream;
@@ -85,6 +87,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     stream.width = static_cast<int>(head->width);
     stream.height = static_cast<int>(head->height);
   }
+
+  // A compressed image: its format does, and its size is in the compressed data.
   if (channel.type == ros::schema_name<ros::CompressedImage>()) {
     const auto image = ros::decode<ros::CompressedImage>(bytes);
     if (!image) return stream;
@@ -208,17 +212,10 @@ Result<void> McapSource::add_frames(const std::string& topic) {
   return {};
 }
 
-std::int64_t McapSource::remaining() const {
-  const auto count = static_cast<std::int64_t>(frames_.size());
-  if (next_ < 0 || next_ >= count) return 0;
-  return options_.step > 0 ? (count - 1 - next_) / options_.step + 1 : next_ / -options_.step + 1;
-}
-
 SourceEvent McapSource::next(std::chrono::milliseconds) {
-  if (remaining() == 0) return EndOfStream{};
-  const std::int64_t position = next_;
-  next_ += options_.step;
-  return read(position);
+  const auto position = position_.take();
+  if (!position) return EndOfStream{};
+  return read(*position);
 }
 
 SourceEvent McapSource::read(std::int64_t position) {

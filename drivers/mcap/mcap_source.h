@@ -10,6 +10,7 @@
 #include "io/mcap/mcap_reader.h"
 #include "sensor/frame_source.h"
 #include "sensor/given_intrinsics.h"
+#include "sensor/replay_position.h"
 
 namespace barehand {
 
@@ -38,7 +39,7 @@ class McapSource : public FrameSource {
   std::string name() const override { return "log:" + path_; }
 
   /// Number of events that next() will deliver before the end, for a progress display.
-  std::int64_t remaining() const;
+  std::int64_t remaining() const { return position_.remaining(); }
   /// Nominal frame rate stored in the file [1/s]; 0: none.
   double fps() const { return fps_; }
   /// Warnings about the file, in sentences.
@@ -85,7 +86,7 @@ class McapSource : public FrameSource {
   std::vector<Frame> frames_;
   std::vector<std::string> doubts_;
   double fps_ = 0;
-  std::int64_t next_ = 0;
+  ReplayPosition position_;
 };
 
 }  // namespace barehand
