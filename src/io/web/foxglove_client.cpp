@@ -71,10 +71,7 @@ bool FoxgloveClient::hear(std::string_view text) {
   if (!obeyed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", obeyed.error().message()}});
 
   // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
-  if (request && !request->subscribe.empty() && !next_.frame && sent_) {
-    next_.frame = sent_;
-    ++pushed_;
-  }
+  if (request && !request->subscribe.empty()) frames_.repeat();
   changed_.notify_all();
   return !broken_;
 }
@@ -83,16 +80,14 @@ void FoxgloveClient::post(ViewFramePtr frame) {
   {
     const std::lock_guard lock(mutex_);
     if (ending_) return;
-    ++pushed_;
-    if (next_.frame) ++dropped_;
-    next_.frame = std::move(frame);
+    frames_.post(std::move(frame));
   }
   changed_.notify_all();
 }
 
 QueueHealth FoxgloveClient::health() const {
   const std::lock_guard lock(mutex_);
-  return {"view", 1, next_.frame ? 1u : 0u, pushed_, popped_, dropped_, {}};
+  return frames_.health();
 }
 
 void FoxgloveClient::run() {
@@ -107,15 +102,11 @@ void FoxgloveClient::run() {
 /// Waits until something is to be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool FoxgloveClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return ending_ || (!broken_ && (next_.frame || !next_.reply.empty())); });
+  changed_.wait(lock, [&] { return ending_ || (!broken_ && (frames_.waiting() || !next_.reply.empty())); });
   if (ending_) return false;
   due.reply = std::exchange(next_.reply, {});
-  due.frame = std::exchange(next_.frame, nullptr);
+  due.frame = frames_.take();
   due.subscriptions = next_.subscriptions;
-  if (due.frame) {
-    sent_ = due.frame;
-    ++popped_;
-  }
   return true;
 }
 

@@ -9,10 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/statistics.h"
 #include "io/ros/ros_topics.h"
 #include "io/web/foxglove_request.h"
-#include "io/web/view_frame.h"
+#include "io/web/newest_frame.h"
 #include "io/web/web_server.h"
 
 namespace barehand {
@@ -59,9 +58,8 @@ class FoxgloveClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;
-  ViewFramePtr sent_;  // the frame sent last
-  std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
+  Due next_;  // all but the frame
+  NewestFrame frames_;
   bool ending_ = false, broken_ = false;
 
   // Used by the sending thread only.

@@ -3,16 +3,6 @@
 #include "io/ros/urdf.h"
 
 namespace barehand {
-namespace {
-
-void add(const QueueHealth& one, QueueHealth& all) {
-  all.depth += one.depth;
-  all.pushed += one.pushed;
-  all.popped += one.popped;
-  all.dropped += one.dropped;
-}
-
-}  // namespace
 
 std::unique_ptr<WebPeer> FoxgloveClients::connect(WebSocket socket) {
   auto client = std::make_unique<FoxgloveClient>(socket, [this](const FoxgloveClient& gone) { forget(gone); });
@@ -24,11 +14,9 @@ std::unique_ptr<WebPeer> FoxgloveClients::connect(WebSocket socket) {
 }
 
 void FoxgloveClients::forget(const FoxgloveClient& client) {
-  QueueHealth last = client.health();
-  last.dropped += static_cast<std::int64_t>(last.depth);
-  last.depth = 0;
+  const QueueHealth last = closed(client.health());
   const std::lock_guard lock(mutex_);
-  add(last, gone_);
+  add_counts(last, gone_);
   clients_.erase(const_cast<FoxgloveClient*>(&client));
   count_ = static_cast<int>(clients_.size());
   if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
@@ -50,8 +38,8 @@ void FoxgloveClients::know(std::shared_ptr<const HandProfile> profile) {
 void FoxgloveClients::add_health(QueueHealth& all) const {
   const std::lock_guard lock(mutex_);
   all.capacity += clients_.size();
-  add(gone_, all);
-  for (const FoxgloveClient* client : clients_) add(client->health(), all);
+  add_counts(gone_, all);
+  for (const FoxgloveClient* client : clients_) add_counts(client->health(), all);
 }
 
 std::optional<WebFile> FoxgloveClients::urdf(const std::string& path) const {

@@ -41,10 +41,7 @@ bool ViewClient::hear(std::string_view text) {
     next_at_us_ = 0;
 
     // Send the last frame again, so that the wish takes effect even if no frame follows (a paused log).
-    if (!next_.frame && sent_) {
-      next_.frame = sent_;
-      ++pushed_;
-    }
+    frames_.repeat();
   } else if (std::holds_alternative<ViewAcknowledge>(*demand) && under_way_ > 0) {
     --under_way_;
   }
@@ -69,9 +66,7 @@ void ViewClient::post(ViewFramePtr frame) {
   {
     const std::lock_guard lock(mutex_);
     if (ending_) return;
-    ++pushed_;
-    if (next_.frame) ++dropped_;
-    next_.frame = std::move(frame);
+    frames_.post(std::move(frame));
   }
   changed_.notify_all();
 }
@@ -91,7 +86,7 @@ bool ViewClient::is_told() const {
 
 QueueHealth ViewClient::health() const {
   const std::lock_guard lock(mutex_);
-  return {"view", 1, next_.frame ? 1u : 0u, pushed_, popped_, dropped_, {}};
+  return frames_.health();
 }
 
 void ViewClient::run() {
@@ -111,14 +106,14 @@ bool ViewClient::has_due(std::int64_t now_us) const {
 
 bool ViewClient::has_due_frame(std::int64_t now_us) const {
   const bool window_open = next_.wish.window == 0 || under_way_ < next_.wish.window;
-  return next_.frame && asked_ && window_open && now_us >= next_at_us_;
+  return frames_.waiting() && asked_ && window_open && now_us >= next_at_us_;
 }
 
 /// Waits until something may be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool ViewClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
   while (!ending_ && !has_due(clock_.steady_us())) {
-    const std::int64_t early_us = next_.frame ? next_at_us_ - clock_.steady_us() : 0;
+    const std::int64_t early_us = frames_.waiting() ? next_at_us_ - clock_.steady_us() : 0;
     if (early_us > 0 && !broken_)
       changed_.wait_for(lock, std::chrono::microseconds(early_us));
     else
@@ -133,8 +128,7 @@ bool ViewClient::wait(Due& due) {
 
   // Take the frame unless too many are unacknowledged or the requested rate does not allow it yet.
   if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
-    due.frame = sent_ = std::exchange(next_.frame, nullptr);
-    ++popped_;
+    due.frame = frames_.take();
     if (next_.wish.window > 0) ++under_way_;
     next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.wish.rate * 0.9);
   }

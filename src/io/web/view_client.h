@@ -8,8 +8,7 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "core/statistics.h"
-#include "io/web/view_frame.h"
+#include "io/web/newest_frame.h"
 #include "io/web/web_server.h"
 
 namespace barehand {
@@ -65,11 +64,10 @@ class ViewClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;
-  ViewFramePtr sent_;            // the frame sent last
+  Due next_;  // all but the frame
+  NewestFrame frames_;
   int under_way_ = 0;            // number of frames that were sent and not acknowledged yet
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
-  std::int64_t pushed_ = 0, popped_ = 0, dropped_ = 0;
   bool asked_ = false, sending_ = false, ending_ = false, broken_ = false;
 
   // Used by the sending thread only.

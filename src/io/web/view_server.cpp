@@ -53,11 +53,9 @@ Result<void> ViewServer::record(const RecordCommand& command, int client) {
 }
 
 void ViewServer::forget(const ViewClient& client) {
-  const QueueHealth last = client.health();
+  const QueueHealth last = closed(client.health());
   const std::lock_guard lock(mutex_);
-  gone_.pushed += last.pushed;
-  gone_.popped += last.popped;
-  gone_.dropped += last.dropped + static_cast<std::int64_t>(last.depth);
+  add_counts(last, gone_);
   clients_.erase(const_cast<ViewClient*>(&client));
   clients_count_ = static_cast<int>(clients_.size());
   if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
@@ -93,13 +91,7 @@ QueueHealth ViewServer::health() const {
   all.name = "view";
   all.capacity = clients_.size();
   foxglove_.add_health(all);
-  for (const ViewClient* client : clients_) {
-    const QueueHealth one = client->health();
-    all.depth += one.depth;
-    all.pushed += one.pushed;
-    all.popped += one.popped;
-    all.dropped += one.dropped;
-  }
+  for (const ViewClient* client : clients_) add_counts(client->health(), all);
   return all;
 }
 
