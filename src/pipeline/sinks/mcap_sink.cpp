@@ -10,7 +10,7 @@ constexpr std::int64_t kHealthPeriodUs = 1'000'000;  // minimum time between two
 
 McapSink::McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
                    Slot<PublishParams>* pending)
-    : params_(params), file_(std::move(file)), input_(std::move(input)), clock_(clock), pending_(pending) {}
+    : makers_(params, pending), file_(std::move(file)), input_(std::move(input)), clock_(clock) {}
 
 Result<std::unique_ptr<Sink>> McapSink::create(const PublishParams& params, const std::string& path, bool overwrite,
                                                Input input, const Clock& clock, Slot<PublishParams>* pending) {
@@ -20,12 +20,6 @@ Result<std::unique_ptr<Sink>> McapSink::create(const PublishParams& params, cons
 }
 
 Result<void> McapSink::consume(const TrackedFrame& tracked) {
-  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
-    params_ = *params;
-    makers_.clear();
-  }
-  while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
-
   // Collect what is written about this frame, and write it.
   ros::Scene scene;
   scene.utime = tracked.frame->utime;
@@ -33,10 +27,8 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   scene.frame = tracked.frame;
   scene.fps = input_.fps;
   scene.T_world_camera = input_.T_world_camera;
-  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) {
-    HandMessages hand = makers_[k].process(*tracked.estimates[k]);
-    scene.hands.push_back({std::move(hand.state), std::move(hand.glove), std::move(hand.joints)});
-  }
+  for (const HandMessages& hand : makers_.process(tracked.estimates))
+    scene.hands.push_back({hand.state, hand.glove, hand.joints});
   if (input_.live && clock_.steady_us() - health_us_ >= kHealthPeriodUs) {
     health_us_ = clock_.steady_us();
     scene.health = health_message(input_.health(), clock_.utime(), input_.source);

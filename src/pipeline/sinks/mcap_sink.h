@@ -3,14 +3,12 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/clock.h"
-#include "core/slot.h"
 #include "core/statistics.h"
 #include "io/mcap/mcap_writer.h"
 #include "pipeline/sink.h"
-#include "stages/publish/hand_messages.h"
+#include "pipeline/sinks/hand_message_makers.h"
 
 namespace barehand {
 
@@ -38,14 +36,12 @@ class McapSink : public Sink {
   McapSink(const PublishParams& params, std::unique_ptr<mcap::McapWriter> file, Input input, const Clock& clock,
            Slot<PublishParams>* pending);
 
-  PublishParams params_;
+  HandMessageMakers makers_;
   std::unique_ptr<mcap::McapWriter> file_;
   const Input input_;
   const Clock& clock_;
-  Slot<PublishParams>* pending_;
-  std::vector<HandMessageMaker> makers_;  // one per hand
-  std::int64_t frames_ = 0,               // number of frames written
-      health_us_ = 0;                     // time at which the health was written last; steady clock [us]
+  std::int64_t frames_ = 0,  // number of frames written
+      health_us_ = 0;        // time at which the health was written last; steady clock [us]
 };
 
 }  // namespace barehand

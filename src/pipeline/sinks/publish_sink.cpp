@@ -5,14 +5,9 @@
 namespace barehand {
 
 Result<void> StatePublisher::send(const HandEstimates& estimates) {
-  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
-    params_ = *params;
-    makers_.clear();
-  }
-  while (makers_.size() < estimates.size()) makers_.emplace_back(params_);
   Result<void> result;
-  for (std::size_t k = 0; k < estimates.size(); ++k)
-    if (auto sent = publisher_.send(makers_[k].process(*estimates[k])); !sent && result) result = std::move(sent);
+  for (const HandMessages& hand : makers_.process(estimates))
+    if (auto sent = publisher_.send(hand); !sent && result) result = std::move(sent);
   return result;
 }
 

@@ -3,14 +3,13 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/clock.h"
-#include "core/slot.h"
 #include "core/statistics.h"
 #include "io/lcm/lcm_bus.h"
 #include "io/lcm/lcm_log_writer.h"
 #include "pipeline/sink.h"
+#include "pipeline/sinks/hand_message_makers.h"
 #include "stages/publish/publisher.h"
 
 namespace barehand {
@@ -20,15 +19,13 @@ class StatePublisher {
  public:
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
   StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
-      : params_(params), publisher_(std::move(publisher)), pending_(pending) {}
+      : makers_(params, pending), publisher_(std::move(publisher)) {}
   Result<void> send(const HandEstimates& estimates);
   Result<void> send(const health_t& health) { return publisher_.send(health); }
 
  private:
-  PublishParams params_;
-  std::vector<HandMessageMaker> makers_;  // one per hand
+  HandMessageMakers makers_;
   Publisher publisher_;
-  Slot<PublishParams>* pending_;
 };
 
 /// Sends the states of every frame to the bus, and the pipeline's health once per period.

@@ -7,7 +7,7 @@
 namespace barehand {
 
 Result<void> record_frame(MessageSink& log, const std::string& prefix, const RgbdFrame& frame,
-                          const std::vector<HandMessages>& hands) {
+                          std::span<const HandMessages> hands) {
   const auto image = encode_frame(frame, {});
   if (!image) return tl::unexpected(image.error());
   auto written = log.send(prefix + "RGBD_FRAME", encode_message(*image), frame.utime);

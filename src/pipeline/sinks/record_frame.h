@@ -1,7 +1,7 @@
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
 
 #include "io/lcm/message_sink.h"
 #include "sensor/rgbd_frame.h"
@@ -12,6 +12,6 @@ namespace barehand {
 /// Writes one frame on the channel `<prefix>`RGBD_FRAME, like `barehand record`, and the messages of its hands, like
 /// StatesLogSink.
 Result<void> record_frame(MessageSink& log, const std::string& prefix, const RgbdFrame& frame,
-                          const std::vector<HandMessages>& hands);
+                          std::span<const HandMessages> hands);
 
 }  // namespace barehand

@@ -1,6 +1,7 @@
 #include "pipeline/sinks/view_sink.h"
 
 #include <limits>
+#include <vector>
 
 #include "core/format.h"
 #include "pipeline/sinks/record_frame.h"
@@ -21,28 +22,24 @@ ViewMessage encoded(const char* channel, const Message& message) {
 
 ViewSink::ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
                    Slot<PublishParams>* pending)
-    : params_(params),
+    : makers_(params, pending),
       server_(server),
       input_(std::move(input)),
       clock_(clock),
-      pending_(pending),
       frame_us_(clock.steady_us()),
       status_us_(clock.steady_us() - kStatusPeriodUs) {}
 
 Result<void> ViewSink::consume(const TrackedFrame& tracked) {
   frame_us_ = clock_.steady_us();
   any_frame_ = true;
-  if (const auto params = pending_ ? pending_->take() : std::nullopt) {
-    params_ = *params;
-    makers_.clear();
-  }
 
   // Messages are made even if nobody wants them: what is shown later is smoothed with what was before, as on the bus.
-  const std::vector<HandMessages> hands = make_messages(tracked);
+  const std::span<const HandMessages> hands = makers_.process(tracked.estimates);
   if (server_.has_clients()) server_.show(make_frame(tracked, hands));
   if (input_.recorder && input_.recorder->recording())
-    input_.recorder->post(tracked.frame->utime, [frame = tracked.frame, hands, prefix = input_.prefix](auto& log) {
-      return record_frame(log, prefix, *frame, hands);
+    input_.recorder->post(tracked.frame->utime, [frame = tracked.frame, prefix = input_.prefix,
+                                                 copies = std::vector(hands.begin(), hands.end())](auto& log) {
+      return record_frame(log, prefix, *frame, copies);
     });
   return idle();
 }
@@ -61,14 +58,7 @@ Result<void> ViewSink::finish() {
 /// the effect of the button.
 bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
-std::vector<HandMessages> ViewSink::make_messages(const TrackedFrame& tracked) {
-  while (makers_.size() < tracked.estimates.size()) makers_.emplace_back(params_);
-  std::vector<HandMessages> hands;
-  for (std::size_t k = 0; k < tracked.estimates.size(); ++k) hands.push_back(makers_[k].process(*tracked.estimates[k]));
-  return hands;
-}
-
-ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const std::vector<HandMessages>& hands) {
+ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, std::span<const HandMessages> hands) {
   ViewFrame::Content content;
   content.utime = tracked.frame->utime;
   content.number = tracked.frame->number;

@@ -4,14 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "core/clock.h"
-#include "core/slot.h"
 #include "io/web/view_server.h"
 #include "io/web/view_status.h"
 #include "pipeline/sink.h"
-#include "stages/publish/hand_messages.h"
+#include "pipeline/sinks/hand_message_makers.h"
 
 namespace barehand {
 
@@ -40,18 +39,15 @@ class ViewSink : public Sink {
   Result<void> finish() override;
 
  private:
-  std::vector<HandMessages> make_messages(const TrackedFrame& tracked);
-  ViewFramePtr make_frame(const TrackedFrame& tracked, const std::vector<HandMessages>& hands);
+  ViewFramePtr make_frame(const TrackedFrame& tracked, std::span<const HandMessages> hands);
   bool recording_changed() const;
   ViewSkinPtr skin_of(const HandEstimate& estimate);
   void show_status();
 
-  PublishParams params_;
+  HandMessageMakers makers_;
   ViewServer& server_;
   const Input input_;
   const Clock& clock_;
-  Slot<PublishParams>* pending_;
-  std::vector<HandMessageMaker> makers_;       // one per hand
   std::array<ViewSkinPtr, 2> skins_;           // skins of the last profiles, indexed by Handedness
   std::int64_t frame_us_ = 0, status_us_ = 0;  // times of the last frame and of the last status; steady clock
   bool any_frame_ = false;
