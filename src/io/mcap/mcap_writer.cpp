@@ -68,10 +68,13 @@ std::uint16_t McapWriter::schema_of(const NewMessage& message) {
 
 /// The channel of a message, which is added if it is new. A topic whose metadata change continues as another channel.
 std::uint16_t McapWriter::channel_of(const NewMessage& message) {
+  // Equal topic, type and metadata make the same channel.
   std::string key = message.topic + '\n' + message.type;
   for (const auto& [name, value] : message.metadata) key.append('\n' + name + '\n' + value);
   const auto [known, added] = channel_ids_.try_emplace(key, static_cast<std::uint16_t>(channels_.size() + 1));
   if (!added) return known->second;
+
+  // A new channel: its record precedes the next chunk, and is repeated in the summary.
   const std::uint16_t schema = schema_of(message);
   Bytes& record = channels_.emplace_back().record;
   RecordWriter writer(record);
@@ -89,6 +92,8 @@ std::uint16_t McapWriter::channel_of(const NewMessage& message) {
 Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64_t time, std::uint32_t sequence) {
   if (descriptor_ < 0) return fail("the file is finished, nothing more is written", path_);
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+
+  // Add the messages to the chunk.
   const std::size_t before = records_.size();
   if (index_.empty()) chunk_start_ = time;
   for (const NewMessage& message : messages) {
@@ -103,6 +108,8 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
     writer.put_bytes(message.bytes);
     writer.end();
   }
+
+  // Write the chunk if it is full.
   const bool full = records_.size() >= kChunkSize || time - chunk_start_ >= kChunkTime;
   if (!full) return {};
   auto written = write_chunk();

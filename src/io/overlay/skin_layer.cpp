@@ -60,6 +60,8 @@ void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& re
       const float z = rendered.depth.at(u, v);
       Pixel& p = layer.pixels.at(u, v);
       if (z == 0 || (p.z > 0 && p.z <= z)) continue;
+
+      // The hand is the nearest skin here so far: paint the pixel, and extend the rectangle that holds skin.
       const std::int32_t vertex = rendered.vertex.at(u, v);
       const Paint& paint = paints[vertex];
       const int segment = hand.skin.vertices[vertex].a;

@@ -154,6 +154,8 @@ DiagnosticStatus diagnostic(const HandState& hand) {
   message.name = "barehand: " + side_of(hand.state) + " hand";
   message.message = to_string(status);
   message.hardware_id = hand.state.sensor;
+
+  // The numbers; those of the pose only if there is one.
   message.values = {value("hand_id", std::int64_t{hand.state.hand_id}), value("frame_number", hand.state.frame_number)};
   if (!hand.state.has_pose) return message;
   message.values.push_back(value("score [m]", hand.state.score));

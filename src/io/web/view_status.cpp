@@ -59,6 +59,7 @@ json scan_json(const ViewScan& scan) {
                         {"to_bend", s.to_bend},
                         {"before", s.before},
                         {"after", s.after}});
+
   return {{"phase", kPhases[static_cast<int>(scan.phase)]},
           {"how_to", scan.how_to},
           {"missing", scan.missing},
