@@ -2,9 +2,9 @@
 
 namespace barehand {
 
-/// How well a track's hand is explained normally: a running value of its scores. It falls fast and rises slowly, so
-/// that frames in which fingers are taken for their neighbours stand out against the better frames before. It starts
-/// below the first score, since a hand may be found in a wrong pose.
+/// How well the poses of a track normally explain the data: a running mean of their scores that falls fast and rises
+/// slowly. Frames in which fingers are confused with their neighbours therefore stand out against earlier, better
+/// frames. The mean starts below the first score, since a hand may be found in a wrong pose.
 class BaselineScore {
  public:
   void reset() { level_ = 0; }

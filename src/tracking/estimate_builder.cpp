@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 
-// Probability that both ends of the segment lie within kConfidenceRadius of the truth: that of the less certain end.
+// Probability that both ends of the segment lie within kConfidenceRadius of their true positions, approximated by that
+// of the less certain end.
 double confidence(const HandProfile& profile, const SegmentState& state, int segment) {
   const Eigen::Vector3d bone = state.T_camera_segment.R * profile.segments[segment].distal;
   const auto J_distal = point_jacobian(bone);
@@ -17,8 +18,8 @@ double confidence(const HandProfile& profile, const SegmentState& state, int seg
                   probability_within(kConfidenceRadius, J_distal * state.covariance * J_distal.transpose()));
 }
 
-// Covariance for an unknown scale: if the hand seems to have another size than its profile, the depth may be wrong by
-// the same factor, and then so is the distance from the camera.
+// Additional covariance because of an unknown scale: if the hand seems to have another size than its profile, the depth
+// values may be wrong by that factor, and with them the hand's distance from the camera.
 Matrix6d scale_doubt(const SE3& T_camera_segment, double size_in_view) {
   Matrix6d doubt = Matrix6d::Zero();
   const Eigen::Vector3d off = (size_in_view - 1) * T_camera_segment.t;
@@ -85,7 +86,7 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
   }
 }
 
-// Repeats the last tracked pose. PoseHold lets its covariance grow when it is published.
+// Repeats the last tracked pose with its covariance; PoseHold increases the covariance when the pose is published.
 void EstimateBuilder::fill_held(HandEstimate& out) const {
   out.segments = last_tracked_->segments;
   out.score = last_tracked_->score;

@@ -23,7 +23,7 @@ class EstimateBuilder {
  public:
   EstimateBuilder(const TrackerContext& context, HandIds ids);
 
-  /// A new track begins: the hand gets a new id.
+  /// Gives the hand a new id, because a new track begins.
   void start_track();
   /// Continues with the changed parameters of the context.
   void change();

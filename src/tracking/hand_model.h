@@ -15,7 +15,7 @@ struct HandModel {
   /// must outlive the model.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers,
             std::shared_ptr<Observer> observer);
-  /// The same with an existing skin and an existing initialiser, which may be that of a similar hand.
+  /// Makes the model with an existing skin and an existing initialiser; the initialiser may be that of a similar hand.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin,
             std::shared_ptr<Initialiser> initialiser, Workers& workers, std::shared_ptr<Observer> observer);
 

@@ -10,9 +10,10 @@
 namespace barehand {
 namespace {
 
-// Sizes of the copies relative to the profile: four of other people's hands, then two that a wrong depth unit explains.
+// Sizes of the copies relative to the profile: four that other people's hands have, then two that only a wrong depth
+// unit explains.
 constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
-// The hands of two adults never differ by this ratio.
+// Ratio by which the hands of two adults never differ; a larger one means a wrong depth unit or a wrong profile.
 constexpr double kImpossibleRatio = 1.4;
 
 /// Scales a pose about the middle of the palm, whose position the data determines best.

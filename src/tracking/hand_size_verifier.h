@@ -28,15 +28,15 @@ class HandSizeVerifier {
  private:
   static constexpr int kLookEvery = 7;        // each copy is compared in every n-th tracked frame
   static constexpr int kFramesCompared = 10;  // frames in which each copy is compared before the check concludes
-  static constexpr int kVotesNeeded = 7;      // of these frames, a copy must explain at least this many clearly better
+  static constexpr int kVotesNeeded = 7;  // the copy must explain this many of kFramesCompared frames clearly better
   static constexpr int kFramesIfObvious = 3;  // frames that suffice if a copy explains all of them far better
   static constexpr int kIterations = 10;      // Gauss-Newton steps of one comparison
 
   struct Candidate {
     double size;  // relative to the profile
     std::unique_ptr<Refinement> refinement;
-    int better = 0, much_better = 0;  // frames that this size explains clearly / far better than the profile's own size
-    double sum = 0;                   // sum of its scores [m]
+    int better = 0, much_better = 0;  // frames that this size explains clearly / far better than the profile's size
+    double sum = 0;                   // sum of the scores of this copy in all compared frames [m]
   };
   void make_candidates();
   std::optional<double> conclude();

@@ -104,7 +104,7 @@ void HandTracker::start_where_given(const HandObservation& observation, bool eno
   const auto start = std::exchange(given_start_, std::nullopt);
   if (!start) return;
   if (!enough_data)
-    return context_.log->warn("the given pose is not used: its frame shows no hand, which is searched for now");
+    return context_.log->warn("the given start pose is ignored, because its frame shows no hand; the hand is searched");
   track_.motion.restart(*start, observation.frame->utime);
   track_.state.start_tracking();
   start_track();
@@ -165,7 +165,7 @@ void HandTracker::apply(const TrackRequest& request) {
   } else if (const auto* doubt = std::get_if<DoubtSize>(&request)) {
     person_.doubt_size(doubt->size);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
-    // First what may throw, so that a failure leaves everything unchanged.
+    // Do first what may throw, so that an exception leaves everything unchanged.
     std::shared_ptr<Observer> observer = context_.observer_for(changed->params);
     person_.change(changed->params, observer);
 

@@ -31,7 +31,7 @@ struct UseParams {
 };
 /// The hand in view seems to have another size than its profile (PersonModel::doubt_size).
 struct DoubtSize {
-  double size;  ///< size of the hand in view relative to its profile
+  double size;  ///< size of the hand in view, as a factor on the profile's size
 };
 using TrackRequest = std::variant<StartAt, StartAnew, UseProfile, UseParams, DoubtSize>;
 

@@ -101,7 +101,7 @@ void PersonModel::adopt_scan() {
                                          context_.workers, context_.observer);
     context_.log->info("hand scanned while tracked: {:.0f} mm long", 1e3 * hand->hand_length());
     if (fit_ && scan_->of_hand_before()) expect_any_size();
-  } catch (const std::exception& e) {  // most likely out of memory: tracking continues with the hand as it is
+  } catch (const std::exception& e) {  // most likely out of memory: tracking continues with the present hand model
     context_.log->warn("the hand could not be scanned: {}", e.what());
   }
 }

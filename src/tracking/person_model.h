@@ -26,10 +26,10 @@ class PersonModel {
   /// Size of the hand in view relative to its profile; 1 unless another size was found.
   double size_in_view() const { return size_in_view_; }
 
-  /// The hand in view seems to have `size` times the profile's size. This is reported once, and estimates state a
-  /// larger uncertainty until the next track.
+  /// Notes that the hand in view seems to have `size` times the profile's size. This is reported to the user once, and
+  /// the estimates state a larger uncertainty until the next track.
   void doubt_size(double size);
-  /// A track begins, possibly of another person.
+  /// Must be called when a track begins, possibly that of another person.
   void start_track();
   /// Learns from a tracked frame. `good`: the frame is explained well enough to learn the bones and the skin from it.
   void learn(const HandObservation& observation, const RefinedPose& refined, bool good);
@@ -37,7 +37,7 @@ class PersonModel {
   void adopt_scan();
   /// Forgets what was learnt of the person.
   void reset();
-  /// Continues with another given hand, of which nothing is learnt yet.
+  /// Continues with the profile of another person, of whom nothing is learnt yet.
   void use(std::shared_ptr<const HandProfile> given);
   /// Continues with other parameters and another observer, and keeps what was learnt of the person. Call before the
   /// context gets them. May throw; then nothing has changed.

@@ -13,8 +13,8 @@ namespace {
 // Sizes of the copies, relative to the profile, that are tried when nothing is found. A deviation of a tenth needs no
 // copy, since a search with the profile itself still finds the hand.
 constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};
-// Number of failed searches per try of another size: kOften for the first kOftenUntil failures, then kSeldom, since
-// what stays in view without being found is most likely no hand.
+// Number of failed searches per try of another size: kOften for the first kOftenUntil failures, then kSeldom, since a
+// region in which no hand was found for so long most likely shows none.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 
 // The size that detected joints show varies by 4 % from frame to frame, and people differ little in proportions. All
@@ -22,22 +22,23 @@ constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 constexpr double kAnySize = 0.4,  // standard deviation expected of the size of a hand in view
     kOtherSize = 0.1,             // a size that deviates by more than this is verified, which costs a search
     kSameSize = 0.2;              // a size within this range of the confirmed one counts as the confirmed one
-constexpr int kSizeLooks = 10,    // frames of a track whose detected joints are used
-    kVerified = 3,                // since the last confirmed size, the first few other sizes are all verified
-    kVerifiedEvery = 30;          // after these, only every n-th one is
+constexpr int kSizeLooks = 10,    // number of frames of a track whose detected joints are used
+    kVerified = 3,                // number of deviating sizes that are all verified after the last confirmed one
+    kVerifiedEvery = 30;          // later, only every n-th deviating size is verified
 // The networks understate sizes far from those of real hands: beyond kFarSize (logarithm), the true deviation may be
 // kUnderstated times the one that the joints show.
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
-// Attempts for the mirrored profile if the profile's own score is not confident. Most hands of the other side are found
-// by the first or second attempt; with many attempts, the mirrored profile might fit a hand of the own side by chance.
+// Number of search attempts with the mirrored profile if the score of the profile itself is not confident. Most hands
+// of the other side are found by the first or second attempt; with many attempts, the mirrored profile might fit a hand
+// of the profile's side by chance.
 constexpr int kMirroredAttempts = 2;
 
 // A verification ends when one side has the advantage kVerificationAdvantage over at least kFewestFrames frames in
 // which both are tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is
 // searched in every kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
-// Number of searches in a row that the own side must win after a verification found the other side.
+// Number of successive searches that the profile's side must win after a verification has found the other side.
 constexpr int kToConfirm = 3;
 
 }  // namespace
@@ -80,7 +81,7 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
   auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
 
-  // After a verification found the other side, the own side must win several searches in a row.
+  // After a verification found the other side, the profile's side must win several successive searches.
   const bool worse = clearly_better(other_score, score);
   if (worse) report_other_side();
   if (to_confirm_ > 0) to_confirm_ = clearly_better(score, other_score) ? to_confirm_ - 1 : kToConfirm;
@@ -109,7 +110,7 @@ bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
     verification.mirrored_sum += verification.mirrored->score;
   }
 
-  // One side must be clearly better over enough frames.
+  // Decide for a side if it was clearly better over enough frames.
   const bool enough = verification.compared >= kFewestFrames;
   const bool other = enough && clearly_better(verification.mirrored_sum, verification.own_sum, kVerificationAdvantage);
   const bool same = enough && clearly_better(verification.own_sum, verification.mirrored_sum, kVerificationAdvantage);
@@ -155,7 +156,7 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
 }
 
 void ProfileVerifier::nothing_found(const HandObservation& observation, double score) {
-  // A try costs a search, so only some failures lead to one.
+  // Only some failures lead to a try of another size, since each try costs a search.
   if (size_reported_ || !observation.hand_present) return;
   ++failures_;
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;

@@ -19,8 +19,8 @@ class ProfileVerifier {
 
   /// Call after a search with up to `attempts` attempts found the hand with `score` [m]. Searches with the mirrored
   /// profile, with fewer attempts, and returns whether that explains the observation clearly better. After a
-  /// verification found the other side, it returns true until the own side has won several searches in a row. If it
-  /// returns false but the score is not confident, a verification begins.
+  /// verification found the other side, it returns true until the profile's side has won several successive searches.
+  /// If it returns false but the score is not confident, a verification begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
   /// Begins a verification: during the first frames of a track, the mirrored profile is tracked, too. A single frame
@@ -31,8 +31,8 @@ class ProfileVerifier {
   bool verifying() const { return verification_.has_value(); }
   /// Tracks the mirrored profile in one frame of the verification.
   void track_mirrored(const HandObservation& observation);
-  /// Call after track_mirrored() with the own side's estimate of the same frame. Returns whether the verification ends
-  /// in favour of the other side.
+  /// Call after track_mirrored(). `own`: the estimate of the same frame with the profile itself. Returns whether the
+  /// verification ends in favour of the other side.
   bool turns_out_other_side(const HandEstimate& own);
   /// The pose of the mirrored hand when the verification ended (T_camera_segment).
   const HandPose& mirrored_pose() const { return *mirrored_->view().whereabouts; }
@@ -66,16 +66,16 @@ class ProfileVerifier {
   bool side_reported_ = false, size_reported_ = false;
   int failures_ = 0, tries_ = 0;  // calls of nothing_found() with a hand-like region, and tries of another size
   int size_looks_ = 0;            // frames of this track whose detected joints were used
-  int size_refuted_ = 0;          // other sizes that detected joints showed since the last confirmed one
+  int size_refuted_ = 0;          // number of deviating sizes that detected joints showed since one was confirmed
   std::optional<double> confirmed_size_;
 
   struct Verification {
-    int frames = 0, compared = 0;          // compared: frames in which both were tracked
-    double own_sum = 0, mirrored_sum = 0;  // sums of the scores of these frames [m]
+    int frames = 0, compared = 0;          // number of all frames, and of those in which both sides were tracked
+    double own_sum = 0, mirrored_sum = 0;  // sums of the scores of the `compared` frames [m]
     HandEstimatePtr mirrored;
   };
   std::optional<Verification> verification_;
-  // After a verification found the other side: number of searches in a row that the own side must still win.
+  // After a verification found the other side: number of successive searches that the profile's side must still win.
   int to_confirm_ = 0;
 };
 

@@ -19,7 +19,7 @@ struct Track {
   MotionModel motion;
   TrackState state;
   BaselineScore baseline;
-  HandEvidence evidence;              ///< that what is detected, and was not followed yet, is a hand
+  HandEvidence evidence;              ///< evidence that a detection which was not followed yet is a hand
   std::optional<HandPose> last_good;  ///< T_camera_segment of the last frame that was explained well
   int ambiguous_frames = 0;           ///< number of ambiguous frames since the track began
   int search_frames = 0;              ///< number of frames with a search since the hand was last followed well
@@ -62,7 +62,7 @@ struct Track {
   void continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params);
   /// Continues with other parameters; a hand that is tracked or held stays tracked.
   void change(const TrackerParams& params);
-  /// Forgets the hand, so that it is searched from nothing.
+  /// Forgets the hand, so that it is searched without any prior knowledge.
   void forget();
 };
 

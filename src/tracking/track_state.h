@@ -82,7 +82,7 @@ class TrackState {
 
   /// Global score [m] above which a frame with this noise and hand length is bad.
   double bad_threshold(const TrackEvidence& evidence) const;
-  /// Global score [m] below which it is good.
+  /// Global score [m] up to which a frame with this noise and hand length is good.
   double good_threshold(const TrackEvidence& evidence) const;
 
  private:
@@ -94,7 +94,8 @@ class TrackState {
 
   LossParams params_;
   TrackPhase phase_ = TrackPhase::searching;
-  int good_ = 0, bad_ = 0;    // consecutive frames
+  // Numbers of consecutive good frames, and of bad ones with only undecided frames or frames without data in between.
+  int good_ = 0, bad_ = 0;
   double time_in_phase_ = 0;  // time in the phase holding, or in lost and tentative together [s]
 };
 

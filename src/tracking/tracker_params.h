@@ -89,7 +89,7 @@ void visit(V& v, TrackerParams& p) {
   v("initialiser", p.initialiser, "search for start poses in one observation");
   v("shape_fit", p.shape_fit, "learning the hand of the person in view");
 
-  // These have no keys of their own: they use those of other groups.
+  // Parameters that have no configuration key of their own are set from those of other groups.
   p.initialiser.min_hand_pixels = p.loss.min_hand_pixels;
   p.refinement.energy.limit_widening_deg = p.fusion.limit_widening_deg;
 }

@@ -45,14 +45,15 @@ void TwoHandTracker::change(const TrackerParams& params) {
 
 void TwoHandTracker::renew_verifiers() {
   verifiers_.clear();
-  for (const auto& hand : hands_)  // two hands: both sides are tracked, so a wrong side or size is not reported
+  for (const auto& hand :
+       hands_)  // with two hands, the verifiers log nothing: both sides are tracked, so none is wrong
     if (hand)
       verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, seed_, workers_,
                                                              count() == 1 ? log_ : make_silent_logger()));
 }
 
 HandEstimates TwoHandTracker::process(const HandObservations& observations) {
-  // With one hand there is nothing to distribute.
+  // With one hand, no observation has to be assigned.
   if (count() == 1) return {process_single_hand(*observations[0])};
   ++frame_;
   const HandObservations ordered = by_hand(observations);
@@ -111,7 +112,7 @@ bool TwoHandTracker::check_found_size(int k, const HandObservation& observation,
   verifiers_[k]->expect_any_size();
   const auto size = verifiers_[k]->other_size_in_view(observation, found->score());
   if (!size) return false;
-  hands_[k]->apply(DoubtSize{*size});  // reported even if no track starts
+  hands_[k]->apply(DoubtSize{*size});  // the size is reported even if no track starts
   found->size = *size;
   return true;
 }
@@ -129,7 +130,7 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
     return estimate;
   }
 
-  // Otherwise the hand is searched.
+  // Without a track, search the hand.
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
@@ -176,8 +177,8 @@ void TwoHandTracker::search_one(int k, const HandObservations& observations, Han
 void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
-  // A side that finds no hand counts like one with a bad explanation, not worse. A detection that confirms a pose
-  // counts here as it does for the start of the track: with much noise every score is bad.
+  // A side that finds no hand gets the score of a bad explanation, not infinity. A detection that confirms a pose
+  // reduces its score, as for the start of the track, since every score is bad if the noise is large.
   const double none = params_.loss.lost_score;
   const Choice choice(params_.choice);
   const auto score = [&](int k, int j) {
@@ -196,7 +197,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
-  // Each side makes one attempt, and more only where neither side is confident.
+  // Each side searches every region once, and again with more attempts where neither side is confident.
   const auto look = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };

@@ -44,7 +44,8 @@ class TwoHandTracker {
   void apply_verification(int k, const HandEstimate& estimate);
   // Marks the size of a tracked hand as wrong if the detected joints indicate another size.
   void check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate);
-  // The same for the pose that a search found. Returns whether another size was found.
+  // Marks the size of a hand found by a search as wrong if the detected joints indicate another size. Returns whether
+  // they do.
   bool check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
   // Processes a whole frame if there is only one hand.
   HandEstimatePtr process_single_hand(const HandObservation& observation);

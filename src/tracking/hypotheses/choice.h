@@ -64,11 +64,12 @@ void visit(V& v, ChoiceParams& p) {
 }
 
 // Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.
-inline constexpr double kHandAdvantage = 0.1;  ///< in a single frame
-/// Over a hand that was just lost: while it reappears half visible, both sides fit it.
+inline constexpr double kHandAdvantage = 0.1;  ///< advantage needed if a single frame is compared
+/// Advantage needed to assign a region to one side while the other side's hand was just lost: a hand that reappears
+/// half visible fits both sides.
 inline constexpr double kReturningAdvantage = 0.3;
-inline constexpr double kVerificationAdvantage = 0.2;  ///< in the mean over all frames of a verification
-inline constexpr double kFarBetter = 0.3;              ///< in each of a few successive frames
+inline constexpr double kVerificationAdvantage = 0.2;  ///< advantage needed in the mean over a verification's frames
+inline constexpr double kFarBetter = 0.3;              ///< advantage that is decisive in each of a few frames
 
 /// Whether a score is lower than another one by more than the fraction `advantage`.
 inline bool clearly_better(double score, double other, double advantage = kHandAdvantage) {
@@ -87,7 +88,7 @@ class Choice {
   double judged_score(const HandObservation& observation, const HandProfile& profile, const RefinedPose& refined) const;
   /// Whether the challenger replaces `present`; records the decision. `rule`: name of the rule, a static string.
   bool replaces(std::string_view rule, const Hypothesis& challenger, const Hypothesis& present, double advantage);
-  /// Records a decision that other code made.
+  /// Records a decision that was made by other code.
   void note(const Decision& decision) { decisions_.push_back(decision); }
   /// The decisions since the last call.
   Decisions take() { return std::exchange(decisions_, {}); }

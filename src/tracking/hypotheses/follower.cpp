@@ -31,7 +31,7 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
   });
   followed.joint_gap = joint_gap(*hand.profile, sampling ? fused.pose : followed.refined.pose);
 
-  // The paper's result is the sampled pose.
+  // Without refinement, the result is the sampled pose, as in the paper.
   if (!refine) {
     followed.origin = Origin::sampled;
     followed.refined = hand.refinement.evaluate(observation, fused.pose);
@@ -39,8 +39,8 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
     return followed;
   }
 
-  // Refine the sampled pose only if it differs from the refined one, and let it replace that one only if its score is
-  // clearly better: a good local optimum must not give way to a pose that is merely as good.
+  // Refine the sampled pose if it differs from the refined prediction. It replaces the refined prediction only if its
+  // score is clearly better: a good local optimum must not be replaced by a pose that is merely as good.
   if (!sampling || !lies_elsewhere(*hand.profile, followed.refined, fused.pose)) return followed;
   Hypothesis sampled;
   sampled.origin = Origin::sampled;

@@ -22,7 +22,7 @@ class Follower {
   /// the frame, keys the random numbers.
   Hypothesis follow(const HandObservation& observation, HandModel& hand, MotionModel& motion, std::uint32_t frame,
                     Choice& choice);
-  /// Must be called when the context's parameters have changed.
+  /// Adopts changed parameters of the context; must be called after every change.
   void change();
 
  private:

@@ -8,21 +8,21 @@
 namespace barehand {
 namespace {
 
-// Weights of the logistic model, one for each cue.
+// Weights of the logistic model that tells hands from other objects, one for each cue.
 constexpr double kBias = -1.0, kOfPalm = 1.85, kOfSide = 0.35, kOfLabels = 0.55, kOfMisfit = -0.84, kOfScore = -1.57,
                  kOfDistance = -2.3;
-// Limits to which the cues are clamped: values beyond them carry no further information.
+// Limits to which the cues are clamped, because values beyond them carry no further information.
 constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 4, kLeastMisfit = 0.05;
-// Lower limits of the global score and of the distance from the detected joints, and the values of both that count as
-// neutral [m].
+// Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
+// both for which they change the log odds neither way (kReference) [m].
 constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;
-// Mean matched fraction of the segments from which on the distance from the detected joints counts fully.
+// The distance from the detected joints counts fully if the segments' mean matched fraction is at least this.
 constexpr double kAllMatched = 0.3;
 
-// Evidence over frames.
+// Parameters of the accumulation of evidence over frames (HandEvidence).
 constexpr double kKept = 0.9;          // factor by which the sum of earlier frames decays per frame
 constexpr double kCounts = 0.2;        // weight of the sum of earlier frames, which share most errors with this one
-constexpr double kApart = 0.1;         // m, beyond this distance from its last centre another place begins
+constexpr double kApart = 0.1;         // a detection farther than this from all known places starts a new one [m]
 constexpr std::uint32_t kFaded = 100;  // number of frames after which a place is forgotten
 
 }  // namespace
@@ -67,13 +67,13 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
 }
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {
-  // Forget what has faded, and find the nearest place.
+  // Forget places without recent detections, and find the place nearest to this detection.
   std::erase_if(places_, [&](const Place& place) { return frame - place.frame > kFaded; });
   const auto distance = [&](const Place& place) { return (centre - place.centre).norm(); };
   auto place = std::ranges::min_element(places_, {}, distance);
   if (place == places_.end() || distance(*place) >= kApart) place = places_.insert(places_.end(), {.frame = frame});
 
-  // Add to it.
+  // Add the log odds to those of the place.
   if (frame != place->frame) {
     place->before = std::pow(kKept, frame - place->frame) * place->sum;
     place->frame = frame;

@@ -14,7 +14,7 @@ namespace barehand {
 /// Cues from the networks on whether a detected hand really is a hand. The networks also report palms on other things:
 /// on feet and faces, or at the end of an arm whose hand is hidden. There the cues contradict each other.
 struct HandCues {
-  double palm = 0;    ///< DetectedHand::palm
+  double palm = 0;    ///< probability that the network assigns to the palm (DetectedHand::palm)
   double side = 0;    ///< how clearly it is a left or a right hand: absolute value of DetectedHand::right_log_odds
   double labels = 0;  ///< mean log odds of the hand over the cells of the window that are labelled as hand
   double misfit = 0;  ///< KinematicFit::cost of the joints, with a hand of any size
@@ -45,9 +45,9 @@ class HandEvidence {
 
  private:
   struct Place {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of the last detection there
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // centre of the last detection there, camera frame [m]
     std::uint32_t frame = 0;                           // number of the last frame that was added
-    double before = 0, sum = 0;                        // leaky sums of log odds: without the last frame, and with it
+    double before = 0, sum = 0;                        // decaying sums of log odds, without and with the last frame
   };
   std::vector<Place> places_;
 };

@@ -25,7 +25,7 @@ struct Hypothesis {
   Origin origin = Origin::followed;
   RefinedPose refined;                   ///< pose, global score [m], visible and matched fraction of each segment
   double joint_gap = 0;                  ///< HandEstimate::joint_gap [m]
-  double size = 1;                       ///< size of the hand in view relative to its profile
+  double size = 1;                       ///< size of the hand in view, as a factor on the profile's size
   std::optional<Prediction> prediction;  ///< the prediction that the pose continues; none: found without one
   std::optional<std::array<Matrix6d, kSegmentCount>> belief;  ///< covariance from the sampler, if not refined
 

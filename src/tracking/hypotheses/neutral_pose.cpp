@@ -12,7 +12,8 @@ RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& 
   constexpr double kObserved = 0.5;
   // Differences of the score below this fraction of the sensor's noise are insignificant.
   constexpr double kIndistinct = 0.1;
-  // In the second pass, a joint is free of the hidden joints beyond it, which were at random angles in the first one.
+  // One pass is not enough: in the first one, the observed joints that the neutral angles are derived from were refined
+  // with hidden joints at random angles.
   constexpr int kPasses = 2;
 
   // Joints count as observed if enough of their segment is visible.

@@ -8,9 +8,9 @@ namespace barehand {
 namespace {
 
 constexpr double kSame = 0.005;  // pose_distance() below which two poses count as the same [m]
-constexpr int kFoundAgain = 3;   // the best pose is final when it was found this many times
-// After this many poses, the search ends if none explains the data, or if all but one have the palm in the same place:
-// then the hand is there but hard to see.
+constexpr int kFoundAgain = 3;   // the search ends when the best pose was found this many times
+// After this many poses, the search ends if none explains the data, or if all but one have the palm in the same place,
+// which means that a hand is there but hard to see.
 constexpr int kMany = 8;
 
 }  // namespace

@@ -8,9 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr int kRuns = 3;  // timed runs for each number of samples, after an untimed one that grows the buffers
-// Factor from one number of samples to the next. The time of a search level grows at most with the square of the
-// number, so each step adds less than half.
+constexpr int kRuns = 3;  // timed runs for each number of samples, after an untimed one that allocates the buffers
+// Ratio of successive numbers of samples. The time of a search level grows at most with their square, so each step
+// increases it by less than half.
 constexpr double kGrowth = 1.2;
 
 }  // namespace

@@ -22,7 +22,7 @@ class SampleBudget {
                         std::shared_ptr<const Clock> clock = std::make_shared<SystemClock>())
       : params_(params), clock_(std::move(clock)) {}
 
-  /// Whether measure() is due: once, as soon as a device compares the samples.
+  /// Whether measure() should be called: once, as soon as a graphics device compares the samples.
   bool to_be_measured(bool on_device) const {
     return on_device && on_device_ == 0 && params_.samples_on_device > params_.samples;
   }
@@ -38,8 +38,8 @@ class SampleBudget {
 
   SegmentTrackerParams params_;
   std::shared_ptr<const Clock> clock_;
-  int on_device_ = 0;  // number of samples on a device; 0: not measured yet
-  // Time of a level with that number of samples [s]; 0: even the first larger number exceeds the budget.
+  int on_device_ = 0;  // number of samples per segment if a GPU compares them; 0: not measured yet
+  // Time of a level with `on_device_` samples [s]; 0: even the first number above that of the CPU exceeds the budget.
   double level_seconds_ = 0;
 };
 
