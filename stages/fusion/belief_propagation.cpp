@@ -13,8 +13,8 @@ namespace {
 using Log = std::vector<double>;
 constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// Shifts log values so that the best one is 0, where single precision is finest. Constant offsets cancel in the
-/// paper's Eq. 8.
+/// Shifts log values so that the best one is 0, near which single precision is most accurate. Constant offsets cancel
+/// in the paper's Eq. 8.
 void relative_to_best(const Log& h, std::vector<float>& relative) {
   const double best = *std::max_element(h.begin(), h.end());
   relative.resize(h.size());
@@ -49,8 +49,8 @@ BeliefPropagation::BeliefPropagation(std::span<const int> parent)
   }
 }
 
-/// Sums phi and all incoming messages, except the one from the child `without` and, unless `with_parent`, the one from
-/// the parent.
+/// Sums log phi and all incoming log messages of a node, except the one from the child `without` and, unless
+/// `with_parent`, the one from the parent.
 void BeliefPropagation::gather(const Input& input, int node, int without, bool with_parent, Log& evidence) const {
   evidence = input.log_phi[node];
   for (const int k : children_[node])
@@ -66,7 +66,7 @@ void BeliefPropagation::send_up(const Input& input, int node) {
   gather(input, node, -1, false, m.evidence);
   relative_to_best(m.evidence, m.relative);
 
-  // For each sample of the parent, the best sample of the child (max-product).
+  // Find the best sample of the child for each sample of the parent (max-product).
   m.best.assign(e.parents, kLowest);
   const float* from = m.relative.data();
   float* best = m.best.data();
@@ -81,7 +81,7 @@ void BeliefPropagation::send_up(const Input& input, int node) {
   m.log.assign(m.best.begin(), m.best.end());
   if (input.marginals == Marginals::max) return;
 
-  // Sum-product: the sum over the child's samples, scaled by the largest term.
+  // For sum-product, sum over the child's samples; the largest term is divided out to avoid underflow.
   m.sum.assign(e.parents, 0.0f);
   float* sum = m.sum.data();
   for (std::size_t c = 0; c < e.children; ++c) {
@@ -100,7 +100,7 @@ void BeliefPropagation::send_down(const Input& input, int node) {
   gather(input, parent_[node], node, true, m.evidence);
   relative_to_best(m.evidence, m.relative);
 
-  // For each sample of the child, the maximum or the sum over the parent's samples.
+  // Compute the maximum or the sum over the parent's samples for each sample of the child.
   m.log.resize(e.children);
   const float* from = m.relative.data();
   for (std::size_t c = 0; c < e.children; ++c) {
@@ -112,7 +112,7 @@ void BeliefPropagation::send_down(const Input& input, int node) {
       best = best > x ? best : x;
     }
 
-    // The sum is scaled by its largest term.
+    // Divide the largest term out of the sum to avoid underflow.
     m.log[c] = best;
     if (input.marginals == Marginals::max) continue;
 

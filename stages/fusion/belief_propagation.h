@@ -51,7 +51,7 @@ class BeliefPropagation {
   std::vector<int> parent_;
   /// The children of each node, and the nodes of each depth, whose messages do not depend on each other.
   std::vector<std::vector<int>> children_, layers_;
-  std::vector<Message> up_, down_;  ///< from node i to its parent, and from its parent to node i
+  std::vector<Message> up_, down_;  ///< messages from node i to its parent, and from its parent to node i
 };
 
 }  // namespace barehand

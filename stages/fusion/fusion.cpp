@@ -74,7 +74,7 @@ const Proposals& Fusion::next_proposals(const SegmentSamples& samples, const Han
 FusedPose Fusion::read_out(const SegmentSamples& samples, const HandBelief& belief, double interval_factor) const {
   FusedPose fused;
 
-  // Read each segment's pose: the mean of the samples around the best one, or the best sample alone.
+  // Compute each segment's pose: the mean of the samples around the best one, or the best sample alone.
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& poses = samples.poses[s];
     const auto& log_belief = belief.log_belief[s];

@@ -17,7 +17,7 @@ namespace barehand {
 /// The final estimate of one frame, read from the belief of the last level.
 struct FusedPose {
   HandPose pose;                                   ///< neighbouring segments need not meet exactly (paper, Sec. 3.1)
-  std::array<Matrix6d, kSegmentCount> covariance;  ///< of the belief around `pose`; boxplus twist, camera frame
+  std::array<Matrix6d, kSegmentCount> covariance;  ///< second moment of the belief about `pose`; boxplus, camera frame
 };
 
 /// Combines the local trackers through the structure of the hand (paper Sec. 4.3) and narrows the search from level to

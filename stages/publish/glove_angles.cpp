@@ -43,7 +43,7 @@ ThumbDirection thumb_direction(const HandProfile& profile, const HandPose& pose)
 }  // namespace
 
 GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
-  // All joint angles; channels that are not filled below cannot be observed.
+  // Compute all joint angles. Channels that are not filled below cannot be observed.
   std::array<JointAngles, kSegmentCount> angle;
   for (int s = 0; s < kSegmentCount; ++s) angle[s] = joint_angles(profile, pose, s);
   const double side = towards_thumb(profile);
@@ -62,7 +62,7 @@ GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
     *joint++ = angle[segment_of(finger, 2)].flexion;
   }
 
-  // The channels: the thumb, then the flexions of each finger and its abduction from the finger before.
+  // Fill in the channels: those of the thumb, then each finger's flexions and its abduction from the finger before.
   const ThumbDirection thumb = thumb_direction(profile, pose);
   auto channel = glove.channel.begin();
   *channel++ = thumb.rotate;

@@ -29,7 +29,7 @@ class HandMessageMaker {
   PublishParams params_;
   PoseHold hold_;
   PoseSmoother smoother_;
-  std::shared_ptr<const HandProfile> profile_;  ///< the last one: the estimate of a lost hand may have none
+  std::shared_ptr<const HandProfile> profile_;  ///< last known profile, since the estimate of a lost hand may have none
 };
 
 }  // namespace barehand

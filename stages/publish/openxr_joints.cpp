@@ -44,13 +44,13 @@ std::array<OpenXrJoint, kOpenXrJointCount> openxr_joints(const HandProfile& prof
   std::array<OpenXrJoint, kOpenXrJointCount> joints;
   auto next = joints.begin();
 
-  // The palm's centre, which is the middle of the middle finger's metacarpal, and the wrist.
+  // Compute the centre of the palm (the middle of the middle finger's metacarpal) and the wrist.
   SE3 centre = metacarpal(profile, kMiddle);
   centre.t = (centre.t + knuckle(profile, kMiddle)) / 2;
   *next++ = in_palm(centre);
   *next++ = in_palm(SE3());
 
-  // The fingers, each from the metacarpal to the tip.
+  // Append the joints of the fingers, each from the metacarpal to the tip.
   for (int finger = 0; finger < kFingerCount; ++finger) {
     if (finger != kThumb) *next++ = in_palm(metacarpal(profile, finger));
     for (int k = 0; k < 3; ++k) {

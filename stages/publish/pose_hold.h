@@ -17,9 +17,9 @@ struct PublishedTrack {
   std::array<SegmentState, kSegmentCount> segments;  ///< meaningless without a pose
 };
 
-/// Guarantees consumers of the messages the following: a hand that is not seen any more is held at its last pose with
-/// growing covariance for a limited time; then it is lost and has no pose. If the tracker forgets the hand (status
-/// searching), the pose is dropped at once.
+/// Keeps publishing the last pose of a hand that is not seen any more, with growing covariance, for a limited time;
+/// then the hand is published as lost, without a pose. If the tracker forgets the hand (status searching), the pose is
+/// dropped at once.
 class PoseHold {
  public:
   PublishedTrack update(const HandEstimate& estimate, const PublishParams& params);

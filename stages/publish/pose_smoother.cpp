@@ -10,8 +10,8 @@ void PoseSmoother::reset() {
 }
 
 HandPose PoseSmoother::smooth(const HandPose& raw, std::int64_t utime, const OneEuroParams& params) {
-  // Start again after a gap.
-  constexpr double kLongestGap = 1.0;                                      // [s]
+  // Restart the filters after a gap.
+  constexpr double kLongestGap = 1.0;                                      // longest gap between two poses [s]
   const double dt = std::abs(1e-6 * static_cast<double>(utime - utime_));  // a replay may run backwards
   if (!params.enabled || (started_ && (dt == 0 || dt > kLongestGap))) reset();
   if (!params.enabled) return raw;

@@ -13,7 +13,7 @@ using Axis = std::array<Vector3d, 2>;
 
 constexpr double kCarpus = 0.3;     // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
 constexpr double kTiny = 1e-12;     // squared lengths below this count as zero [m^2]
-constexpr double kPalmShare = 0.9;  // radius of a capsule in the palm, relative to that at the root of its finger
+constexpr double kPalmShare = 0.9;  // radius of a capsule in the palm, as a fraction of its finger's radius at the root
 
 /// The closest points of two line segments of non-zero length (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Vector3d, 2> closest_points(const Axis& a, const Axis& b) {
@@ -30,7 +30,8 @@ double least_radius(const SegmentProfile& s) {
   return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});
 }
 
-// Segments of one finger, and the proximal phalanges of neighbouring fingers (joined by the web), overlap in any hand.
+// Whether the capsules of two segments overlap in every real hand, and so must not be pushed apart: those of one
+// finger, and those of neighbouring fingers' roots, which the web joins.
 bool may_overlap_by_nature(int a, int b) {
   const bool roots = a == segment_of(finger_of(a), 0) && b == segment_of(finger_of(b), 0);
   return finger_of(a) == finger_of(b) || (roots && std::abs(finger_of(a) - finger_of(b)) == 1);
@@ -57,7 +58,7 @@ HandContact::HandContact(const HandProfile& profile) {
     rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, kPalmShare * std::min(s.half_width[0], s.half_thickness[0])});
   }
 
-  // List the pairs to test: phalanges against phalanges, and all but the proximal phalanges against the palm.
+  // List the pairs to test: phalanges against phalanges, and against the palm all phalanges that are not jointed to it.
   const int rods = static_cast<int>(rods_.size());
   for (int a = 0; a < phalanges; ++a) {
     const int s = rods_[a].segment;

@@ -61,7 +61,8 @@ class DataTerm {
     return share * robust.energy(distance_sq);
   }
 
-  // Model outside the data is pulled in the image plane only, because a silhouette contains no information about depth.
+  // Residuals of skin that the model projects outside the observed hand. It is pulled in the image plane only, because
+  // a silhouette contains no information about depth.
   template <class Use>
   double add_outside(const Vector3f& r, float share, const Use& use) const {
     const float distance_sq = r.head<2>().squaredNorm();
@@ -71,9 +72,9 @@ class DataTerm {
     return share * outside_.energy(distance_sq);
   }
 
-  // Unexplained data is a point of the skin that the model must reach. Most of it is just outside the model's
-  // silhouette, where the surface turns away and is millimetres deeper than the model's nearest cell even if the model
-  // fits well. A pull along the surface would be wrong there.
+  // Residuals of observed hand points that no skin of the model explains and that it should reach. Most of them are
+  // just outside the model's silhouette, where the surface turns away and is millimetres deeper than the nearest
+  // visible skin even if the model fits well. A pull along the surface would be wrong there.
   template <class Use>
   double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
     if (r.squaredNorm() > unexplained_.gate_sq) return 0;
@@ -86,7 +87,8 @@ class DataTerm {
     return share * unexplained_.energy(distance_sq);
   }
 
-  // The skin of palm and thumb root differs most from person to person, so it counts less.
+  // Weight of a segment's skin in the data term: that of the palm and the thumb's root counts less, since it differs
+  // most from person to person.
   float trust(int segment) const { return segment == kPalm || segment == segment_of(0, 0) ? palm_trust_ : 1.0f; }
   float trust(const SkinVertex& v) const {
     const float of_segments = (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b);
@@ -119,7 +121,7 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
   ResidualMoments sums(pose);
   double total = 0;
   for (const Correspondence& c : comparison.correspondences) {
-    // Use the shifted skinning weights for the pose and the true ones for the shape.
+    // The pose uses the skinning weights that were reduced for hidden segments, the shape uses the original ones.
     const SkinVertex& v = skin.vertices[c.vertex];
     SkinVertex moved = v;
     moved.weight_b = shown_weight_b(v, weighting.hidden);

@@ -25,7 +25,8 @@ struct EnergyParams {
   double palm_trust = 0.1;
   double sigma_gap = 0.0005;
   double sigma_angle_deg = 2.0;
-  double limit_widening_deg = 10.0;  ///< joint limits are widened by this, as objects bend fingers (paper, Sec. 4.3)
+  double limit_widening_deg =
+      10.0;  ///< widens the joint limits, since objects bend fingers (paper, Sec. 4.3) [degrees]
   double sigma_overlap = 0.001;
   double prior_translation = 0.05;
   double prior_rotation_deg = 30.0;
@@ -71,10 +72,10 @@ struct DataWeighting {
 };
 
 /// Gauss-Newton normal equations of the data term at `pose`, with Geman-McClure weights (iteratively reweighted least
-/// squares). A surface correspondence pulls along the model's normal; model outside the data pulls in the image plane;
-/// model that should be behind the data pulls along the optical axis; unexplained data pulls along the normal and, in
-/// part, along the surface. `comparison` must contain normals. Adds to `tree` and, if given, the part that depends on
-/// the shape to `shape`; returns the robust energy.
+/// squares). A surface correspondence pulls along the model's normal; skin outside the observed silhouette is pulled in
+/// the image plane; skin that should be behind an object is pulled along the optical axis; unexplained data pulls along
+/// the normal and, in part, along the surface. `comparison` must contain normals. Adds to `tree` and, if given, the
+/// part that depends on the shape to `shape`; returns the robust energy.
 double add_data_terms(const Skin& skin, const HandPose& pose, const ModelComparison& comparison,
                       const EnergyParams& params, const DataWeighting& weighting, GaussianTree& tree,
                       ShapeMoments* shape = nullptr);

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 constexpr double kRangeDeviation = 0.2887;  // standard deviation of a uniform distribution over a range of 1
-constexpr double kAnywhere = 1.0;           // standard deviation of the pose of a palm without data [m, rad]
+constexpr double kAnywhere = 1.0;           // standard deviation of the pose of a palm that no data shows [m, rad]
 
 double sq(double x) { return x * x; }
 

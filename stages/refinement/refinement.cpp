@@ -23,11 +23,11 @@ constexpr int kFineSteps = 3;
 constexpr double kCoarseCell = 0.006;       // cell size of the coarse skin [m]
 constexpr std::size_t kManyPixels = 10000;  // for a hand with more pixels, a coarse comparison uses every other cell
 
-// A segment with at least this fraction of matched skin may freely leave its prediction.
+// A segment may freely leave its prediction if at least this fraction of its skin matches data.
 constexpr double kFree = 0.4;
 
-// A segment with less matched skin than this fraction is moved less by the skin that it shares with a neighbour at a
-// joint (without any matched skin, not at all); the neighbour is moved instead.
+// If less than this fraction of a segment's skin matches data, the skin that blends the segment with a neighbour at a
+// joint moves the segment less (not at all if nothing matches) and the neighbour more.
 constexpr double kShown = 0.1;
 constexpr double kFolds = 4;  // DataWeighting::folds for skin that was not scanned
 
@@ -86,7 +86,7 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s].diagonal() *= 1 + params_.damping;
-    tree.H_self[s].diagonal().array() += 1e-3;  // far below any information: keeps an unconstrained direction finite
+    tree.H_self[s].diagonal().array() += 1e-3;  // negligible, but keeps the step finite in unconstrained directions
   }
 
   // Solve. A step that is too long is shortened by one factor for all segments, which keeps the joints closed.
@@ -162,7 +162,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     // a pull is wrong even if the model fits (see add_unexplained() in hand_energy.cpp). If the profile was not
     // measured, the model's silhouette is further off than the error that this avoids, so the full pull is kept.
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
-    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds affect only fine steps
+    weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds disturb only the fine steps
 
     if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,

@@ -12,7 +12,7 @@ namespace barehand {
 
 // Continuous refinement of a hand's pose.
 
-// Settings of the continuous refinement.
+/// Settings of the continuous refinement.
 struct RefinementParams {
   bool enabled = true;
   int iterations = 5;
@@ -59,7 +59,7 @@ class Refinement {
   /// at `start`, the more freely it may leave its prediction. `iterations`: number of Gauss-Newton steps.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
                      int iterations) const;
-  /// The same, but starts from the one of `starts` (at least one) that fits the frame best before any step; among
+  /// Like refine(), but starts from the one of `starts` (at least one) that fits the frame best before any step; among
   /// equally good ones, from the first.
   RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
                           const HandPose& predicted, int iterations) const;

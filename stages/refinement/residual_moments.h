@@ -55,7 +55,7 @@ class ResidualMoments {
   using Row = Eigen::Matrix<float, 8, 1>;
   using Square = Eigen::Matrix<float, 8, 6>;
 
-  // The Jacobian row for segment s; see the comment of the class.
+  // The Jacobian row with respect to the twist of segment s; see the comment of the class.
   Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float share) const {
     const Eigen::Vector3f turn = (p - origin_[s]).cross(d);
     Row row = Row::Zero();
@@ -69,7 +69,8 @@ class ResidualMoments {
   }
 
   std::array<Eigen::Vector3f, kSegmentCount> origin_;
-  std::array<Square, kSegmentCount> self_, parent_;  // parent_: rows of a segment, columns of its parent
+  // Sums of J^T w J of each segment with itself (self_), and of each segment (rows) with its parent (columns).
+  std::array<Square, kSegmentCount> self_, parent_;
   std::array<Row, kSegmentCount> gradient_;
 };
 

@@ -24,7 +24,7 @@ bool ShapeEquations::without_pose(Eigen::Matrix<double, kShapeCount, kShapeCount
   // Subtract the part of the shape's gradient that a change of the pose explains (Schur complement).
   for (int s = 0; s < kSegmentCount; ++s) g -= H_pose_shape[s].transpose() * x[s];
 
-  // Do the same for the shape's matrix, column by column; one tree is reused for all columns.
+  // Subtract it from the shape's matrix, too, column by column; one tree is reused for all columns.
   for (int k = 0; k < kShapeCount; ++k) {
     for (int s = 0; s < kSegmentCount; ++s) column.g[s] = H_pose_shape[s].col(k);
     if (!column.solve(x)) return false;

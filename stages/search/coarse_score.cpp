@@ -10,9 +10,10 @@ namespace barehand {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Pixels without depth that are this close to the hand may belong to it: sensors lose depth at its border [m].
+// Pixels without depth may belong to the hand if they are at most this far from it, since sensors lose depth at its
+// border [m].
 constexpr float kCloseToHand = 0.008f;
-// Cost of a cell of the model at such a pixel, and of a cell of the forearm without depth.
+// Cost of a cell that the model covers at such a pixel, and of a cell without depth that the forearm covers.
 constexpr float kCloseCost = 0.1f;
 constexpr float kNearest = 0.02f;  // points nearer to the camera plane are not drawn [m]
 constexpr int kBorder = 1;         // width of the border around the grid [cells]
@@ -143,8 +144,8 @@ double CoarseScorer::operator()(const HandPose& pose) {
 double CoarseScorer::sum_of_costs() const {
   const float cap = static_cast<float>(params_.depth_cap), sleeve = static_cast<float>(params_.sleeve_depth);
   const float *hand_z = hand_z_.data() + before_grid(), *forearm_z = forearm_z_.data() + before_grid();
-  // A skin point covers 2 x 2 cells, but splat() stores its depth only in the top left one. A cell therefore takes the
-  // nearest of itself and its left, upper and upper left neighbours.
+  // A skin point covers 2 x 2 cells, but splat() stores its depth only in the top left one. The depth of a cell is
+  // therefore the smallest of its own and those of its left, upper and upper left neighbours.
   const std::size_t above = camera_.width;
   const auto covering = [above](const float* z) {
     return std::min(std::min(*z, *(z - 1)), std::min(*(z - above), *(z - above - 1)));
@@ -173,7 +174,7 @@ double CoarseScorer::sum_of_costs() const {
 }
 
 double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
-  if (!leaves_grid_) return 0;  // the usual case
+  if (!leaves_grid_) return 0;  // usually, no point leaves the grid
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   double beyond_region = 0;
   int beyond_image = 0;
@@ -197,8 +198,8 @@ double CoarseScorer::border_cost(float u, float v, float z) const {
   return z < costs_.data[cell] ? costs_.front[cell] : costs_.behind[cell];
 }
 
-/// Marks the points to draw and computes their cells; returns whether a point that faces the camera leaves the grid.
-/// Kept separate so that it vectorises.
+/// Marks the points to draw and computes their cells; returns whether a point that faces the camera leaves the grid. It
+/// is a separate function so that the compiler vectorises it.
 bool CoarseScorer::judge(std::size_t count) {
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   const std::int32_t stride = camera_.width, start = static_cast<std::int32_t>(before_grid());

@@ -67,7 +67,7 @@ class CoarseScorer {
 
   const CoarseSkin& skin_;
   CoarseScoreParams params_;
-  Intrinsics camera_;  // whose pixels are the cells, including the border
+  Intrinsics camera_;  // camera with one pixel per cell, including the cells of the border
   float shrink_ = 0;   // distance by which the points are pulled inwards [m]
   float image_lo_u_ = 0, image_lo_v_ = 0, image_hi_u_ = 0, image_hi_v_ = 0;
   int hand_cells_ = 0;
@@ -75,9 +75,10 @@ class CoarseScorer {
   /// z-buffers. A point covers 2 x 2 cells, but its depth is stored only in the top left one; infinite if nothing was
   /// drawn.
   std::vector<float> hand_z_, forearm_z_;
-  // Of the points of the part that is being splatted.
-  std::vector<float> u_, v_, z_, facing_;  // pixel, depth, and a number that is negative if it faces the camera
-  // 1 if the point is drawn, otherwise 0; indices of the drawn points; cell of each point.
+  // For every point of the part that is being splatted: its pixel, its depth [m], and a number that is negative if the
+  // skin there faces the camera.
+  std::vector<float> u_, v_, z_, facing_;
+  // For these points: 1 if the point is drawn, otherwise 0; the indices of the drawn points; the cell of each point.
   std::vector<std::int32_t> drawn_, visible_, cell_;
   bool leaves_grid_ = false;  // whether a point that faces the camera lies outside the grid
 };

@@ -14,7 +14,7 @@ struct CoarseSkin {
     std::vector<float> x, y, z, nx, ny, nz;
     std::size_t size() const { return x.size(); }
   };
-  std::vector<Part> parts;  ///< one for every segment
+  std::vector<Part> parts;  ///< skin points of every segment
   /// Beginning of the forearm, in the palm's frame. A hand never ends at its wrist, so the forearm distinguishes the
   /// wrist from the fingers if the silhouette alone does not.
   Part forearm;

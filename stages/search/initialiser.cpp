@@ -23,7 +23,8 @@ constexpr int kLastGoodTurns = 8;    // in-plane rotations in which the last goo
 constexpr double kPalmCentre = 0.6, kHeel = 0.3;
 // Number of trials in one parallel task, for templates and for changed fingers.
 constexpr int kPlacedTogether = 24, kChangedTogether = 6;
-// Factor on `distinct` in the search near a pose, where trials differ in one finger, a fifth of the hand.
+// Factor on the parameter `distinct` in the search near a pose, whose trials differ in one finger only, a fifth of the
+// hand.
 constexpr double kNearDistinct = 0.25;
 
 /// Mean of the points that face a camera looking along `view`, weighted by their projected area.
@@ -53,7 +54,7 @@ Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector
 struct Initialiser::Trial {
   std::string name;  ///< name of the template that it was made from
   ScoredPose scored;
-  bool stays = false;  ///< scored at its own position instead of being moved onto the data
+  bool stays = false;  ///< whether it is scored at its own position instead of being moved onto the data
 };
 
 double pose_distance(const HandProfile& profile, const HandPose& a, const HandPose& b) {
@@ -234,9 +235,9 @@ Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) con
   return trials;
 }
 
-/// The best `count` trials of which no two are closer than `distinct` [m], ranked. A fraction `elsewhere` of them is
-/// reserved for the best trials that are farther than params_.apart from all others, if there are any, so that variants
-/// of one pose do not displace all other poses.
+/// Returns the best `count` trials of which no two are closer than `distinct` [m], best first. A fraction `elsewhere`
+/// of them is reserved for the best trials that are farther than params_.apart from all others, if there are any, so
+/// that variants of one pose do not displace all other poses.
 Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct, double elsewhere) const {
   const auto by_cost = [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; };
   std::ranges::stable_sort(trials, by_cost);

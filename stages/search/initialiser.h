@@ -10,8 +10,8 @@
 
 namespace barehand {
 
-/// Effort of a search: how many templates are scored on the coarse grid, and how many are improved in the two rounds
-/// that follow.
+/// Effort of a search: the number of templates that are scored on the coarse grid, and the numbers of those that the
+/// two later rounds improve.
 struct SearchEffort {
   int in_plane = 16;
   int rolls = 8;
@@ -87,8 +87,8 @@ struct StartCandidate {
 
 enum class Effort { quick, full };
 
-/// Cost of model cells hidden behind an object: `costs` is a small cost, right if most of the hand is visible; `free`
-/// is no cost.
+/// Cost of model cells that are hidden behind an object: `costs` means a small cost, which suits a mostly visible hand;
+/// `free` means none.
 enum class Hiding { costs, free };
 
 /// Proposes start poses from a single observation. (Not in the paper, whose start is manual; Sec. 5.2.) Templates of
@@ -102,7 +102,7 @@ class Initialiser {
   /// Returns start poses, best first; none if the observation shows too little of a hand. `last_good`: last good pose
   /// before a loss, which is tried at its own position and, in several in-plane rotations, moved onto the data. A quick
   /// search uses other orientations of the templates in every frame, so that successive frames complement each other.
-  /// `hiding`: should be `free` if so little of the hand is visible that otherwise the most compact shape would win.
+  /// `hiding` should be `free` if so little of the hand is visible that otherwise the most compact shape would win.
   std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
                                       Workers& workers, Hiding hiding = Hiding::costs,
                                       const HandPose* last_good = nullptr) const;

@@ -21,7 +21,7 @@ constexpr double kGapDeviation = 0.001;          // standard deviation of the ga
 constexpr double kLimitDeviation = 4 * kDegree;  // standard deviation of angles beyond their limits, and of twist
 constexpr double kLimitWidening = 10 * kDegree;  // angle by which the profile's joint limits are widened at both ends
 constexpr double kRestFlexion = 20 * kDegree;    // prior mean of every flexion angle
-constexpr double kRestDeviation = 50 * kDegree;  // standard deviation of this prior
+constexpr double kRestDeviation = 50 * kDegree;  // standard deviation of the prior of every flexion angle
 constexpr double kLongestTurn = 30 * kDegree,    // largest rotation of a segment in one iteration
     kLongestStep = 0.05;                         // largest translation of a segment in one iteration [m]
 
@@ -141,7 +141,7 @@ HandPose posed_by_bones(const HandProfile& profile, const std::array<JointLimits
 }
 
 /// Makes one Gauss-Newton step. The scale couples all segments, so it is eliminated last: the tree is solved first
-/// without it and then for the change that it causes. Returns false if the equations are singular.
+/// without the scale, then for the change of the solution with the scale. Returns false if the equations are singular.
 bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double& scale) {
   GaussianTree& tree = equations.tree;
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -23,8 +23,8 @@ struct KinematicFit {
 /// joint limits and a weak prior of slightly bent fingers. Unless the profile was measured, one scale of the whole hand
 /// is fitted, too. None: the detected joints do not define a pose.
 std::optional<KinematicFit> fit_to_joints(const HandProfile& profile, const DetectedJoints& joints);
-/// The same, but the scale is fitted for every profile. `deviation`: prior standard deviation of the logarithm of the
-/// scale.
+/// Like fit_to_joints(), but the scale is fitted even if the profile was measured. `deviation`: prior standard
+/// deviation of the logarithm of the scale.
 std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const DetectedJoints& joints,
                                                double deviation);
 
@@ -37,10 +37,11 @@ inline constexpr double kScaleDeviation = 0.12;
 /// Negative log posterior (times two) of a pose and a scale, and its normal equations.
 struct KinematicEquations {
   double energy = 0;
-  double cost = 0;                                   ///< KinematicFit::cost
-  GaussianTree tree;                                 ///< normal equations of the segments
-  std::array<Vector6d, kSegmentCount> coupling;      ///< entries of H between a segment and the logarithm of the scale
-  double scale_information = 0, scale_gradient = 0;  ///< entries of H and of the right-hand side for that logarithm
+  double cost = 0;                               ///< KinematicFit::cost
+  GaussianTree tree;                             ///< normal equations of the segments
+  std::array<Vector6d, kSegmentCount> coupling;  ///< entries of H between a segment and the logarithm of the scale
+  double scale_information = 0,
+         scale_gradient = 0;  ///< H's and the right-hand side's entries for the logarithm of scale
 };
 KinematicEquations kinematic_equations(const HandProfile& profile, const std::array<JointLimits, kSegmentCount>& limits,
                                        const DetectedJoints& joints, const HandPose& pose, double scale,

@@ -34,8 +34,8 @@ struct ScoredPose {
   double cost = 0;  ///< coarse score plus shape prior; lower is better
 };
 
-/// Cost of a pose in the search: coarse score plus a prior that neighbouring fingers bend alike, which decides where
-/// fingers are hidden. Not thread-safe; copies are independent.
+/// Cost of a pose in the search: coarse score plus a prior that neighbouring fingers have similar flexion, which
+/// determines hidden fingers. Not thread-safe; copies are independent.
 class PoseCost {
  public:
   /// `profile` and `skin` must outlive the object.

@@ -17,8 +17,8 @@ struct ShapeTemplate {
 std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
                                            const std::array<JointLimits, kSegmentCount>& limits);
 
-/// Orientation of the palm: `roll` about the finger axis (0: palm to the camera, pi: back to the camera), then
-/// `pitch` (positive: fingers lean towards the camera), then `in_plane` about the optical axis (0: fingers up).
+/// R_camera_palm from three angles [rad]: `roll` about the finger axis (0: palm to the camera, pi: back to the camera),
+/// then `pitch` (positive: fingers lean towards the camera), then `in_plane` about the optical axis (0: fingers up).
 Eigen::Matrix3d palm_orientation(double roll, double pitch, double in_plane);
 
 }  // namespace barehand

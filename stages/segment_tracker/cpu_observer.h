@@ -11,7 +11,7 @@ inline constexpr int kSampleChunk = 16;
 
 /// The cap on a single pixel's distance (paper, Eq. 1) [m]; infinity if the distance is uncapped.
 float distance_cap(const SegmentTrackerParams& params);
-/// The first segment that is compared with the data: the palm, or the one after it if the palm is not observed.
+/// The first segment that is compared with the data: the palm or, if the palm is not to be observed, the next one.
 inline int first_compared(const SegmentTrackerParams& params) { return params.observe_palm ? kPalm : kPalm + 1; }
 
 /// Compares samples with the data on the CPU. `workers` must outlive this object; results do not depend on their

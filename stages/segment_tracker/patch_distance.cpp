@@ -15,7 +15,7 @@ constexpr int kBlock = 64;         // points per block: their intermediate resul
 /// Intermediate results for a block of skin points.
 struct Block {
   std::array<float, kBlock> x, y, z, weight;  ///< position [m] and covered pixels; 0 for points that face away
-  std::array<std::int32_t, kBlock> pixel;     ///< index into the map
+  std::array<std::int32_t, kBlock> pixel;     ///< index of the pixel in the map
   std::array<PixelMap::Cell, kBlock> cell;
   std::array<std::int32_t, kBlock> hidden;
 };
@@ -33,7 +33,7 @@ struct View {
         origin(R.transpose() * t),
         fx(map.fx),
         fy(map.fy),
-        cx(map.cx + 0.5f),  // truncation rounds to the nearest pixel
+        cx(map.cx + 0.5f),  // with this offset, truncation to an integer rounds to the nearest pixel
         cy(map.cy + 0.5f),
         last_u(static_cast<float>(map.width - 1)),
         last_v(static_cast<float>(map.height - 1)),

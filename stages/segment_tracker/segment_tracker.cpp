@@ -68,7 +68,7 @@ const SegmentSamples& SegmentTracker::sample(const PreparedObservation& prepared
     for (int i = begin; i < end; ++i) samples_.poses[s][i] = draw_sample(proposals[s], s, i, key);
   });
 
-  // Compare the samples with the data; an unobserved palm is left out.
+  // Compare the samples with the data, without the palm if the settings say that it is not observed.
   observer_->compare({surface_, prepared.map, prepared.id, samples_.poses, first_compared(params_)}, distances_);
 
   // Compute the likelihoods; sigma shrinks from level to level.

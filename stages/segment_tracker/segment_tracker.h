@@ -41,7 +41,7 @@ class SegmentTracker {
   /// segments, for which alpha is 0.
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key,
                                int count);
-  /// The same with S samples per segment (parameter `samples`).
+  /// Draws S samples per segment (parameter `samples`) and computes log L.
   const SegmentSamples& sample(const PreparedObservation& prepared, const Proposals& proposals, const SampleKey& key) {
     return sample(prepared, proposals, key, params_.samples);
   }

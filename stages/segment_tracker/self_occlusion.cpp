@@ -89,8 +89,8 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
   }
 }
 
-/// The rule of the paper (Sec. 4.2): a segment is hidden where hand pixels are substantially closer to the camera than
-/// its prediction. Occlusion by other objects is decided per sample, in patch_distance().
+/// Applies the paper's rule (Sec. 4.2): a segment is hidden where hand pixels are substantially closer to the camera
+/// than its prediction. Occlusion by other objects is decided per sample, in patch_distance().
 void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
   for (int s = 0; s < kSegmentCount; ++s)
     for_each_pixel(patches_[s], map, [&](std::size_t pixel, std::size_t cell) {
@@ -99,8 +99,8 @@ void SelfOcclusion::label_by_data(float threshold, PixelMap& map) const {
     });
 }
 
-/// The other rule: a segment is hidden where the predicted skin of another segment is in front of it. A depth buffer of
-/// the whole predicted hand shows this.
+/// Applies the rule that is not the paper's: a segment is hidden where the predicted skin of another segment is in
+/// front of it, according to a depth buffer of the whole predicted hand.
 void SelfOcclusion::label_by_model(float threshold, PixelMap& map) {
   // Render the depth buffer.
   front_.assign(map.cells.size(), kFar);

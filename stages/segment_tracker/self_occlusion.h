@@ -18,10 +18,10 @@ struct PredictedPatch {
   std::vector<ImagePoint> points;  ///< skin points that face the camera; u, v in pixels of the map, z [m]
   int u0 = 0, v0 = 0;              ///< pixel of the map at the corner of the first cell
   int cell = 1;                    ///< side of a cell [pixel], smaller than the spacing of the skin points
-  int columns = 0, rows = 0;       ///< 0: the segment is outside the region of interest
+  int columns = 0, rows = 0;       ///< size of the grid [cells]; 0: the segment is outside the region of interest
   float outline_sq = 0;            ///< cells closer to a skin point than this lie within the outline [pixel^2]
-  std::vector<float> z;            ///< depth [m]
-  std::vector<float> gap_sq;       ///< squared distance to the nearest skin point [pixel^2]
+  std::vector<float> z;            ///< depth of every cell [m]
+  std::vector<float> gap_sq;       ///< squared distance of every cell to the nearest skin point [pixel^2]
 
   /// Computes the grid for a predicted pose. The grid includes a margin of `margin` [m] around the segment.
   void predict(const SegmentSurface& skin, const SE3& T_camera_segment, const PixelMap& map, double margin);
