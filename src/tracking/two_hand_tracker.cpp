@@ -45,8 +45,8 @@ void TwoHandTracker::change(const TrackerParams& params) {
 
 void TwoHandTracker::renew_verifiers() {
   verifiers_.clear();
-  for (const auto& hand :
-       hands_)  // with two hands, the verifiers log nothing: both sides are tracked, so none is wrong
+  // With two hands, the verifiers log nothing: both sides are tracked, so none is wrong.
+  for (const auto& hand : hands_)
     if (hand)
       verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, seed_, workers_,
                                                              count() == 1 ? log_ : make_silent_logger()));

@@ -25,8 +25,7 @@ struct EnergyParams {
   double palm_trust = 0.1;
   double sigma_gap = 0.0005;
   double sigma_angle_deg = 2.0;
-  double limit_widening_deg =
-      10.0;  ///< widens the joint limits, since objects bend fingers (paper, Sec. 4.3) [degrees]
+  double limit_widening_deg = 10.0;  ///< widening of the joint limits [degrees]: objects bend fingers (paper, Sec. 4.3)
   double sigma_overlap = 0.001;
   double prior_translation = 0.05;
   double prior_rotation_deg = 30.0;
