@@ -18,8 +18,8 @@ namespace barehand {
 enum class SurfaceLabel : std::uint8_t { background = 0, hand = 1, arm = 2, object = 3 };
 inline constexpr int kSurfaceLabelCount = 4;
 
-/// The labels of a window of the frame, on a grid coarser than its pixels. The centre of cell (c, r) is the frame pixel
-/// (u0 + c * step_u, v0 + r * step_v).
+/// The networks' labels of a rectangle ("window") of the frame, on a grid coarser than the frame's pixels. The centre
+/// of cell (c, r) is the frame pixel (u0 + c * step_u, v0 + r * step_v).
 struct LabelMap {
   Image<SurfaceLabel> label;
   Image<float> hand_log_odds;  ///< log odds of the hand against all other classes
@@ -49,8 +49,8 @@ constexpr int landmark_of(int finger, int k) { return 1 + 4 * finger + k; }
 
 /// Position of a joint, visible or not, as estimated by the detection. Camera frame.
 struct DetectedJoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< [m]
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< [m^2]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< estimated position [m]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< covariance of the position [m^2]
 };
 
 /// One hand that a detection found. Camera frame, metres.
@@ -67,8 +67,8 @@ struct DetectedHand {
 
 /// Result of the detection networks for one frame. Immutable once shared.
 struct Detection {
-  /// True: only `hands` may be taken for hands that are not tracked yet. False: all hands are tracked, so that only
-  /// windows around them were searched.
+  /// Whether a hand that is not tracked yet can only be one of `hands`. False if all hands are tracked, because then
+  /// only windows around them were searched.
   bool whole_frame = false;
   std::vector<DetectedHand> hands;  ///< most probable first; no two at the same place
   /// Coarse labels that together cover the whole frame; empty if only windows were searched.

@@ -19,7 +19,7 @@ enum class PixelLabel : std::uint8_t { unknown = 0, background = 1, hand = 2, ob
 struct HandObservation {
   FramePtr frame;
   bool hand_present = false;  ///< false: no hand-like data in this frame; the maps may be empty
-  /// The hand was found where the tracker predicted it; false: it may be any hand-like region of the frame.
+  /// Whether the hand was found where the tracker predicted it; if not, it may be any hand-like region of the frame.
   bool followed = false;
   int u0 = 0, v0 = 0;  ///< top-left corner of the region of interest in the frame
   Image<float> depth;  ///< z [m]; 0 = no measurement

@@ -62,7 +62,7 @@ std::vector<std::string> camera_doubts(const Intrinsics& camera) {
         formatted("%s = %.6g is a field of view of %.3g degrees over %d pixels: is it in pixels, and of "
                   "this image size?",
                   name, focal, angle, size));
-    break;  // one warning is enough: the other focal length is wrong in the same way
+    break;  // one warning is enough, since the other focal length is most likely wrong in the same way
   }
   if (std::max(camera.fx, camera.fy) > kOblong * std::min(camera.fx, camera.fy))
     doubts.push_back(

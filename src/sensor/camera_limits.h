@@ -17,8 +17,8 @@ inline bool possible_size(std::int64_t width, std::int64_t height) {
   return width > 0 && height > 0 && width <= kMaxPixels && height <= kMaxPixels && width * height <= kMaxPixels;
 }
 
-/// Whether a camera can have these intrinsics (never with NaN). Those of files and messages are checked, so that rays
-/// and pixel coordinates are finite.
+/// Whether a camera can have these intrinsics; false if any is NaN. The intrinsics in files and messages are checked,
+/// so that rays and pixel coordinates are finite.
 inline bool plausible(const Intrinsics& camera) {
   const auto focal = [](double f) { return f >= 1 && f <= kLargestFocal; };
   const auto centre = [](double c) { return c >= -kLargestFocal && c <= kLargestFocal; };

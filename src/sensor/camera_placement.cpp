@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kTolerance = 1e-3;  // numbers that people type are rounded
+constexpr double kTolerance = 1e-3;  // largest deviation from a unit quaternion or rotation: typed numbers are rounded
 constexpr const char* kWanted =
     "give x, y, z and the quaternion x, y, z, w, with 4 decimals or more, or the 16 numbers of a 4x4 matrix row by row";
 
@@ -24,7 +24,7 @@ Result<SE3> from_matrix(const std::vector<double>& numbers, const std::string& w
   if ((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9)
     return fail("the last row is not 0, 0, 0, 1", where, kWanted);
 
-  // Only a rigid motion is accepted.
+  // Reject a matrix that is not a rigid motion.
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > kTolerance)
     return fail("the axes do not have the length 1 or are not at right angles", where, kWanted);

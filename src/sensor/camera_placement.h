@@ -13,7 +13,7 @@ namespace barehand {
 /// metres, right-handed, with z against gravity. docs/frames_and_units.md says how to find the numbers.
 struct CameraPlacement {
   /// Position x, y, z [m] and quaternion x, y, z, w of the camera in the world; or the 4x4 matrix, row by row. It maps
-  /// camera coordinates to world coordinates. The default, the identity, stands for a room that is not known.
+  /// camera coordinates to world coordinates. The default, the identity, means that the placement is not known.
   std::vector<double> T_world_camera = {0, 0, 0, 0, 0, 0, 1};
 };
 
@@ -24,9 +24,8 @@ void visit(V& v, CameraPlacement& p) {
          "matrix row by row; the default: not known");
 }
 
-/// The pose of the camera in the world; none: the room is not known. Errors, which name `where`: neither 7 nor 16
-/// numbers, a number that is not finite, a quaternion that is not of norm 1, a matrix that is no right-handed rigid
-/// motion.
+/// The pose of the camera in the world; none: it is not known. Errors, which name `where`: neither 7 nor 16 numbers, a
+/// number that is not finite, a quaternion whose norm is not 1, a matrix that is not a right-handed rigid motion.
 Result<std::optional<SE3>> world_from(const CameraPlacement& placement,
                                       const std::string& where = "world.T_world_camera");
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSteps = 15;  // intervals between frames from which the unit of the stamps is checked
 // Intervals that suffice for this check at the end of a short recording.
 constexpr std::size_t kFewestSteps = 2;
-constexpr std::int64_t kUnusedRatio = 10;                       // warn if more than one frame in this many was not used
+constexpr std::int64_t kUnusedRatio = 10;                       // warn if more than 1 of this many frames was not used
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;  // larger frame numbers are damaged
 
 /// Shortest and longest plausible interval between two frames [us]: 2000 and 0.5 frames per second.
@@ -28,7 +28,8 @@ std::string in_unit(StampUnit unit) {
 
 /// Explains a backward step of the time [s] that matches the overflow of a 32-bit counter; "" for any other step.
 std::string overflow(double step_back) {
-  constexpr double kRange = 4294967296.0, kSlack = 10;  // values of the counter; tolerance [s]
+  constexpr double kRange = 4294967296.0,
+                   kSlack = 10;  // number of values of the counter, and tolerance of the step [s]
   for (const auto& [unit, per_second] : {std::pair("microseconds", 1e6), std::pair("milliseconds", 1e3)})
     if (std::abs(step_back - kRange / per_second) < kSlack)
       return std::string(", as a counter of ") + unit + " with 32 bits does when it overflows";

@@ -25,8 +25,8 @@ enum class StampUnit { seconds, microseconds };
 /// the epoch, but stamps are in seconds: divide it by 1000".
 std::string too_late(double stamp, StampUnit unit);
 
-/// The one rule for time stamps and frame numbers (docs/formats.md, "Time"). Every source calls number() for every
-/// frame of a channel, in the order in which the frames were recorded or arrive.
+/// Checks the time stamps and sets the frame numbers of one channel by the rules in docs/formats.md, "Time". Every
+/// source calls number() for every frame, in the order in which the frames were recorded or arrive.
 ///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or late: it is
 ///    not used.
 ///  - A stamp that is earlier by a second or more is a restart: the recorder was started again, or its clock was set.

@@ -26,7 +26,7 @@ struct SourceFailed {
 /// A message for the user; the stream continues. The source itself suppresses repetitions.
 struct SourceNotice {
   Error error;
-  bool trouble = true;  ///< false: information only, for example that a sensor was opened
+  bool trouble = true;  ///< whether it is a warning; false: information only, for example that a sensor was opened
 };
 
 using SourceEvent = std::variant<FramePtr, EndOfStream, Timeout, SkippedFrame, SourceFailed, SourceNotice>;

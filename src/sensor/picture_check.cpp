@@ -11,8 +11,8 @@ namespace {
 
 // A depth image with a larger fraction of jumps between neighbours (see jump_share()) is noise.
 constexpr double kSenseless = 0.4;
-constexpr int kRowStep = 4;       // every fourth row is enough
-constexpr int kFewestPairs = 64;  // fewer pairs of measured neighbours are not enough to decide
+constexpr int kRowStep = 4;       // only every fourth row is tested, which is enough
+constexpr int kFewestPairs = 64;  // with fewer pairs of measured neighbours, an image is not tested for noise
 
 bool same(const Image<std::uint16_t>& a, const Image<std::uint16_t>& b) {
   return a.width() == b.width() && a.height() == b.height() && std::memcmp(a.data(), b.data(), 2 * a.size()) == 0;

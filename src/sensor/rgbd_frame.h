@@ -21,9 +21,9 @@ struct RgbdFrame {
   std::int64_t number = 0;     ///< frame number in the recording, or the sensor's sequence number
   std::string sensor;          ///< name of the sensor; "" if there is only one
   Intrinsics camera;           ///< intrinsics of both images, since colour is registered to depth
-  double depth_unit = 0.001;   ///< metres per depth count
-  Image<std::uint16_t> depth;  ///< counts; 0 = no measurement
-  Image<Rgb> colour;           ///< empty if there is none; pure black: no colour at this pixel
+  double depth_unit = 0.001;   ///< metres per unit of `depth`
+  Image<std::uint16_t> depth;  ///< depth in units of `depth_unit`; 0: no measurement
+  Image<Rgb> colour;           ///< colour of every depth pixel, black where it is unknown; empty without a colour image
   std::string colour_fault;    ///< why colour is missing although it was expected; "" otherwise
 };
 using FramePtr = std::shared_ptr<const RgbdFrame>;

@@ -30,7 +30,7 @@ class Undistortion {
   /// Largest displacement of a pixel [px].
   double largest_shift() const { return largest_shift_; }
 
-  /// Fraction of the pixels that the distorted image shows.
+  /// Fraction of the undistorted image's pixels that lie within the distorted image.
   double shown() const;
 
   /// Undistorts `image`, which must have the camera's size. Pixels that the distorted image does not show become 0.

@@ -23,11 +23,11 @@ struct UsbAddress {
 /// A depth sensor as the USB bus reports it, whether or not a driver for it is installed.
 struct UsbSensor {
   UsbAddress address;
-  std::string name;               ///< maker or kind
+  std::string name;               ///< maker or model, for example "Orbbec"
   std::string port;               ///< "1-2.3": bus 1, port 2 of the machine, port 3 of the hub there
   int megabits = 0;               ///< speed in Mb/s; 0: the bus does not report it
-  bool held_back = false;         ///< it is capable of more speed than this port provides
-  std::optional<Error> obstacle;  ///< why this program may not open it
+  bool held_back = false;         ///< whether the sensor supports a higher speed than this port provides
+  std::optional<Error> obstacle;  ///< why this program has no permission to open it; none: it has
 };
 /// Text for messages, such as "Orbbec 2bc5:0401 at USB port 1-2, USB 2 (480 Mb/s)".
 std::string to_text(const UsbSensor& sensor);

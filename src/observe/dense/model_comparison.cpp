@@ -77,7 +77,7 @@ class Comparer {
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
     const PixelLabel label = obs_.label.at(u, v);
 
-    // Missing depth is no evidence.
+    // Missing depth is evidence neither for nor against the model.
     if (label == PixelLabel::unknown || z_data <= 0) {
       ++out_.visible[segment];  // a hole in the data does not hide the segment
       return;
@@ -91,15 +91,15 @@ class Comparer {
       return;
     }
 
-    // Any other surface hides the model if it is in front of it, and contradicts the model if it is behind it.
+    // A surface that is not hand hides the model if it is in front of it, and contradicts the model if it is behind it.
     const float tolerance = label == PixelLabel::object ? static_cast<float>(params_.occlusion_tolerance) : 0.0f;
     if (z_data < z_model + tolerance) return;
     ++out_.visible[segment];
     const std::int32_t hand = obs_.nearest_hand.at(u, v);
     if (hand < 0) return;
 
-    // The model should not be visible here. It should move to the nearer of two places: sideways, onto the hand's data
-    // (paper, Eq. 1), or back behind the measured surface, if it is only slightly in front of it.
+    // The model is where the data shows no hand. It should move to the nearer of two places: sideways, onto the hand's
+    // data (paper, Eq. 1), or back behind the measured surface, if it is only slightly in front of it.
     const Vector3f model = model_point(i, j), aside = nearest_aside(u, v, hand, model);
     const float back = z_data - tolerance - z_model, distance_aside = (aside - model).norm();
     if (back < std::min(kStandsOut, distance_aside))
@@ -123,7 +123,8 @@ class Comparer {
     return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
   }
 
-  /// Adds a correspondence `unexplained` for a cell that shows hand data but no model, unless it is forearm.
+  /// Adds a correspondence of the kind `unexplained` for a cell that shows hand data but no model, unless the cell
+  /// shows the forearm. The cell is pixel (u, v) of the region of interest.
   void judge_unexplained(int i, int j, int u, int v) {
     const Vector3f data = data_point(u, v);
     if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // the forearm is not part of the model

@@ -37,9 +37,9 @@ void visit(V& v, ComparisonParams& p) {
 
 /// One piece of evidence: a point of the model and the point of the data that it should move to.
 struct Correspondence {
-  /// surface: model and data are both hand. outside: the cell shows the model but no hand data, and the model should
-  /// move sideways in the image. behind: the same, but the model should move just behind the surface that is measured
-  /// there. unexplained: the cell shows hand data but not the model.
+  /// surface: the cell shows the model and hand data. outside: it shows the model but no hand data, and the model
+  /// should move sideways in the image. behind: it shows the model but no hand data, and the model should move just
+  /// behind the surface that is measured there. unexplained: it shows hand data but not the model.
   enum class Kind { surface, outside, behind, unexplained };
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
@@ -53,7 +53,7 @@ struct ModelComparison {
   std::vector<Correspondence> correspondences;
   double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence
   std::array<int, kSegmentCount> visible{};  ///< cells where a segment is front-most and not hidden by an object
-  std::array<int, kSegmentCount> matched{};  ///< those of them with hand data near the model
+  std::array<int, kSegmentCount> matched{};  ///< `visible` cells with hand data near the model
   NearestCell nearest_model;                 ///< scratch: look-up of the nearest cell of the rendered hand
   PixelRays rays;                            ///< scratch: points of the observed pixels
 };

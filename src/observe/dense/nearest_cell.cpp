@@ -21,7 +21,7 @@ void NearestCell::index(const Image<std::int32_t>& occupied) {
     for (int u = 0; u < width; ++u) own[u] = set[u] >= 0 ? static_cast<std::int16_t>(v) : above[u];
   }
 
-  // Sweep up: take the nearest row below where it is closer.
+  // Sweep up: use the nearest occupied row below a cell instead if it is closer.
   for (int v = height - 2; v >= 0; --v) {
     std::int16_t* own = row_.row(v);
     const std::int16_t* below = row_.row(v + 1);
@@ -33,7 +33,7 @@ void NearestCell::index(const Image<std::int32_t>& occupied) {
 }
 
 std::int32_t NearestCell::find(int u, int v) const {
-  // Takes the nearest occupied cell of a column if it is nearer than the best so far.
+  // Replaces the best cell by the nearest occupied cell of a column if that is nearer.
   const int width = row_.width();
   const std::int16_t* row = row_.row(v);
   int best_sq = std::numeric_limits<int>::max();

@@ -12,8 +12,8 @@ class NearestCell {
  public:
   /// Indexes the cells with `occupied[i] >= 0`; at most 2^15 rows. The buffer keeps its allocation from call to call.
   void index(const Image<std::int32_t>& occupied);
-  /// Index of the occupied cell nearest to cell (u, v), exact; of several at the same distance always the same one. -1
-  /// if no cell is occupied.
+  /// Index of the occupied cell that is exactly nearest to cell (u, v); ties are resolved deterministically. -1 if no
+  /// cell is occupied.
   std::int32_t find(int u, int v) const;
 
  private:

@@ -3,8 +3,8 @@
 namespace barehand {
 namespace {
 
-// The same steps as in stages/segment_tracker/patch_distance.cpp. Each of the LANES invocations of a work group
-// compares every LANES-th skin point.
+// Body of the compute shader, with the same steps as stages/segment_tracker/patch_distance.cpp. Each of the LANES
+// invocations of a work group compares every LANES-th skin point.
 constexpr const char* kBody = R"(
 precision highp float;
 precision highp int;
@@ -32,16 +32,16 @@ vec3 compare_point(int i, mat3x4 T, vec3 origin, int segment) {
   vec3 p = vec4(point.xyz, 1.0) * T;
   float away = dot(skin[2 * i + 1].xyz, point.xyz + origin);
   float inv = 1.0 / max(p.z, kNearest);
-  // Solid angle on the image plane: a patch covers f^2 area (-n.p) / z^3 pixels.
+  // Number of pixels that the point's patch of skin covers: f^2 area (-n.p) / z^3.
   bool front = away < 0.0 && p.z > kNearest;
   float weight = front ? -away * point.w * camera.x * camera.y * inv * inv * inv : 0.0;
 
-  vec2 pixel = camera.xy * p.xy * inv + camera.zw + 0.5;  // truncation rounds to the nearest pixel
+  vec2 pixel = camera.xy * p.xy * inv + camera.zw + 0.5;  // with + 0.5, truncation rounds to the nearest pixel
   ivec2 at = ivec2(clamp(pixel, vec2(0.0), vec2(map_size - 1)));
   int k = at.y * map_size.x + at.x;
   vec4 cell = cells[k];
 
-  // Eq. 1; on hand pixels the depth difference alone.
+  // Distance of the paper's Eq. 1; on hand pixels only the difference of depth counts.
   vec3 gap = vec3(cell.z < 0.0 ? p.xy - cell.xy : vec2(0.0), p.z - abs(cell.z));
   float d = min(length(gap), cap);
   bool seen = p.z <= cell.w && (hidden[k] & (1 << segment)) == 0;

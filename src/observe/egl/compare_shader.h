@@ -8,11 +8,11 @@ namespace barehand {
 
 /// Bindings of the shader's storage buffers.
 enum ShaderBuffer {
-  kSkinBuffer,    ///< per point: (x, y, z, area), (nx, ny, nz, 0), segment frame
+  kSkinBuffer,    ///< per skin point: (x, y, z, area), (nx, ny, nz, 0) in the segment frame
   kCellBuffer,    ///< PixelMap::cells
   kHiddenBuffer,  ///< PixelMap::hidden
-  kPoseBuffer,    ///< per sample: the three rows of (R | t), segment by segment
-  kResultBuffer,  ///< per sample: distance, counted, total of its PatchDistance
+  kPoseBuffer,    ///< per sample: the three rows of its pose (R | t), segment by segment
+  kResultBuffer,  ///< per sample: the members distance, counted and total of its PatchDistance
   kShaderBufferCount
 };
 
@@ -21,7 +21,7 @@ inline constexpr int kFloatsPerPoint = 8, kFloatsPerPose = 12, kFloatsPerResult 
 /// Locations of the shader's uniforms.
 enum ShaderUniform {
   kCameraUniform,        ///< vec4: fx, fy, cx, cy of the map [pixel]
-  kMapSizeUniform,       ///< ivec2: columns, rows
+  kMapSizeUniform,       ///< ivec2: columns and rows of the map
   kCapUniform,           ///< float: largest distance of one pixel [m]
   kFirstSegmentUniform,  ///< int: first segment that is compared
   kPointsUniform,        ///< ivec2[16]: for each segment, index of its first skin point and number of its points

@@ -14,7 +14,7 @@ namespace {
 // register; for larger groups it would have to switch between threads.
 constexpr int kHardwareLanes = 32, kSoftwareLanes = 8;
 
-/// Size of the job in each buffer [bytes].
+/// Number of bytes that a job needs in each buffer.
 struct JobBytes {
   std::size_t skin, cells, hidden, poses, results;
 
@@ -36,7 +36,7 @@ Result<void> DeviceComparison::open() {
   context_ = std::move(*context);
   const Gl& gl = context_->gl();
 
-  // OpenGL ES 3.1 guarantees only four storage buffers.
+  // Check that the shader may use five storage buffers, since OpenGL ES 3.1 guarantees only four.
   GLint storage_buffers = 0;
   gl.GetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &storage_buffers);
   if (storage_buffers < kShaderBufferCount)

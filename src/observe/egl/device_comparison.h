@@ -14,19 +14,20 @@ namespace barehand {
 
 /// What the shader compares in one dispatch, besides the contents of the buffers. Sizes are counts.
 struct ShaderJob {
-  std::array<GLint, 2 * kSegmentCount> points{};  ///< for each segment, its first skin point and number of points
+  /// For each segment, the index of its first skin point and the number of its points.
+  std::array<GLint, 2 * kSegmentCount> points{};
   int skin_points = 0, cells = 0;
   std::array<float, 4> camera{};           ///< fx, fy, cx, cy of the map [pixel]
-  std::array<int, 2> map_size{};           ///< columns, rows
-  int first_segment = 0, per_segment = 0;  ///< first segment that is compared; samples per segment
+  std::array<int, 2> map_size{};           ///< columns and rows of the map
+  int first_segment = 0, per_segment = 0;  ///< first segment that is compared, and number of samples per segment
   bool new_skin = true, new_map = true;    ///< whether skin and map must be sent
 
   int samples() const { return kSegmentCount * per_segment; }
 };
 
 /// The part of the comparison that calls the graphics driver: a context, a program and buffers. All functions must be
-/// called on one thread, from open() to the destructor. Only job() and the buffers' memory are for the thread that
-/// orders the work, and only while no work is in progress.
+/// called on one thread, from open() to the destructor. Only job() and the buffers' memory may be used by another
+/// thread, the one that requests comparisons, and only while none is in progress.
 class DeviceComparison {
  public:
   /// Finds EGL's functions.

@@ -72,7 +72,7 @@ class DeviceThread {
         changed_.wait(lock, [&] { return work_ || leaving_; });
         if (leaving_) break;
         lock.unlock();
-        Result<void> result = done(work_);  // needs no lock: only this thread resets work_
+        Result<void> result = done(work_);  // works without the lock, since only this thread resets work_
         lock.lock();
         result_ = std::move(result);
         work_ = nullptr;
@@ -87,7 +87,7 @@ class DeviceThread {
       changed_.notify_all();
     }
 
-    /// Asks the thread to end. Returns whether it ended within the limit; for an abandoned thread there is no waiting.
+    /// Asks the thread to end, and returns whether it ended within the limit. Does not wait for an abandoned thread.
     bool finish(std::chrono::milliseconds limit) {
       std::unique_lock lock(mutex_);
       if (std::exchange(leaving_, true)) return ended_;

@@ -26,7 +26,7 @@ void find_extension(const Egl& egl, const char* name, Function& function) {
 
 Result<Egl> load_egl(const std::string& library) {
   const std::string remedy = "sudo apt-get install libegl1 libgl1-mesa-dri";
-  // Never unloaded: drivers leave threads and thread-local data behind.
+  // EGL is never unloaded, because drivers leave threads and thread-local data behind.
   void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle) return fail("EGL cannot be loaded: " + std::string(dlerror()), library, remedy);
   Egl egl{};

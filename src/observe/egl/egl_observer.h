@@ -18,10 +18,10 @@ struct Egl;
 /// Time limits after which a driver is given up. Each is far longer than a working device needs, and their sum is below
 /// the service's watchdog time.
 struct DeviceLimits {
-  std::chrono::milliseconds open{10'000};  ///< loading a driver and compiling the shader
-  std::chrono::milliseconds fence{2'000};  ///< the device's work on one call
-  std::chrono::milliseconds call{4'000};   ///< the whole call, for drivers that do not return
-  std::chrono::milliseconds close{2'000};  ///< destroying the context
+  std::chrono::milliseconds open{10'000};  ///< limit for loading a driver and compiling the shader
+  std::chrono::milliseconds fence{2'000};  ///< limit for the device's work on one call of compare()
+  std::chrono::milliseconds call{4'000};   ///< limit for the whole call, since a driver may never return
+  std::chrono::milliseconds close{2'000};  ///< limit for destroying the context
 };
 
 /// Compares all sampled poses of one search level in one dispatch of a compute shader. The results are those of
@@ -36,7 +36,7 @@ class EglObserver final : public DeviceObserver {
   /// lacks OpenGL ES 3.1 or has fewer than five storage buffers.
   static Result<std::unique_ptr<EglObserver>> open(float cap, DeviceChoice choice,
                                                    const std::string& egl_library = kEglLibrary);
-  /// The same with a given loader of EGL's functions and given time limits.
+  /// Opens a device with the given loader of EGL's functions and the given time limits.
   static Result<std::unique_ptr<EglObserver>> open(float cap, DeviceChoice choice,
                                                    std::function<Result<Egl>()> load_functions,
                                                    const DeviceLimits& limits);

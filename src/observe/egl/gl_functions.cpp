@@ -11,7 +11,7 @@ Result<Gl> load_gl(const Egl& egl) {
   if (!gl.name) return fail("gl" #name " is missing", "OpenGL ES", "update the graphics driver");
   BAREHAND_GL_FUNCTIONS(BAREHAND_GL_LOAD)
 #undef BAREHAND_GL_LOAD
-  // Loaders return an address for any name, so ask only for names whose extension is supported.
+  // EGL may return an address for any name, so ask only for functions of extensions that the driver lists.
   const auto* extensions = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
   for (const char* suffix : {"EXT", "KHR"}) {
     const bool khr = suffix[0] == 'K';

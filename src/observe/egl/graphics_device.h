@@ -11,7 +11,7 @@ inline constexpr const char* kEglLibrary = "libEGL.so.1";
 struct GraphicsDevice {
   std::string renderer;   ///< the driver's name for it, such as "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string version;    ///< such as "OpenGL ES 3.2 Mesa 22.3.6"
-  bool software = false;  ///< computed on the CPU
+  bool software = false;  ///< whether it is a software renderer, which runs on the CPU
 };
 
 enum class DeviceChoice {

@@ -11,8 +11,9 @@
 namespace barehand {
 
 /// An OpenGL ES 3.1 context without window or screen. It is made current once, on the thread that opens it, and stays
-/// so until it is destroyed there: with some drivers both changes take tens of milliseconds. The destructor also
-/// releases EGL's data of that thread, which would be freed twice if the thread ended while the process does.
+/// current until it is destroyed there, because with some drivers making it current takes tens of milliseconds. The
+/// destructor also releases EGL's data of that thread, which would be freed twice if the thread ended while the process
+/// does.
 class HeadlessContext {
  public:
   /// Opens a context on the first device of this choice that works. Error: there is none.

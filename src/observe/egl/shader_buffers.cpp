@@ -10,7 +10,7 @@ namespace {
 
 constexpr GLbitfield kStaysMapped = GL_MAP_PERSISTENT_BIT_EXT | GL_MAP_COHERENT_BIT_EXT;
 
-/// Adds a reserve, because regions of interest and numbers of samples change a little from frame to frame.
+/// Returns a size with a reserve, because regions of interest and numbers of samples change a little between frames.
 std::size_t with_room(std::size_t bytes) { return bytes + bytes / 2; }
 
 /// Makes a buffer that is bound to `target` and stays mapped for `access`. Sets `mapped` to null if the driver cannot
@@ -46,7 +46,7 @@ Result<void> UploadBuffer::reserve(const Gl& gl, std::size_t bytes) {
   capacity_ = 0;
   bytes = with_room(bytes);
 
-  // Delete the old buffers first, because device memory may be short. The name 0 is no buffer and is ignored.
+  // Delete the old buffers before making new ones, because device memory may be short. OpenGL ignores the name 0.
   for (const GLuint old : {device_, staging_}) gl.DeleteBuffers(1, &old);
   device_ = make_bound(gl, binding_, bytes, GL_DYNAMIC_DRAW);
   if (gl.BufferStorageEXT)

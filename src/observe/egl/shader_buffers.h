@@ -32,7 +32,7 @@ class UploadBuffer {
   ShaderBuffer binding_;
   std::size_t capacity_ = 0;
   GLuint device_ = 0, staging_ = 0;
-  void* mapped_ = nullptr;         // the staging buffer's memory; null if it cannot stay mapped
+  void* mapped_ = nullptr;         // memory of the staging buffer; null if it cannot stay mapped
   std::vector<std::byte> memory_;  // used if the staging buffer cannot stay mapped
 };
 

@@ -20,7 +20,7 @@ constexpr std::size_t kCoarseStride = 2;  // the first half of the iterations us
 // After a step that is shorter than the fraction kStill of the robust scale, the next kSkipped iterations are skipped.
 constexpr double kStill = 0.04;
 constexpr int kSkipped = 3;
-constexpr double kArm = 0.05;  // lever arm that converts a rotation to the length of a step [m]
+constexpr double kArm = 0.05;  // lever arm that converts the rotation of a step to a length [m]
 
 // Cost of a model point that is hidden by an object, relative to that of an outlier. It is not zero, because otherwise
 // a motion that hides the hand behind an object would have the lowest cost.
@@ -96,8 +96,8 @@ class Registration {
   }
 
  private:
-  /// Matches model point `k` with the nearest point of the cloud. The normal is the data's if it is defined and agrees
-  /// with the model's, and the model's otherwise.
+  /// Matches model point `k` with the nearest point of the cloud. The pair gets the normal of the data if it is defined
+  /// and agrees with that of the model, otherwise the normal of the model.
   IcpPair match(const SE3& motion, const Vector3d& in_pivot, std::size_t k, const Vector3d& moved) {
     const std::size_t i = nearest_[k] = cloud_.nearest(moved, nearest_[k]);
     const Vector3d model_normal = motion.R * model_[k].n, data_normal = cloud_.normal(i);
@@ -129,7 +129,7 @@ class Registration {
   const ObservedCloud& cloud_;
   const RegistrationParams& params_;
   Vector3d pivot_;
-  FrameVector<std::size_t> nearest_;  // for each model point its last match, where the next search begins
+  FrameVector<std::size_t> nearest_;  // for each model point the cloud point matched last, where the next search begins
 };
 
 bool nearly_equal(const SE3& a, const SE3& b, const Vector3d& pivot) {

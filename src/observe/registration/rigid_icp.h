@@ -38,7 +38,7 @@ void visit(V& v, RegistrationParams& p) {
 }
 
 /// Settings of the registration of the previous hand surface to the new frame, which yields the large global motion.
-/// The motion may exceed `slack` by these speeds times the frame interval.
+/// The largest accepted motion is `slack` plus these speeds times the frame interval.
 struct IcpParams : RegistrationParams {
   double max_speed = 4.0;
   double max_angular_speed = 20;
@@ -67,8 +67,8 @@ inline MotionBound motion_bound(const IcpParams& p, double dt) {
 /// Motion of the hand between two frames in camera coordinates: p_new = motion * p_old.
 struct IcpResult {
   SE3 motion;
-  double rms = 0;         ///< [m] point-to-plane, over the matching points
-  double inliers = 0;     ///< fraction of unhidden model points that match
+  double rms = 0;         ///< root mean square point-to-plane distance of the matching points [m]
+  double inliers = 0;     ///< fraction of the model points not hidden by objects that match
   bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
 };
 

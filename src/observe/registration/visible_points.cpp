@@ -37,7 +37,7 @@ void VisiblePoints::remove_hidden(const Intrinsics& camera) {
     const Eigen::Array2d uv = camera.project(f.point.p).array() / cell_px;
     lo = lo.min(uv), hi = hi.max(uv);
   }
-  // Points almost in the camera plane would need a huge buffer. Such a pose is not worth the test.
+  // Points almost in the camera plane would need a huge buffer, so such an implausible pose is not tested.
   if (((hi - lo) > 2000).any()) return;
   front_.reset(static_cast<int>(hi.x() - lo.x()) + 1, static_cast<int>(hi.y() - lo.y()) + 1,
                std::numeric_limits<float>::max());
@@ -56,7 +56,7 @@ std::span<const OrientedPoint> VisiblePoints::of(const HandSurface& surface, con
   remove_hidden(camera);
   double total = 0;
   for (const Facing& f : facing_) total += f.weight;
-  // Systematic sampling: one point for every `total / count` of covered image area.
+  // Choose points by systematic sampling: one for every `total / count` of covered image area.
   chosen_.clear();
   const double step = total / count;
   double sum = 0, next = 0.5 * step;

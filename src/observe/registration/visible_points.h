@@ -27,13 +27,13 @@ class VisiblePoints {
  private:
   struct Facing {
     OrientedPoint point;
-    double weight;  // pixels that the point covers, up to a constant
+    double weight;  // number of pixels that the point covers, up to a constant factor
   };
   void find_facing(const HandSurface& surface, const HandPose& pose);
   void remove_hidden(const Intrinsics& camera);
 
   std::vector<Facing> facing_;
-  Image<float> front_;  // z-buffer of coarse cells [m]
+  Image<float> front_;  // depth of the front-most point in every coarse cell (z-buffer) [m]
   std::vector<OrientedPoint> chosen_;
 };
 

@@ -36,8 +36,8 @@ Result<ComparisonTimes> time_comparison(const SampleBatch& batch, Observer& cpu,
     return static_cast<double>(clock.steady_us() - start) * 1e-6;
   };
 
-  // Call both in turn, so that other load on the machine affects both equally. The first call of each is not measured,
-  // because caches are cold and drivers compile.
+  // Call both observers in turn, so that other load on the machine affects both equally. The first call of each is not
+  // measured, because caches are cold and drivers compile.
   PatchDistances by_device;
   for (int i = -1; i < kCalls; ++i) {
     const double on_cpu = elapsed([&] { cpu.compare(batch, distances); });

@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// Uses a device as long as it works. The batch on which it fails, and all later ones, are compared by the other
-/// observer. The change is logged once.
+/// Uses a device as long as it works. The batch on which it fails, and all later ones, are compared by a second
+/// observer that cannot fail. The change is logged once.
 class FallbackObserver final : public Observer {
  public:
   FallbackObserver(std::unique_ptr<DeviceObserver> device, std::unique_ptr<Observer> other,

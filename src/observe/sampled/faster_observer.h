@@ -11,8 +11,8 @@
 namespace barehand {
 
 /// Uses the CPU or a device, whichever is faster. The first batch is compared by both several times; the faster one
-/// compares all later batches, and the times are logged. The first batch's distances are the CPU's. A device that was
-/// chosen is given up, even within a frame, if it fails or becomes slower than the CPU (FallbackObserver,
+/// compares all later batches, and the times are logged. The first batch's distances are the CPU's. The CPU replaces a
+/// chosen device, even within a frame, if the device fails or becomes slower than the CPU (FallbackObserver,
 /// WatchedDevice).
 class FasterObserver final : public Observer {
  public:

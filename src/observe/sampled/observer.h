@@ -33,7 +33,7 @@ struct SampleBatch {
   const PixelMap& map;
   std::uint64_t map_id;  ///< for one skin, equal ids mean equal maps: no need to copy
   const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, the same number for every segment
-  int first_segment = 0;                                     ///< earlier segments are not compared
+  int first_segment = 0;                                     ///< segments with a smaller index are not compared
 
   /// Number of samples of all segments that are compared.
   int sample_count() const { return (kSegmentCount - first_segment) * static_cast<int>(poses[first_segment].size()); }
@@ -41,7 +41,7 @@ struct SampleBatch {
 /// Results in the order of the poses; all zero for a segment that was not compared.
 using PatchDistances = std::array<std::vector<PatchDistance>, kSegmentCount>;
 
-/// Compares the sampled poses of one search level with the depth data. For one call at a time, from any thread.
+/// Compares the sampled poses of one search level with the depth data. Any thread may call it, but only one at a time.
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -19,10 +19,10 @@ struct PixelMap {
   struct Cell {
     float x, y, z, occluder_z;
   };
-  int width = 0, height = 0;         ///< includes the border
-  float fx = 0, fy = 0;              ///< [pixel]
-  float cx = 0, cy = 0;              ///< principal point in coordinates of this map
-  std::vector<Cell> cells;           ///< row-major
+  int width = 0, height = 0;         ///< size of the map, including the border [pixel]
+  float fx = 0, fy = 0;              ///< focal lengths of the camera [pixel]
+  float cx = 0, cy = 0;              ///< principal point in coordinates of this map [pixel]
+  std::vector<Cell> cells;           ///< one cell per pixel, row by row
   std::vector<std::int32_t> hidden;  ///< bit s: another part of the hand hides segment s here
   PixelRays rays;                    ///< rays of the region of interest, without the border
 
