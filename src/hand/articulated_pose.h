@@ -13,7 +13,7 @@ struct ArticulatedPose {
 };
 /// The poses of all segments, by forward kinematics.
 HandPose posed(const HandProfile& profile, const ArticulatedPose& articulated);
-/// The palm pose and the joint angles of a pose. The angles are clamped to the limits.
+/// Converts segment poses to a palm pose and joint angles, which are clamped to `limits`.
 ArticulatedPose articulated_from(const HandProfile& profile, const HandPose& pose,
                                  const std::array<JointLimits, kSegmentCount>& limits);
 /// Clamps flexion and abduction to the limits and sets all twists to 0.

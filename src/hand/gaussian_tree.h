@@ -12,8 +12,8 @@ namespace barehand {
 /// Eq. 7, 8 with Gaussian messages): one pass from the fingertips to the palm and one pass back, at a cost linear in
 /// the number of segments.
 struct GaussianTree {
-  std::array<Matrix6d, kSegmentCount> H_self;    ///< symmetric, full
-  std::array<Matrix6d, kSegmentCount> H_parent;  ///< rows: segment, columns: its parent; unused for the palm
+  std::array<Matrix6d, kSegmentCount> H_self;    ///< diagonal block of each segment; both triangles are filled in
+  std::array<Matrix6d, kSegmentCount> H_parent;  ///< block of a segment (rows) and its parent (columns); palm: unused
   std::array<Vector6d, kSegmentCount> g;
 
   /// Sets all blocks to zero: there are no residuals.

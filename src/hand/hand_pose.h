@@ -18,8 +18,8 @@ namespace barehand {
 /// The ends of neighbouring segments need not meet exactly.
 using HandPose = std::array<SE3, kSegmentCount>;
 
-/// A segment counts as correctly located if both of its ends are within this distance of the truth [m]; confidence is
-/// the probability of that.
+/// A segment counts as correctly located if both of its ends are within this distance of their true positions [m];
+/// SegmentState::confidence is the probability of that.
 inline constexpr double kConfidenceRadius = 0.010;
 
 /// State of the track of one hand. searching: no hand was found yet, or it has been lost for a long time; tracking: the
@@ -35,10 +35,10 @@ inline Vector6d unknown_velocity() { return Vector6d::Constant(std::numeric_limi
 struct SegmentState {
   SE3 T_camera_segment;
   Vector6d velocity = unknown_velocity();      ///< [m/s, rad/s]: linear (of the origin), then angular; NaN: not known
-  Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
+  Matrix6d covariance = Matrix6d::Identity();  ///< covariance of the boxplus twist (translation, rotation)
   double confidence = 0;                       ///< probability that both ends are within kConfidenceRadius of the truth
-  double visible = 0;                          ///< fraction of its projected pixels where it is front-most
-  bool seen = false;                           ///< estimated from data; false: inferred from structure and motion
+  double visible = 0;                          ///< fraction of the segment's projected pixels where it is front-most
+  bool seen = false;                           ///< whether estimated from data, not inferred from structure and motion
 };
 
 /// The poses of the segments without velocities and uncertainties.

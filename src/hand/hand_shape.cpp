@@ -134,14 +134,14 @@ HandProfile reshaped(const HandProfile& mean, const HandShape& shape) {
 }
 
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin) {
-  constexpr double kStep = 0.01;  // in standard deviations; small compared with the skin's radius of curvature
+  constexpr double kStep = 0.01;  // step of the finite differences, in standard deviations of a shape component
   ShapeBasis basis;
   basis.outward.resize(static_cast<Eigen::Index>(skin.vertices.size()), Eigen::NoChange);
 
   const HandProfile hand = reshaped(mean, shape);
   const ImplicitHand surface(hand);
 
-  // Distance of a vertex from the surface of another shape.
+  // Computes the distance of a vertex from the surface of another shape.
   const auto distance_at = [&](const ImplicitHand& other, const SkinVertex& v) {
     // Blend the vertex between its two segments as pose_skin() does.
     const Vector3d a = other.pose()[v.a] * v.in_a.cast<double>(), b = other.pose()[v.b] * v.in_b.cast<double>();

@@ -32,9 +32,9 @@ struct ShapeBasis {
   Eigen::Matrix<float, Eigen::Dynamic, kShapeCount, Eigen::RowMajor> outward;
   /// Columns: shape components. Motion of each segment's joint in its parent's frame [m per unit].
   std::array<Eigen::Matrix<double, 3, kShapeCount>, kSegmentCount> joint;
-  std::vector<Eigen::Vector3f> normal_in_b;  ///< of every skin vertex, in the frame of its second segment
+  std::vector<Eigen::Vector3f> normal_in_b;  ///< normal of every skin vertex in the frame of its second segment
 };
-/// The first-order change at `shape`; `skin` must be the skin of reshaped(mean, shape).
+/// Computes the first-order change at `shape`; `skin` must be the skin of reshaped(mean, shape).
 ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin);
 /// The skin after the small change `change` of the shape, to first order: much faster than rebuilding it.
 Skin morphed(const Skin& skin, const ShapeBasis& basis, const HandShape& change);

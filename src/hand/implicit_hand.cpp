@@ -22,21 +22,21 @@ constexpr double kFingerBlend = 0.00342;  // between fingers and palm
 
 // The proximal ends of the four metacarpal tubes, relative to the profile's section at the wrist.
 constexpr double kWristSpread = 0.255;     // spread of the tubes to either side, relative to the wrist's half width
-constexpr double kWristWidth = 0.603;      // width of one tube
-constexpr double kWristThickness = 0.476;  // its thickness
-constexpr double kWristOffset = 0.182;     // its flesh offset
+constexpr double kWristWidth = 0.603;      // width of one tube, as a fraction of the wrist's
+constexpr double kWristThickness = 0.476;  // thickness of one tube, as a fraction of the wrist's
+constexpr double kWristOffset = 0.182;     // flesh offset of one tube, as a fraction of the wrist's
 constexpr double kWristShift = -0.0423;    // shift towards the little finger, relative to the wrist's half width
 
-// Changes of these factors across the palm: added at the little finger and subtracted at the index finger.
+// Changes of three of the factors across the palm: added at the little finger and subtracted at the index finger.
 constexpr double kWristThicknessSlope = -0.0794;
 constexpr double kWristOffsetSlope = -0.12;
 constexpr double kHeelThicknessSlope = 0.0268;
 
 // The heel of the hand: the middle section of each metacarpal tube.
 constexpr double kHeelWidth = 1.03;       // factor on the interpolated width
-constexpr double kHeelAt = 0.362;         // position, as a fraction of the tube's length
-constexpr double kHeelThickness = 0.719;  // relative to the wrist's section, which includes the root of the thumb
-constexpr double kHeelOffset = 0.753;     // relative to the wrist's flesh offset
+constexpr double kHeelAt = 0.362;         // position of the heel, as a fraction of the tube's length
+constexpr double kHeelThickness = 0.719;  // thickness of the heel relative to the wrist's (with the thumb's root)
+constexpr double kHeelOffset = 0.753;     // flesh offset of the heel relative to the wrist's
 
 // The distal ends of the metacarpal tubes, relative to the finger's section at the knuckle.
 constexpr double kKnuckleThickness = 0.867;
@@ -54,17 +54,17 @@ constexpr double kBorderLittle = 1.13;
 
 // The webs between neighbouring fingers.
 constexpr double kWebBlend = 0.00427;    // width of the smooth transition [m]
-constexpr double kWebAt = 0.232;         // position, as a fraction of the proximal phalanges
-constexpr double kWebHalfLength = 1.14;  // along the fingers, relative to their half thickness at the next joint
-constexpr double kWebThickness = 0.94;   // half thickness, relative to the fingers' half thickness at the next joint
-constexpr double kWebOffset = 1.54;      // along y, relative to the knuckles' flesh offset, which is towards the palm
+constexpr double kWebAt = 0.232;         // position of a web, as a fraction of the proximal phalanges' length
+constexpr double kWebHalfLength = 1.14;  // half length of a web, relative to the fingers' half thickness at the PIP
+constexpr double kWebThickness = 0.94;   // half thickness of a web, relative to the same thickness of the fingers
+constexpr double kWebOffset = 1.54;      // shift towards the palm (along y), relative to the knuckles' flesh offset
 
 // The web between thumb and index finger. Sizes are relative to the half thickness of the thumb at its next joint.
-constexpr double kThumbWebAlongThumb = 0.799;  // where it begins, as a fraction of the thumb's metacarpal
-constexpr double kThumbWebAlongPalm = 0.661;   // where it ends, as a fraction of the way from wrist to index knuckle
-constexpr double kThumbWebThickness = 0.484;   // half thickness
-constexpr double kThumbWebHalfLength = 1.18;   // half extent along the bones
-constexpr double kThumbWebOffset = -0.35;      // shift of its end towards the back of the hand
+constexpr double kThumbWebAlongThumb = 0.799;  // where the web begins, as a fraction of the thumb's metacarpal
+constexpr double kThumbWebAlongPalm = 0.661;   // where the web ends, as a fraction of the way from wrist to index
+constexpr double kThumbWebThickness = 0.484;   // half thickness of the thumb's web
+constexpr double kThumbWebHalfLength = 1.18;   // half length of the thumb's web along the bones
+constexpr double kThumbWebOffset = -0.35;      // shift of the web's end towards the back of the hand
 constexpr double kThumbWebBlend = 0.00821;     // width of the smooth transition [m]
 
 // A section of a phalanx relative to the profile's section at an end or, in the middle, to one interpolated from both.

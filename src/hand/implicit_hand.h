@@ -18,7 +18,7 @@ struct EllipticTube {
   SE3 T_tube_hand;
   double length = 0;
   double middle = 0.5;                      ///< position of the second section, as a fraction of the length
-  std::array<EllipticSection, 3> sections;  ///< at 0, `middle` and 1; linear in between
+  std::array<EllipticSection, 3> sections;  ///< sections at 0, `middle` and 1 of the length; linear in between
   std::array<double, 2> cap{};              ///< how far the rounding reaches beyond each end [m]
 
   /// Distance of a point in the hand frame to the surface [m]; first-order accurate near it, negative inside.
@@ -28,7 +28,7 @@ struct EllipticTube {
 /// A fold of skin between two bones: a tube across them and how smoothly it blends into them.
 struct Web {
   EllipticTube tube;
-  double blend = 0;  ///< [m], of a polynomial smooth minimum
+  double blend = 0;  ///< width of the smooth transition into the bones' skin [m]
 };
 
 /// The hand as an implicit surface. It is built in a pose with spread fingers, so that neighbouring fingers do not
@@ -47,7 +47,7 @@ class ImplicitHand {
 
  private:
   HandPose pose_;
-  std::vector<EllipticTube> tubes_;  // those of the palm first, then segments 1 to 15
+  std::vector<EllipticTube> tubes_;  // tubes of the palm, then of segments 1 to 15
   int palm_tubes_ = 0;
   std::vector<Web> webs_;
 };

@@ -23,18 +23,18 @@ struct JointLinearisation {
   Eigen::Vector3d lever;  ///< joint position according to the parent minus the parent's origin, camera frame [m]
   Eigen::Matrix3d R_camera_joint;   ///< orientation that the segment would have at zero angles
   Eigen::Matrix3d R_joint_segment;  ///< rotation of the joint away from rest
-  JointAngles angles;               ///< of R_joint_segment
+  JointAngles angles;               ///< joint angles of R_joint_segment
   /// Derivative of the angles with respect to a rotation in the joint's frame. Rows: flexion, abduction, twist.
   Eigen::Matrix3d d_angles;
 
-  JointJacobians of_gap() const;                        ///< of the gap: v_parent + w_parent x lever - v_segment
-  JointJacobians of_turn() const;                       ///< of a rotation of R_joint_segment, in the joint's frame
-  JointJacobians of_angles() const;                     ///< of flexion, abduction, twist
+  JointJacobians of_gap() const;     ///< derivative of the gap: v_parent + w_parent x lever - v_segment
+  JointJacobians of_turn() const;    ///< derivative of R_joint_segment's rotation in the joint's frame
+  JointJacobians of_angles() const;  ///< derivative of flexion, abduction and twist
   AngleExcess excess(const JointLimits& limits) const;  ///< how far the angles exceed `limits`
 };
 /// Linearises the joint between `segment`, which must not be the palm, and its parent.
 JointLinearisation linearise_joint(const HandProfile& profile, const HandPose& pose, int segment);
-/// The same with a given rest pose `rest` (T_parent_segment).
+/// Linearises the joint for the rest pose `rest` (T_parent_segment) instead of the profile's.
 JointLinearisation linearise_joint(const SE3& rest, const HandPose& pose, int segment);
 
 }  // namespace barehand

@@ -19,13 +19,13 @@ struct JointDof {
 
 /// Size, shape, rest pose and joint of one segment. End 0 is proximal, end 1 distal.
 struct SegmentProfile {
-  SE3 T_hand_segment;                                    ///< at rest (open, flat hand)
-  double length = 0;                                     ///< [m]
-  Eigen::Vector3d distal = Eigen::Vector3d::Zero();      ///< distal end in the segment frame [m]
-  std::array<double, 2> radius{};                        ///< of the round, tapered skin around the bone [m]
+  SE3 T_hand_segment;                                    ///< rest pose (open, flat hand)
+  double length = 0;                                     ///< length of the bone [m]
+  Eigen::Vector3d distal = Eigen::Vector3d::Zero();      ///< distal end of the bone in the segment frame [m]
+  std::array<double, 2> radius{};                        ///< radii of the round, tapered skin at both ends [m]
   std::array<double, 2> half_width{}, half_thickness{};  ///< elliptic skin along x and y [m]; equal to radius if absent
   std::array<double, 2> flesh_offset_x{}, flesh_offset_y{};  ///< skin centre relative to the bone [m]
-  std::vector<JointDof> dofs;  ///< in the order in which they are applied; empty for the palm
+  std::vector<JointDof> dofs;  ///< rotations of the joint in the order of application; empty for the palm
 };
 
 /// Where a profile comes from. measured: this person was measured or scanned; mean: the average of many people;

@@ -49,7 +49,7 @@ double share_across_joint(const HandProfile& profile, const HandPose& pose, int 
   const SegmentProfile& s = profile.segments[distal];
   const double size = std::min({s.half_width[0], s.half_thickness[0], 0.7 * s.length});
 
-  // The blend is centred on the joint, except at the knuckles of fingers.
+  // The blend is centred on the joint; at the knuckles of fingers it is wider and shifted.
   double along = -q.z(), reach = kReach * size;
   if (parent_of(distal) == kPalm && finger_of(distal) != 0) {
     const double towards_back = std::clamp((q.y() - s.flesh_offset_y[0]) / s.half_thickness[0], -1.2, 1.2);
@@ -59,7 +59,7 @@ double share_across_joint(const HandProfile& profile, const HandPose& pose, int 
   return smoothstep(0.5 + along / (2 * reach));
 }
 
-/// The binding with the segment of the larger weight first.
+/// Binds a vertex to both segments, the one with the larger weight first. `share_child`: weight of `child`.
 Binding blended(int parent, int child, double share_child) {
   if (share_child <= 0) return {parent, parent, 0};
   if (share_child >= 1) return {child, child, 0};
@@ -149,7 +149,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
     beyond_wrist.push_back((T_palm_hand * p).z() > kWristCut);
   }
 
-  // Leave out the triangles on the forearm's side.
+  // Leave out the triangles beyond the wrist, on the forearm.
   for (const auto& t : mesh.triangles)
     if (!(beyond_wrist[t[0]] && beyond_wrist[t[1]] && beyond_wrist[t[2]])) skin.triangles.push_back({t[0], t[1], t[2]});
   return skin;

@@ -12,8 +12,8 @@ namespace barehand {
 /// A skin vertex, bound to a segment `a` and, near a joint, also to its neighbour `b` in the tree. Linear blend
 /// skinning uses only two adjacent segments, so that the normal equations of a fit keep the sparsity of the tree.
 struct SkinVertex {
-  std::int16_t a = 0, b = 0;    ///< a != b only where weight_b > 0
-  float weight_b = 0;           ///< weight of a is 1 - weight_b
+  std::int16_t a = 0, b = 0;    ///< indices of the segments; a != b only if weight_b > 0
+  float weight_b = 0;           ///< skinning weight of segment b; that of segment a is 1 - weight_b
   Eigen::Vector3f in_a, in_b;   ///< position in the frames of a and b [m]
   Eigen::Vector3f normal_in_a;  ///< outward unit normal in the frame of a
 };

@@ -10,7 +10,7 @@ namespace {
 
 // Spreads points evenly over the tapered cylinders of the paper's hand model.
 
-constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 fill an interval evenly
+constexpr double kGoldenRatio = 0.6180339887498949;  // multiples of it modulo 1 fill [0, 1] evenly
 
 /// The surface between two ellipses with the common axis directions e1 and e2: P(t, a) = c(t) + r1(t) cos(a) e1 +
 /// r2(t) sin(a) e2.

@@ -12,9 +12,9 @@ namespace barehand {
 /// the camera to the point. With this weight, a mean over points equals the paper's mean over rendered pixels (Sec.
 /// 4.1).
 struct SegmentSurface {
-  std::vector<float> x, y, z;     ///< position
-  std::vector<float> nx, ny, nz;  ///< outward unit normal
-  std::vector<float> area;        ///< [m^2]
+  std::vector<float> x, y, z;     ///< positions in the segment frame [m]
+  std::vector<float> nx, ny, nz;  ///< outward unit normals
+  std::vector<float> area;        ///< area of skin that each point represents [m^2]
   std::size_t size() const { return x.size(); }
 };
 using HandSurface = std::array<SegmentSurface, kSegmentCount>;

@@ -45,7 +45,7 @@ class Grid {
         const Vector3i b = a + Vector3i::Unit(axis);
         const double va = value(a), vb = value(b);
 
-        // A change of sign is a crossing, placed by linear interpolation.
+        // Where the sign changes, find the crossing by linear interpolation.
         if ((va < 0) == (vb < 0)) continue;
         sum += position(a) + va / (va - vb) * (position(b) - position(a));
         ++crossings;

@@ -39,9 +39,9 @@ class PersonFit {
   std::shared_ptr<const Skin> skin_, made_skin_;  // the current skin, and the last one that was built for a profile
   ShapeFit fit_;
   HandShape shape_ = HandShape::Zero(), made_shape_ = HandShape::Zero();  // the current shape, and that of made_skin_
-  std::optional<ShapeBasis> basis_;                                       // belongs to made_skin_
+  std::optional<ShapeBasis> basis_;                                       // how made_skin_ changes with the shape
   ShapeEquations equations_;
-  int frames_ = 0, next_skin_;  // next_skin_: number of contributing frames at which the skin is rebuilt next
+  int frames_ = 0, next_skin_;  // frames so far, and number of contributing frames at which the skin is rebuilt next
 };
 
 }  // namespace barehand

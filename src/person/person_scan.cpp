@@ -9,7 +9,7 @@ namespace {
 
 // Collects frames of a tracked hand, and scans the hand from them.
 
-constexpr int kSettling = 8, kMost = 32;  // tracked frames left out at first; most frames kept
+constexpr int kSettling = 8, kMost = 32;  // number of tracked frames left out at first, and of frames kept at most
 constexpr int kPasses = 4;                // passes over all frames to fit a mean hand to them
 constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement of a pose
 
@@ -97,7 +97,7 @@ void PersonScan::start() {
   of_hand_before_ = false;
   scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
                              Workers& workers) { return scanned(params, given, frames, workers, stop); });
-  // The frames need much memory and are no longer needed.
+  // After the last scan, release the frames, which occupy much memory.
   if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};
 }
 

@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-/// What a scan needs of the tracker's parameters.
+/// The parameters of the tracker that a scan uses.
 struct PersonScanParams {
   RefinementParams refinement;
   ShapeFitParams shape_fit;
@@ -34,7 +34,7 @@ class PersonScan {
   /// Call when a new track begins, most likely of the same person. A hand that was scanned before is scanned once more,
   /// after as many tracked frames as the last of the regular scans needs.
   void restart();
-  /// Returns the scanned hand once after a scan has ended; null: there is nothing new. Rethrows what the scan threw.
+  /// Returns the scanned hand once after a scan has ended, otherwise null. Rethrows an exception that the scan threw.
   std::shared_ptr<const HandProfile> take();
   /// Whether the scan that take() returned last began before the last restart, so that it may show another person's
   /// hand.

@@ -28,7 +28,7 @@ constexpr double kRobustNoise = 2;     // part that is due to the sensor, relati
 
 // Strength of fold_penalty(): with 10, a skinning weight of 0.1 halves the information and one of 0.5 leaves 1 / 26.
 constexpr double kFolds = 10;
-constexpr double kKnuckleFolds = 30;  // the same between palm and fingers, where webs move with more than two bones
+constexpr double kKnuckleFolds = 30;  // strength between palm and fingers, where webs move with more than two bones
 
 constexpr float kGate = 0.012f;         // larger surface distances are outliers [m]
 constexpr float kFacing = 0.3f;         // smallest cosine of the viewing angle: grazing skin is not measured well
@@ -121,8 +121,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     }
     VertexSums& sums = sums_[slot[c.vertex]];
 
-    // Differentiate the residual with respect to the vertex's share (its weight of the second segment) and the twists
-    // of its two segments.
+    // Differentiate the residual with respect to the vertex's skinning weight for its second segment ("share") and the
+    // twists of its two segments.
     const auto posed = [&](int s, const Vector3f& p) -> Vector3d { return frame.pose[s] * p.cast<double>(); };
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_share = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
@@ -152,7 +152,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
                                     const std::array<JointLimits, kSegmentCount>& limits, GaussianTree& tree) {
   const double w_gap = 1 / sq(kSigmaGap);
 
-  // The two points of the joint must meet (paper, Eq. 5).
+  // Add the penalty for the gap between the two points of each joint (paper, Eq. 5).
   for (int s = 1; s < kSegmentCount; ++s) {
     const JointLinearisation joint = linearise_joint({model.rest[s], model.in_parent[s]}, pose, s);
     const Matrix3d &R_parent = pose[parent_of(s)].R, &R_child = pose[s].R;
@@ -162,7 +162,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
 
     tree.add<3>(s, J_child, J_parent, gap, w_gap * Matrix3d::Identity());
 
-    // Add the same residuals as functions of the joint's unknowns, and their products with the pose.
+    // Add the gap's residuals as functions of the joint's unknowns, and their products with the pose.
     JointSums& sums = joints_[s];
     sums.H.setZero();
     sums.H.topLeftCorner<6, 6>() = w_gap * J.transpose() * J;
@@ -175,7 +175,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const AngleExcess excess = joint.excess(limits[s]);
     const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);
-    const Matrix3d J_rest = -joint.d_angles;  // as much as the rest rotation grows, the joint's rotation shrinks
+    const Matrix3d J_rest = -joint.d_angles;  // a rotation of the rest pose reduces the joint's angles
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W);
 
     sums.H.bottomRightCorner<3, 3>() = J_rest.transpose() * W * J_rest;
@@ -200,7 +200,7 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
       add(s, ScanVariables::joint(s) + k, joints_[s].child.col(k));
     }
 
-  // A vertex's offset and share are coupled with both segments that carry it.
+  // A vertex's offset and skinning weight are coupled with both segments that carry it.
   for (const VertexSums& sums : sums_) {
     const SkinVertex& v = model.skin.vertices[sums.vertex];
     add(v.a, sums.offset, sums.ao);

@@ -28,7 +28,7 @@ inline constexpr double kFixedInformation = 1e12;
 /// factored form.
 struct ScanEquations {
   std::vector<Eigen::Triplet<double>> H;  ///< lower triangle; entries at the same place add up
-  /// J of terms that involve many unknowns; J^T J is part of the matrix, too
+  /// Jacobian J of the terms that involve many unknowns; J^T J is part of the matrix, too.
   std::vector<Eigen::Triplet<double>> means;
   int mean_rows = 0;  ///< number of rows of J
   Eigen::VectorXd g;
@@ -71,14 +71,14 @@ class ScanFrameEquations {
   static constexpr int kPose = 6 * kSegmentCount;
   using PoseColumn = Eigen::Matrix<double, 6, 1>;
   // Sums over the residuals at one vertex: information products and gradients of its unknowns, the offset (o) and the
-  // skinning share (s), and their products with the twists of its two segments (a, b).
+  // skinning weight (s, "share"), and their products with the twists of its two segments (a, b).
   struct VertexSums {
     int vertex, offset, share;  // offset, share: indices of the unknowns
     double oo = 0, os = 0, ss = 0, g_o = 0, g_s = 0;
     PoseColumn ao = PoseColumn::Zero(), bo = PoseColumn::Zero(), as = PoseColumn::Zero(), bs = PoseColumn::Zero();
   };
   static constexpr int kJoint = ScanVariables::kJoint;
-  // Sums of one joint's unknowns.
+  // Sums over the residuals of one joint with respect to its unknowns.
   struct JointSums {
     Eigen::Matrix<double, kJoint, kJoint> H;
     Eigen::Matrix<double, kJoint, 1> g;

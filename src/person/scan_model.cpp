@@ -44,8 +44,9 @@ double growth_of_end(const Skin& before, const Skin& now, int segment, const Vec
   return end / weight;
 }
 
-// The end of a fingertip's bone in the frame that the bone had at the start. Also sets the radius there: the skin ends
-// one radius beyond the bone. Where the joints are known, the radius is known, too, except for the growth of the skin.
+// The end of a fingertip's bone in the frame that the bone had at the start of the scan. Also sets the bone's radius
+// there: the skin ends one radius beyond the bone. If the profile's joints are known, so is the radius, except for the
+// growth of the skin.
 Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segment, SegmentProfile& bone) {
   const Vector3d along = bone.distal.normalized();
   const double end = bone.length + bone.radius[1] + growth_of_end(start_model.skin, model.skin, segment, along);
@@ -54,7 +55,7 @@ Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segmen
   const auto now = SkinSections::fit(model.skin, segment, bone.length, false);
   if (!now) return (end - bone.radius[1]) * along;
 
-  // A measured radius may differ from that of the starting model's skin; `beside` is the difference.
+  // A measured radius may differ from that of the starting model's skin; compute the difference.
   double beside = 0;
   const bool known = model.joints_are_known();
   if (known)
@@ -72,7 +73,8 @@ Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segmen
   return tip;
 }
 
-// In a profile's skin, the first segment of a vertex has the larger weight; equal segments mean rigid skin.
+// Orders the two segments of a vertex as in a profile's skin: the first one has the larger weight, and a vertex that
+// follows one segment alone has that one twice.
 void put_in_order(SkinVertex& v) {
   if (v.weight_b > 0.5f) {
     std::swap(v.a, v.b);
@@ -88,7 +90,7 @@ void put_in_order(SkinVertex& v) {
 
 ScanModel make_scan_model(const HandProfile& profile, double cell) {
   const ImplicitHand hand(profile);
-  const HandPose& bind = hand.pose();  // in this pose both segments carry a vertex to the same place
+  const HandPose& bind = hand.pose();  // bind pose, in which both segments put a vertex at the same point
   ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}, {}};
 
   // Give every vertex a second segment.
@@ -101,7 +103,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
     model.normal_in_b.push_back(R_b_a.cast<float>() * v.normal_in_a);
   }
 
-  // The joints begin at the profile's positions.
+  // Set the joints to the profile's positions.
   for (int s = 1; s < kSegmentCount; ++s) {
     const SE3 rest = profile.rest_relative(s);
     model.in_parent[s] = rest.t;
@@ -112,8 +114,8 @@ ScanModel make_scan_model(const HandProfile& profile, double cell) {
 }
 
 void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
-  // Longer steps leave the range in which the equations are a good approximation.
-  constexpr float kOffset = 0.004f, kShare = 0.3f;  // largest changes of an offset [m] and of a weight
+  // Limit the step, since larger ones leave the range in which the equations are a good approximation.
+  constexpr float kOffset = 0.004f, kShare = 0.3f;  // largest changes of an offset [m] and of a skinning weight
   for (int s = 1; s < kSegmentCount; ++s) {
     model.in_parent[s] += step.segment<3>(joint(s));
     model.in_segment[s] += step.segment<3>(joint(s) + 3);

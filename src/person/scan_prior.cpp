@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 // Standard deviations of the joints around their positions at the start of the scan: about as large as the errors of
 // the fit that precedes it, which approximates the hand by elliptic sections.
-constexpr double kAcrossBone = 0.002;    // position of a joint across the bone [m]
-constexpr double kAlongBone = 0.003;     // along the bone [m]; in all directions for the thumb's root, deep in flesh
+constexpr double kAcrossBone = 0.002;  // position of a joint across the bone [m]
+constexpr double kAlongBone = 0.003;   // position of a joint along the bone; in all directions for the thumb's root [m]
 constexpr double kBetweenBones = 0.001;  // distance of the two points of a joint [m]
 constexpr double kRestTurn = 0.015;      // rotation of a joint's axes [rad]
 constexpr double kBesideMiddle = 0.001;  // distance of a finger's root from the middle of its skin [m]

@@ -32,7 +32,7 @@ class ScanSystem {
   const double weight_;
   Workers& workers_;
   Eigen::VectorXd g_;
-  Eigen::SparseMatrix<double> H_, means_;  // H_: lower triangle
+  Eigen::SparseMatrix<double> H_, means_;  // lower triangle of H, and the Jacobian ScanEquations::means
   Eigen::LLT<Eigen::MatrixXd> joints_;     // preconditioner of the joints
   // Preconditioner of the skin's unknowns, augmented by the means.
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> skin_;

@@ -13,7 +13,7 @@ namespace {
 
 // Runs the Gauss-Newton rounds of a scan.
 
-constexpr int kRounds = 40, kRoundsOfSkin = 16;  // rounds of a scan; fewer if joints are fixed
+constexpr int kRounds = 40, kRoundsOfSkin = 16;  // number of rounds of a scan, and of a scan with fixed joints
 constexpr int kSkinRounds = 2;                   // the first rounds move only the skin, which has the largest errors
 // Upper limits of the total weight of all frames: more frames add no information, because their errors are correlated.
 // With fixed joints the limit is lower, because skin that is seen only in part would drift.
@@ -59,7 +59,7 @@ class Scan {
     }
     if (residuals == 0) return std::nullopt;
 
-    // Solve and move everything.
+    // Solve, and apply the step to the hand and to the poses.
     const auto step = ScanSystem(shared, equations_, weight, workers_).solve();
     if (!step) return std::nullopt;
     workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });

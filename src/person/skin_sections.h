@@ -16,7 +16,7 @@ class SkinSections {
   /// Least-squares fit to the vertices that mostly follow `segment`, a bone of `length` [m] along -z. `alone`: only
   /// vertices that follow no other bone are used. None: there are too few such vertices.
   static std::optional<SkinSections> fit(const Skin& skin, int segment, double length, bool alone);
-  // The middle's x coordinate and the radius of the section at u [m].
+  // The x coordinate of the section's middle, and the section's radius, at u [m].
   double middle_x(double u) const { return fit_[0] + u * fit_[1]; }
   double radius(double u) const { return fit_[4] + u * fit_[5]; }
   /// The vertices that were used, and the derivative of middle_x(0) with respect to the offset of each along its
@@ -26,7 +26,8 @@ class SkinSections {
 
  private:
   SkinSections() = default;
-  // x, y and radius, each at u = 0 and its slope; then (half width - half thickness) / 2.
+  // Middle x, middle y and radius [m], each as the value at u = 0 and the slope; then (half width - half thickness)
+  // / 2.
   Eigen::Matrix<double, 7, 1> fit_;
   std::vector<int> vertices_;
   Eigen::VectorXd per_offset_;

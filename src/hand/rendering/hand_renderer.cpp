@@ -21,14 +21,14 @@ using Lanes = float __attribute__((vector_size(4 * kLanes)));
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
 constexpr Lanes kSteps{0, 1, 2, 3, 4, 5, 6, 7};
 
-constexpr float kNear = 0.05f;  // nothing is drawn closer to the camera [m]
+constexpr float kNear = 0.05f;  // triangles closer to the camera are not drawn [m]
 
 /// Vertex normals as the area-weighted mean of the normals of the triangles around each vertex.
 void pose_normals(const Skin& skin, RenderedHand& out) {
   out.normal.assign(skin.vertices.size(), Vector3f::Zero());
   for (const auto& t : skin.triangles) {
     const Vector3f& p = out.position[t[0]];
-    const Vector3f n = (out.position[t[1]] - p).cross(out.position[t[2]] - p);  // area-weighted
+    const Vector3f n = (out.position[t[1]] - p).cross(out.position[t[2]] - p);  // its length is twice the area
     for (int corner : t) out.normal[corner] += n;
   }
   for (Vector3f& n : out.normal) {
@@ -110,7 +110,7 @@ class Rasteriser {
     // Add the covered cells to the count of each vertex's segment.
     const int segment_a = skin_.vertices[t[0]].a, segment_b = skin_.vertices[t[1]].a,
               segment_c = skin_.vertices[t[2]].a;
-    if (segment_a == segment_b && segment_b == segment_c) {  // true for nearly all triangles
+    if (segment_a == segment_b && segment_b == segment_c) {  // the case of nearly all triangles
       out_.projected[segment_a] += sum(covered_a + covered_b + covered_c);
       return;
     }
