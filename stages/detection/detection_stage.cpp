@@ -64,8 +64,8 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
     detector_.reset();
     return nullptr;
   }
-  // Also set between two searches of the whole frame, so that meanwhile nothing undetected is taken for the missing
-  // hand.
+  // While a hand is missing, whole_frame is set even in frames in which only windows were searched, so that
+  // preprocessing takes nothing undetected for the missing hand.
   detection->whole_frame = !all_tracked;
   return std::make_shared<const Detection>(std::move(*detection));
 }

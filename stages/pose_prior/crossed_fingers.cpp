@@ -47,7 +47,7 @@ std::optional<HandPose> uncrossed(const HandProfile& profile, const HandPose& po
     for (int k = 0; k < 3; ++k) std::swap(angles[segment_of(finger, k)], angles[segment_of(finger + 1, k)]);
     for (const auto& [f, other] : {std::pair(finger, finger + 1), std::pair(finger + 1, finger)})
       angles[segment_of(f, 0)].abduction = abduction_towards(profile, f, end_in_palm(profile, pose, other, 1));
-    ++finger;  // the next finger has been exchanged, too
+    ++finger;  // skip the next finger, which has just been exchanged
   }
 
   // Pose the hand with these angles.

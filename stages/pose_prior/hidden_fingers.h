@@ -10,8 +10,8 @@ namespace barehand {
 // since their tendons are coupled (enslaving: Zatsiorsky, Li and Latash, Exp. Brain Res. 131, 2000).
 
 /// Sets the hidden joints of a pose that a search found to neutral angles: a hidden finger is bent at its root like the
-/// nearest fingers that are seen, and each further hidden joint like the joint before it, at the tip by two thirds of
-/// that.
+/// nearest fingers that are seen, and each further hidden joint like the joint before it, but the last joint by only
+/// two thirds of the angle of the one before it.
 HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose,
                              const std::array<bool, kSegmentCount>& seen);
 

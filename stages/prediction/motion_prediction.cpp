@@ -37,13 +37,13 @@ void MotionModel::restart(const HandPose& pose, std::int64_t utime) {
 
 void MotionModel::update(const HandPose& pose, const std::array<bool, kSegmentCount>& seen,
                          const Prediction& prediction) {
-  // The global motion of this frame: that of ICP or, without it, that of the palm. Otherwise the whole motion would
-  // count as relative motion and be applied twice.
+  // Take ICP's motion as the global motion of this frame or, without ICP, the motion of the palm. With none, the whole
+  // motion would count as motion relative to the hand and be applied twice.
   const double dt = prediction.dt;
   const bool usable = has_pose_ && dt > 0 && dt <= params_.max_interval;
   const SE3 global = prediction.icp.reliable ? prediction.icp.motion : SE3(pose[kPalm] * pose_[kPalm].inverse());
 
-  // The velocities of the segments relative to it, and its own.
+  // Compute the velocities of the segments relative to the global motion, and that of the global motion itself.
   const HandPose carried = moved(usable ? global : SE3{}, pose_);
   for (int s = 0; s < kSegmentCount; ++s) {
     const Vector6d measured =
@@ -72,13 +72,13 @@ HandPose MotionModel::with_velocity(const HandPose& carried, const SE3& motion, 
     velocity[s].head<3>() = motion.R * velocity_[s].head<3>();
     velocity[s].tail<3>() = motion.R * velocity_[s].tail<3>();
 
-    // A seen segment moves with its own velocity.
+    // Move a seen segment with its own velocity.
     if (s == kPalm || seen_[s]) {
       pose[s] = boxplus(carried[s], damping_of(s, dt) * dt * velocity[s]);
       continue;
     }
 
-    // An unseen segment keeps its joint angles, apart from a damped bending, and moves with its parent.
+    // Move an unseen segment with its parent; its joint angles change only by a damped flexion.
     const int parent = parent_of(s);
     pose[s] = pose[parent] * (carried[parent].inverse() * carried[s]);
     const Eigen::Vector3d bending = velocity[s].tail<3>() - velocity[parent].tail<3>();
@@ -93,7 +93,7 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   result.utime = observation.frame->utime;
   result.dt = std::abs(static_cast<double>(observation.frame->utime - utime_) * 1e-6);
 
-  // With few points, hold the last pose.
+  // Predict the last pose unchanged if too few hand points are visible.
   const StartPose held{"held", pose_};
   cloud_.reset(observation);
   if (static_cast<int>(cloud_.size()) < icp_params_.min_points) {
@@ -108,7 +108,8 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   const auto model = visible_points_.of(surface, pose_, observation.frame->camera, icp_params_.model_points);
   result.icp = align_rigid(model, cloud_, last_motion, motion_bound(icp_params_, result.dt), icp_params_);
 
-  // The candidates: the motion of ICP or the last one, with and without the segments' own velocities.
+  // Make the candidates: the pose moved by ICP's motion or by the last motion, with and without the segments' own
+  // velocities.
   const HandPose carried = moved(last_motion, pose_);
   const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};
   if (result.icp.reliable) {

@@ -50,7 +50,7 @@ struct StartPose {
 
 /// The start poses of one frame, and the global motion that led to them.
 struct Prediction {
-  FrameVector<StartPose> candidates;  ///< [0]: the primary one, around which the first search level draws
+  FrameVector<StartPose> candidates;  ///< the first one is primary: the first search level draws samples around it
   IcpResult icp;
   std::int64_t utime = 0;  ///< time stamp of the observation [us]
   double dt = 0;           ///< time since the last pose [s]

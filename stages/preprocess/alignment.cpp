@@ -10,12 +10,12 @@ namespace {
 
 // Finds the translation of a predicted hand by moving its silhouette over the candidate cells.
 
-constexpr int kBlock = 4;            // the first search works on blocks of this many cells per side
-constexpr float kRing = 0.035f;      // width of a ring around the silhouette that should show no candidates [m]
-constexpr float kOutside = -0.6f;    // weight of a candidate in the ring; inside the silhouette it is 1
-constexpr float kBlur = 0.008f;      // width of the transition between these weights [m]
-constexpr float kHidden = 0.5f;      // value of a cell in which something nearer could hide the hand; a candidate has 1
-constexpr float kLeastScore = 0.3f;  // lowest score that is accepted; a perfect overlap has a score of 1
+constexpr int kBlock = 4;             // the first search works on blocks of this many cells per side
+constexpr float kRing = 0.035f;       // width of a ring around the silhouette that should show no candidates [m]
+constexpr float kOutside = -0.6f;     // weight of a candidate cell in the ring; inside the silhouette it is 1
+constexpr float kBlur = 0.008f;       // width of the transition between the weights inside and in the ring [m]
+constexpr float kHidden = 0.5f;       // value of a cell where a nearer surface could hide the hand; a candidate has 1
+constexpr float kLeastScore = 0.3f;   // lowest score that is accepted; a perfect overlap has a score of 1
 constexpr float kMotionCost = 0.15f;  // reduction of the score for the largest motion allowed
 
 /// The silhouette of a hand as weights of cells: positive inside, negative in a ring around it, and zero beyond the
@@ -40,8 +40,8 @@ Eigen::Vector2f project(const Intrinsics& camera, const Eigen::Vector3f& p) {
 
 /// Distance and depth of the nearest capsule for every pixel of a row.
 struct RowOfDistances {
-  std::vector<float> distance;  ///< distance from its outline [pixels]; above `border` only an upper bound
-  std::vector<float> z;         ///< depth of its skin [m]
+  std::vector<float> distance;  ///< distance from the nearest capsule [pixels]; above `border` only an upper bound
+  std::vector<float> z;         ///< depth of the nearest capsule's skin [m]
 
   void reset(int width) {
     distance.assign(width, INFINITY);
@@ -129,7 +129,7 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
 /// The frame with which the silhouette is compared: cells that may be hand, and cells where a hand may be hidden.
 struct Scene {
   Image<float> hand;      ///< fraction of a cell that may be hand
-  Image<float> possible;  ///< the same, but kHidden where something nearer could hide the hand
+  Image<float> possible;  ///< `hand`, but kHidden where a nearer surface could hide the hand
   Image<float> table;     ///< sums of `possible` over all cells above and to the left of a cell (summed-area table)
 
   void sum_up() {
@@ -173,8 +173,8 @@ struct Shift {
   float score = -INFINITY;
 };
 
-/// Best shift within +-range around (du, dv), in steps of `step`. Longer motions have lower scores: kMotionCost less at
-/// a shift of `free_range`.
+/// The best shift within +-range around (du, dv), in steps of `step` [cells]. The score decreases with the length of
+/// the shift, by kMotionCost at `free_range` cells.
 Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, int step, float free_range) {
   Shift best;
   const auto search_row = [&](int y) {
@@ -182,12 +182,12 @@ Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int ra
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
       const float cost = kMotionCost * motion;
       const Eigen::AlignedBox2i inside = shape.inside.translated(Eigen::Vector2i(shape.u0 + x, shape.v0 + y));
-      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // upper bound: not better
+      if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // an upper bound of the score
       const float score = overlap(shape, scene, x, y) / shape.total - cost;
       if (score > best.score) best = {x, y, score};
     }
   };
-  search_row(dv);  // first, since most hands hardly move
+  search_row(dv);  // the row of the initial guess first, since most hands hardly move
   for (int y = step; y <= range; y += step) {
     search_row(dv - y);
     search_row(dv + y);
@@ -220,7 +220,7 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
   const Intrinsics& camera = grid.camera;
   const float z0 = hand.centre().z();
   if (!(z0 > 0.05f)) return std::nullopt;
-  // A hand moves less in depth than across the image, and candidates far from its depth show something else.
+  // Use only candidates near the hand's depth: a hand moves less in depth than across the image.
   const float depth_gate = 0.10f + 0.4f * static_cast<float>(reach);
   scene.hand.reset(mask.width(), mask.height());
   scene.possible.reset(mask.width(), mask.height());

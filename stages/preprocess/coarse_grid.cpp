@@ -12,7 +12,7 @@ namespace {
 // Samples a frame into the cells of a coarse grid.
 
 constexpr int kCellsAcross = 160;  // columns of the grid; fingers at arm's length are still two cells wide
-constexpr float kClearOdds = 2.f;  // log odds of a cell's median pixel above which it decides for the whole cell
+constexpr float kClearOdds = 2.f;  // the pixel of median depth decides for its cell if its log odds exceed this
 
 constexpr int kSamples = 5;
 
@@ -93,7 +93,8 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
         float mean = 0;
         for (int k = 0; k < count; ++k) mean += skin.log_odds(colour_of(k));
         mean /= static_cast<float>(count);
-        odds = std::abs(mean) < std::abs(odds) ? mean : odds;  // the weaker one, as a colour border may cross the cell
+        // Use the weaker of the two, since a colour border may cross the cell.
+        odds = std::abs(mean) < std::abs(odds) ? mean : odds;
       }
       grid.odds.at(c, r) = odds;
       ++seen;

@@ -8,8 +8,8 @@
 namespace barehand {
 namespace {
 
-// A pixel needs at least this many neighbours at its own depth. A line one pixel wide along a silhouette has two; a
-// corner of a real surface has three.
+// Number of neighbours at its own depth that a pixel needs in order not to count as flying. In a line one pixel wide
+// along a silhouette, pixels have two; at a corner of a real surface, they have three.
 constexpr float kFewestCompanions = 3;
 
 }  // namespace
@@ -37,7 +37,7 @@ void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params,
     float* out = depth.row(v);
     std::uint8_t* border = edge.row(v);
     float* companions = companions_.data();
-    for (int u = 0; u < region.width; ++u) {  // only floats, so that it vectorises
+    for (int u = 0; u < region.width; ++u) {  // uses only floats, so that the compiler vectorises it
       const float z = own[u], step = same_surface_step(z, fx);
       const auto same = [z, step](float other) { return std::abs(other - z) < step ? 1.f : 0.f; };
       const float count = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +

@@ -21,22 +21,24 @@ constexpr int kOwnCells = 8;
 constexpr float kLeakReach = 0.03f;
 constexpr float kLeakFactor = 0.6f;
 
-constexpr float kLoosePart = 0.12f;      // without colour, largest part that may join, such as a cut-off finger
+// Without colour, largest area of a separate surface, such as a cut-off finger, that may join a hand, as a fraction of
+// the area of the hand's own surface.
+constexpr float kLoosePart = 0.12f;
 constexpr float kHandRadius = 0.13f;     // distance from a hand's centre to its farthest parts [m]
 constexpr float kDetectedReach = 0.17f;  // distance from the middle of a palm to the farthest fingertip [m]
 constexpr float kSearchRadius = 0.22f;   // cells within this distance of a hand's centre are examined [m]
 constexpr float kSideBySide = 0.10f;     // difference of depth up to which two candidates are equally near [m]
 constexpr float kForearm = 0.35f;        // length of the cylinder behind a wrist that counts as forearm [m]
 constexpr float kForearmRadius = 0.07f;  // radius of this cylinder [m]
-constexpr double kMetresAtRest = 0.06;   // motion allowed at any frame interval [m]
-constexpr double kCloseBy = 0.05;        // motion allowed for a hand that touches a large surface [m]
+constexpr double kMetresAtRest = 0.06;   // motion that is allowed however short the frame interval is [m]
+constexpr double kCloseBy = 0.05;        // motion that is allowed for a hand that touches a large surface [m]
 
 }  // namespace
 
 std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
                                               double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
-  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // colour is better evidence of a tracked hand
+  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // colour, if any, is the better evidence
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
   predictions_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
@@ -66,7 +68,7 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     hand.found = hand.followed = follow(grid, *predictions_[k], feedback_age, detection, hand);
     if (hand.found) take_away(grid, hand);
   }
-  for (CoarseHand& hand : hands_) {  // last, because a held hand may be the nearest candidate
+  for (CoarseHand& hand : hands_) {  // hands without a match come last, as a held hand may be the nearest candidate
     if (hand.found) continue;
     if (detection && detection->whole_frame) {
       const DetectedHand* const detected = choose_detected(*detection);

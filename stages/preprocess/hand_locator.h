@@ -15,11 +15,11 @@ namespace barehand {
 /// One hand in the coarse grid.
 struct CoarseHand {
   bool found = false;
-  bool followed = false;                    ///< found where the feedback predicts it
+  bool followed = false;                    ///< whether it was found where the feedback predicts it
   Image<std::uint8_t> cells;                ///< 1 = hand
   std::optional<PredictedHand> prediction;  ///< the feedback, moved to where the hand is now; none if that fails
   Image<float> distance;                   ///< distance of candidates from the prediction's skin [m]; infinite far away
-  std::optional<WristPlane> wrist;         ///< cells behind it are forearm
+  std::optional<WristPlane> wrist;         ///< plane behind which cells are forearm
   const DetectedHand* detected = nullptr;  ///< the corresponding detected hand; null if there is none
 };
 
@@ -51,7 +51,7 @@ class HandLocator {
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;
 
-  /// Numbers of cells of a surface that match a followed hand and that are off it.
+  /// Numbers of a surface's cells that match the prediction of a hand (on_model) and that are farther away (off_model).
   struct Share {
     int on_model = 0, off_model = 0;
   };
@@ -61,7 +61,7 @@ class HandLocator {
   CandidateFinder finder_;
   TranslationSearch translation_;
   Components surfaces_;
-  std::vector<Share> shares_;  // for every surface
+  std::vector<Share> shares_;  // numbers of matching cells for every surface
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> predictions_;
 };

@@ -112,16 +112,17 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
                         *non_skin_count = non_skin_count_.row(v);
     const std::uint8_t* supported = supported_.row(v);
     std::int32_t* judged = judged_.data();
-    for (int u = 0; u < width; ++u) {  // vectorises, because all cases are computed before one is selected
+    for (int u = 0; u < width; ++u) {  // computes all cases before it selects one, so that the compiler vectorises it
       const float mean = sum[u] / static_cast<float>(coloured_count[u]);
-      // Near a colour border, the mean alone would assign a strip on one side to the other side.
+      // Require the pixel's own colour, too: near a colour border, the mean alone would assign a strip of one side to
+      // the other side.
       const bool skin = (mean > least_skin) & (own[u] > 0), other = (mean < most_other) & (own[u] < most_other);
       std::int32_t e = other ? kOther : kOpen;
       e = skin ? kHand : e;
       e = supported[u] ? e : kOther;
-      // Near a depth edge, a colour may belong to the neighbouring surface, so neighbours decide, unless the whole
-      // window is skin. Without this exception, a fingertip behind an object, which is near edges everywhere, would be
-      // assigned to the object.
+      // Near a depth edge, a colour may belong to the neighbouring surface, so leave the decision to the neighbours,
+      // unless the whole window is skin. Without this exception, a fingertip behind an object, which is near edges
+      // everywhere, would be assigned to the object.
       const bool sure = skin & (non_skin_count[u] == 0) & (2 * coloured_count[u] > most_coloured);
       e = (edges[u] > 0) & !sure ? kOpen : e;
       judged[u] = z[u] > 0 ? e : kNone;

@@ -13,7 +13,7 @@ namespace barehand {
 
 // Labels of the pixels in the region of interest.
 
-/// Decides pixel by pixel what belongs to the hand that was found in the coarse grid.
+/// Decides for each pixel whether it belongs to the hand that was found in the coarse grid.
 class HandMask {
  public:
   explicit HandMask(const PreprocessParams& params) : params_(params) {}
@@ -37,16 +37,16 @@ class HandMask {
   PreprocessParams params_;
   PixelRays rays_;
   std::vector<int> column_, row_;  // grid column of every column of the region, and grid row of every row
-  Image<float> lowest_, highest_;  // per cell: range of depths at which its pixels may be hand [m]
-  std::vector<float> low_, high_;  // the same range for every pixel of a row
+  Image<float> lowest_, highest_;  // range of depths at which the pixels of each grid cell may be hand [m]
+  std::vector<float> low_, high_;  // range of depths of hand pixels for every pixel of the current row [m]
   std::vector<std::int32_t> judged_;
-  // Per pixel; its window reaches `skew_px` to every side.
-  Image<std::uint8_t> supported_;                 // 1 = may be hand according to its depth
+  // Data of every pixel; the window around a pixel reaches `skew_px` to every side.
+  Image<std::uint8_t> supported_;                 // 1 = the pixel may be hand according to its depth
   Image<float> skin_log_odds_, summed_log_odds_;  // log odds of skin, and their sum over the window
-  Image<std::uint8_t> coloured_;                  // 1 = its colour is evidence for or against skin
-  Image<std::uint16_t> coloured_count_;           // number of such pixels in the window
-  Image<std::uint8_t> non_skin_;                  // 1 = its colour is evidence against skin
-  Image<std::uint16_t> non_skin_count_;           // number of such pixels in the window
+  Image<std::uint8_t> coloured_;                  // 1 = the pixel's colour is evidence for or against skin
+  Image<std::uint16_t> coloured_count_;           // number of pixels with such a colour in the window
+  Image<std::uint8_t> non_skin_;                  // 1 = the pixel's colour is evidence against skin
+  Image<std::uint16_t> non_skin_count_;           // number of pixels with evidence against skin in the window
   Image<std::uint16_t> edges_;                    // number of depth edges in the window
   WindowSum<float> sum_odds_;
   WindowSum<std::uint16_t> count_;

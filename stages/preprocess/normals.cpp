@@ -12,13 +12,13 @@ namespace {
 // Fits normals to the hand's surface, and estimates the depth noise.
 
 constexpr int kFewestSamples = 6;      // fewer samples do not determine a plane
-constexpr float kSteepest = 1.2f;      // slope up to which samples away from the centre count as the same surface
+constexpr float kSteepest = 1.2f;      // samples up to this slope from the centre count as the same surface
 constexpr float kLeastFacing = 0.05f;  // smallest cosine to the view ray; at grazing angles the fit is mostly noise
 
 constexpr int kLanes = 8;               // number of neighbouring pixels that are fitted together
 constexpr int kMostSpacing = 12;        // largest distance between samples [pixels]
 constexpr int kPad = 2 * kMostSpacing;  // reach of the samples, hence width of the border [pixels]
-constexpr float kNoHand = -1e3f;        // depth of pixels that are not hand: outside every gate
+constexpr float kNoHand = -1e3f;        // depth that stands for pixels which are not hand: far outside every gate [m]
 
 using Lanes = std::array<float, kLanes>;
 

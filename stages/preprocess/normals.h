@@ -10,8 +10,8 @@ namespace barehand {
 
 /// Computes the normals of the hand pixels in `mask` from least-squares planes through the depth around them: a grid of
 /// 5 x 5 samples that spans +-radius [m]. Only hand samples on the same surface are used, so that neither edges nor
-/// objects affect a normal. It is zero where fewer than six samples agree. fit() fills `out.normal`; it needs frame,
-/// depth, hand_pixels (those of `mask`), u0 and v0.
+/// objects affect a normal. A normal is zero where fewer than six samples agree. fit() fills `out.normal`; it needs the
+/// members frame, depth, hand_pixels (those of `mask`), u0 and v0 of `out`.
 class NormalFitter {
  public:
   void fit(const Image<std::uint8_t>& mask, double radius, HandObservation& out);

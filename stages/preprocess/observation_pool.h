@@ -15,7 +15,7 @@ class ObservationPool {
   std::shared_ptr<HandObservation> take() {
     return {pool_->take().release(),
             [pool = pool_](HandObservation* used) {
-              used->frame.reset();  // must not keep the frame alive
+              used->frame.reset();  // release the frame, which the pool must not keep alive
               Pool<HandObservation>::Return{pool.get()}(used);
             },
             FrameAllocator<HandObservation>()};

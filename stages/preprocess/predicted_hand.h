@@ -21,7 +21,7 @@ class PredictedHand {
  public:
   static constexpr int kRods = 19;
 
-  /// None if the estimate has no pose or no profile.
+  /// Makes the shape from an estimate; none if it has no pose or no profile.
   static std::optional<PredictedHand> from(const HandEstimate* earlier);
 
   /// Distance [m] from a point to the skin; negative inside.
@@ -37,13 +37,13 @@ class PredictedHand {
  private:
   void arrange();
 
-  std::array<Capsule, kRods> capsules_;  // 4 of the palm, 15 of the phalanges
-  static constexpr int kLanes = 24;      // the same capsules for SIMD, padded by repeating the last
+  std::array<Capsule, kRods> capsules_;  // 4 capsules of the palm, then 15 of the phalanges
+  static constexpr int kLanes = 24;      // number of capsules for SIMD, the last one repeated to fill the vectors
   struct Rods {
     std::array<float, kLanes> ax, ay, az, dx, dy, dz, inverse_length_sq, radius;
   } rods_{};
   Eigen::Vector3f wrist_ = Eigen::Vector3f::Zero();
-  Eigen::Vector3f arm_axis_ = Eigen::Vector3f::UnitZ();  // from the fingers towards the elbow
+  Eigen::Vector3f arm_axis_ = Eigen::Vector3f::UnitZ();  // unit vector from the fingers towards the elbow, camera frame
 };
 
 }  // namespace barehand

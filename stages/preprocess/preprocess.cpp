@@ -9,8 +9,8 @@ namespace {
 // Runs the steps of preprocessing, and learns the skin colour from tracked hands.
 
 constexpr float kSurelySkin = 0.004f;  // cells at most this far from the predicted skin certainly show skin [m]
-// Cells farther than this from the predicted skin do not show the hand [m]: no finger can have moved that far
-// unnoticed.
+// Cells farther than this from the predicted skin certainly do not show the hand [m], since no finger moves that far
+// between two frames.
 constexpr float kSurelyOther = 0.045f;
 // Cells of the coarse depth grid farther than this from a hand's centre cannot show that hand [m].
 constexpr float kSurroundings = 0.22f;
@@ -134,7 +134,7 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
         include(c * step, r * step);
         include((c + 1) * step, (r + 1) * step);
       }
-  if (hand.prediction)  // the maps must also cover occluded fingers
+  if (hand.prediction)  // include the predicted hand, since the maps must also cover occluded fingers
     for (const Capsule& capsule : hand.prediction->capsules())
       for (const Eigen::Vector3f& p : {capsule.a, capsule.b})
         if (p.z() > params_.min_depth) {
@@ -174,7 +174,7 @@ void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const
                  (std::ranges::none_of(teachers_, near) || std::ranges::any_of(teachers_, [&](const CoarseHand* hand) {
                     return hand->prediction->behind_wrist(p) > 0;
                   }))) {
-        continue;  // also skin: a face, another person's hand, the forearm
+        continue;  // other skin, such as a face, another person's hand or the forearm, is not evidence against skin
       } else if ((c + r) % 2 == 0 && std::ranges::all_of(teachers_, [&](const CoarseHand* hand) {
                    return !near(hand) || hand->prediction->distance(p) > kSurelyOther;
                  })) {

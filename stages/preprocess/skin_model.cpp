@@ -9,7 +9,7 @@ namespace {
 // Learns histograms of skin and other colours, and computes the log odds of skin from them.
 
 constexpr std::size_t kFewestColours = 30;  // fewer pixels do not determine a distribution
-constexpr double kLeastSpread = 0.35;  // smallest deviation of skin's log brightness, as it may get into shade any time
+constexpr double kLeastSpread = 0.35;  // smallest assumed deviation of skin's log brightness, since skin may get shaded
 constexpr double kUsualSpread = 2;     // brightness is no evidence down to this many standard deviations below the mean
 
 /// Generic density of skin over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of
@@ -83,12 +83,12 @@ void SkinModel::learn_brightness(const std::vector<Rgb>& skin) {
   for (int i = 1; i < 256; ++i) {
     const double below = std::max(0.0, (mean - std::log(i)) / spread);
     const double odds = -0.5 * std::max(0.0, below * below - kUsualSpread * kUsualSpread);
-    too_dark_[i] = static_cast<float>(skin_mass_ * std::max(odds, -2.0 * kOddsLimit));  // may outweigh any chroma
+    too_dark_[i] = static_cast<float>(skin_mass_ * std::max(odds, -2.0 * kOddsLimit));  // can outweigh all chroma odds
   }
 }
 
 void SkinModel::rebuild() {
-  // 3x3 binomial blur: an observed colour makes similar colours likely, too.
+  // Blur the histograms (3x3 binomial), since an observed colour makes similar colours likely, too.
   const auto blurred = [](const Histogram& h, int b, int r) {
     static constexpr float kWeight[3] = {0.25f, 0.5f, 0.25f};
     float sum = 0;

@@ -55,10 +55,10 @@ class SkinModel {
   void rebuild();
 
   double rate_, share_;
-  std::array<int, 256> log_{};      // fixed-point log of a channel
+  std::array<int, 256> log_{};      // logarithm of a channel's value, in fixed point
   std::array<float, 256> trust_{};  // weight of the chroma by the brightest channel: in the dark, chroma is noise
   Histogram prior_skin_{}, prior_other_{}, skin_{}, other_{}, odds_{};
-  double skin_mass_ = 0, other_mass_ = 0;      // [0, 1): how much has been learned
+  double skin_mass_ = 0, other_mass_ = 0;      // how much of each class has been learned, in [0, 1)
   double brightness_ = 0, brightness_sq_ = 0;  // moments of the log of skin's brightest channel, times skin_mass_
   // Log odds (0 or less) that a pixel is too dark to be skin, by its brightest channel; black means no colour.
   std::array<float, 256> too_dark_{};

@@ -5,7 +5,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int32_t kFar = 1 << 13;  // larger than any image, but its square still fits
+constexpr std::int32_t kFar = 1 << 13;  // larger than any image, but its square still fits into 32 bits [pixels]
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
       while (last >= 0) {
         const int other = column_[last];
         const std::int32_t other_dv = rows[other] - v;
-        // From this column on the new parabola is strictly lower.
+        // Compute the column from which on the new parabola is strictly lower.
         const std::int32_t above = u * u + dv * dv - other * other - other_dv * other_dv, span = 2 * (u - other);
         start = above < 0 ? 0 : above / span + 1;
         if (start > from_[last]) break;

@@ -17,8 +17,8 @@ class NearestPixelTransform {
 
  private:
   Image<std::int32_t> row_;           // per pixel: row of the nearest set pixel in its column; far outside if none
-  std::vector<std::int32_t> column_;  // lower envelope of the current row: columns of its parabolas ...
-  std::vector<std::int32_t> from_;    // ... and where each begins to be the lowest
+  std::vector<std::int32_t> column_;  // columns of the parabolas in the lower envelope of the current row
+  std::vector<std::int32_t> from_;    // first column in which each of these parabolas is the lowest
 };
 
 }  // namespace barehand

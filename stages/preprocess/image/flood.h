@@ -9,7 +9,8 @@
 
 namespace barehand {
 
-/// What a pixel's own data says about it. Open pixels are decided by their neighbours.
+/// The class of a pixel according to its own data: no data, hand, something else, or undecided. Undecided (open) pixels
+/// get the class of their neighbours.
 enum class Evidence : std::uint8_t { none = 0, hand = 1, other = 2, open = 3 };
 
 /// Decides open pixels by their decided neighbours, most similar colours first (a watershed), so that skin in shadow
@@ -46,8 +47,8 @@ class Flood {
 
  private:
   static constexpr int kLevels = 12;       // levels of similarity, from equal to most different
-  static constexpr int kLevelWidth = 6;    // range of colour differences in a level [channel counts]
-  static constexpr int kUnknownLevel = 6;  // level of a pair without colour
+  static constexpr int kLevelWidth = 6;    // range of colour differences in one level, in units of an 8-bit channel
+  static constexpr int kUnknownLevel = 6;  // level of two neighbours of which one has no colour
   struct Step {
     std::int32_t pixel;
     Evidence evidence;
