@@ -9,7 +9,7 @@ namespace barehand {
 /// brackets and backslashes too, for itself.
 bool matches_glob(std::string_view glob, std::string_view name);
 
-/// The regular expression, as LCM expects it, that matches the same names.
+/// The regular expression, in LCM's syntax, that matches the same names as the glob.
 std::string glob_to_regex(const std::string& glob);
 
 }  // namespace barehand

@@ -15,7 +15,7 @@ std::shared_ptr<spdlog::logger> make_logger();
 /// Returns a logger that discards all messages.
 std::shared_ptr<spdlog::logger> make_silent_logger();
 
-/// A logger whose repeated messages are held back (see RepeatFilter).
+/// A logger that suppresses repeated messages (see RepeatFilter).
 class RepeatLog {
  public:
   RepeatLog(std::shared_ptr<spdlog::logger> logger, const Clock& clock, std::int64_t interval_us = 1'000'000)

@@ -17,7 +17,7 @@ namespace barehand {
 /// What happens when an item is pushed into a full queue.
 enum class Overflow {
   block,        ///< the producer waits; nothing is dropped (replay)
-  drop_oldest,  ///< the oldest item is dropped and counted; the newest wins (live)
+  drop_oldest,  ///< the oldest item is dropped and counted to make room for the new one (live)
 };
 
 /// A bounded queue between two stages, for any number of threads. At every moment pushed = popped + dropped + depth.
@@ -78,7 +78,7 @@ class BoundedQueue {
     space_.notify_all();
   }
 
-  /// Counts since the start of the run.
+  /// Name, depth and counts of the queue since the start of the run.
   QueueHealth health() const {
     std::unique_lock lock(mutex_);
     return {name_, capacity_, items_.size(), pushed_, popped_, dropped_, {}};

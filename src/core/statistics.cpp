@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-// Durations below 16 us have a bucket each. Above, the leading bit selects the octave and the four bits after it the
-// bucket.
+// The histogram's bucket for a duration. Durations below 16 us have a bucket each. Above, the leading bit selects the
+// octave, and the four bits after it select the bucket.
 int TimeHistogram::bucket_of(std::int64_t duration_us) {
   const auto value = static_cast<std::uint64_t>(duration_us);
   if (value < kSubBuckets) return static_cast<int>(value);

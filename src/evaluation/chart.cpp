@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const std::vector<Series>& series) {
 }  // namespace
 
 Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
-  // Find the range.
+  // Find the range of the values.
   double top = 0;
   for (const auto& series : chart.series)
     for (const Distribution& box : series.boxes)
@@ -51,7 +51,7 @@ Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
 }
 
 Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
-  // Find the range.
+  // Find the ranges of x and y.
   double top = 0, x_lo = INFINITY, x_hi = -INFINITY;
   for (const auto& series : chart.series)
     for (std::size_t i = 0; i < series.x.size(); ++i) {

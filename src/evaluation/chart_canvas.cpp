@@ -17,7 +17,7 @@ constexpr int kLeft = 90, kRight = 30, kTop = 84;
 constexpr double kLabel = 0.5, kUprightLabel = 0.42;  // font scales of horizontal and upright labels
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225);
-/// BGR; colours that most colour-blind people can distinguish (Okabe and Ito).
+/// Colours (BGR) that most colour-blind people can distinguish (Okabe and Ito).
 const std::array<cv::Scalar, 8> kColours = {cv::Scalar(178, 114, 0), {0, 94, 213},   {115, 158, 0},  {167, 121, 204},
                                             {0, 159, 230},           {233, 180, 86}, {66, 228, 240}, {90, 90, 90}};
 

@@ -41,8 +41,8 @@ class ChartCanvas {
 
   cv::Mat image_;
   double x_lo_, x_hi_, y_hi_, y_step_;
-  bool upright_;  ///< the categories' names are too long to be written side by side
-  int bottom_;    ///< pixels below the frame
+  bool upright_;  ///< whether the categories' names are too long to be written side by side
+  int bottom_;    ///< height of the space below the frame [pixels]
 };
 
 /// The step of an axis with about `count` steps over `range`: 1, 2 or 5 times a power of ten.

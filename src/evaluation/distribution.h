@@ -13,7 +13,7 @@ struct Distribution {
 };
 /// Summarises values in any order.
 Distribution summarise(std::vector<double> values);
-/// The same in another unit: all statistics multiplied by `scale`.
+/// Converts statistics to another unit: all of them are multiplied by `scale`.
 Distribution scaled(Distribution d, double scale);
 
 /// A quantile by linear interpolation between the two nearest values; `sorted` must not be empty, `fraction` in

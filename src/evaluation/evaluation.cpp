@@ -62,7 +62,7 @@ struct Collected {
       segment[s].push_back(errors.segments[s]);
       if (truth.rows[s].visible > kSeen) seen.push_back(errors.segments[s]);
       if (truth.rows[s].visible < kHidden) hidden.push_back(errors.segments[s]);
-      // Leave out the joints of the palm: only the middle finger's knuckle is at the palm's distal end.
+      // Leave out the joints of the palm, of which only the middle finger's knuckle is at the palm's distal end.
       if (s != kPalm && parent_of(s) != kPalm)
         gap.push_back((result.rows[parent_of(s)].distal - result.rows[s].proximal).norm());
     }
@@ -88,7 +88,7 @@ bool half_in_view(const TableFrame& truth) {
 /// in which there is a hand, played backwards if `step` is negative.
 std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, const std::vector<FrameErrors>& frames,
                                  std::int64_t step) {
-  // The truth has no rows while the hand is out of view, which shows as a gap in the numbers.
+  // While the hand is out of view, the truth has no rows, so there is a gap in its frame numbers.
   std::vector<Return> returns;
   bool away = false, waiting = false;
   const auto played = [&](std::size_t i) { return step > 0 ? i : frames.size() - 1 - i; };
@@ -96,7 +96,7 @@ std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, c
     const FrameErrors& frame = frames[played(i)];
     if (frame.number - frames[played(i - 1)].number != step) away = true, waiting = false;
 
-    // The return begins when half of the hand is visible, and ends when it is tracked.
+    // A return begins when half of the hand is visible, and ends with the first frame that is not lost.
     if (away && half_in_view(*truths[played(i)])) {
       returns.push_back({frame.number, std::nullopt});
       away = false;
@@ -126,7 +126,7 @@ double segment_error(const TableRow& truth, const TableRow& result) {
 }
 
 Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result, const ExpectedFrames& expected) {
-  // Compare frame by frame.
+  // Compare the result with the truth frame by frame.
   assert(expected.step != 0);
   const FramesByNumber results = by_number(result);
   Evaluation evaluation;
@@ -155,7 +155,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     return fail("truth and result have no frame in common", {}, "compare tables of the same recording");
   if (evaluation.frames.empty()) return fail("the truth has none of the requested frames", {}, "check start and step");
 
-  // Summarise.
+  // Summarise the errors.
   collected.summarise_into(evaluation);
   evaluation.returns = find_returns(truths, evaluation.frames, expected.step);
   evaluation.phantoms = find_phantoms(truth, result);

@@ -30,7 +30,7 @@ struct FrameErrors {
   std::int64_t number = 0;
   double timestamp = 0;                          ///< seconds
   bool tracked = false;                          ///< the result has rows for this frame; otherwise there are no errors
-  std::array<double, kSegmentCount> segments{};  ///< mean distance of both ends from the truth (paper Sec. 5.1)
+  std::array<double, kSegmentCount> segments{};  ///< error of each segment: see segment_error() (paper Sec. 5.1)
   double mean = 0;                               ///< frame error: mean over all 16 segments
   double mean_without_palm = 0;                  ///< mean over the 15 phalanges
   bool lost() const { return !tracked || mean > kLostFrameError; }
@@ -39,18 +39,18 @@ struct FrameErrors {
 /// One return of a hand into view.
 struct Return {
   std::int64_t number = 0;    ///< first frame in which half of the hand is visible
-  std::optional<int> frames;  ///< number of frames until one is not lost; none: the hand left the view first
+  std::optional<int> frames;  ///< number of frames until one is not lost; none: the hand left the view before that
 };
 
-/// The paper's metrics (Sec. 5) of one result compared with the truth [m]. Frames without rows count as lost and are
-/// left out of the means.
+/// The paper's metrics (Sec. 5) of one result compared with the truth [m]. Frames without rows in the result count as
+/// lost and are left out of the means.
 struct Evaluation {
   std::vector<FrameErrors> frames;  ///< all expected frames of the truth, in its order
-  std::size_t untracked = 0;        ///< number of frames without rows
+  std::size_t untracked = 0;        ///< number of frames without rows in the result
   std::vector<std::int64_t> lost;   ///< numbers of the lost frames
   Distribution frame_error, frame_error_without_palm;
-  Distribution segment_error;  ///< over all segments of all frames
-  Distribution seen, hidden;   ///< over the segments that are visible and hidden in the truth
+  Distribution segment_error;  ///< errors of all segments of all frames
+  Distribution seen, hidden;   ///< errors of the segments that are visible, or hidden, according to the truth
   std::array<Distribution, kSegmentCount> per_segment;
   std::vector<Return> returns;         ///< returns of the hand after frames for which the truth has no rows
   std::vector<std::int64_t> phantoms;  ///< frames with rows in the result but none in the truth

@@ -14,7 +14,7 @@ namespace {
 
 /// Parses one line of the table. Returns false if it is malformed.
 bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
-  // Split the line.
+  // Split the line at its commas.
   std::istringstream line(text);
   std::string field[5];
   for (std::string& f : field)
@@ -25,7 +25,7 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
     return error == std::errc{} && end == f.data() + f.size();
   };
 
-  // The finger is given by its name, everything else by a number.
+  // Read the finger by its name; the other fields are numbers.
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
   label.finger = static_cast<int>(finger - kFingerNames.begin());
@@ -52,7 +52,7 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
   std::vector<FingertipLabel> labels;
   for (int number = 2; std::getline(file, text); ++number) {
     if (text.empty()) continue;
-    // A malformed line is an error.
+    // Parse the line; a malformed one is an error.
     FingertipLabel label;
     bool visible = false;
     if (!parse_label(text, label, visible))
@@ -97,7 +97,7 @@ FingertipEvaluation evaluate_fingertips(const std::vector<FingertipLabel>& label
     fingers[label.finger].push_back(distance);
   }
 
-  // Summarise.
+  // Summarise the distances.
   evaluation.all = summarise(all);
   for (int f = 0; f < kFingerCount; ++f) evaluation.per_finger[f] = summarise(fingers[f]);
   return evaluation;

@@ -17,7 +17,7 @@ constexpr int kConfidenceBins = 10;
 constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;
 constexpr int kErrorBins = 14;
 
-/// Accumulates the coverage of one group of segments.
+/// Accumulates the coverage (see Coverage) of one group of segments.
 class CoverageSum {
  public:
   void add(const Vector3d& error, const Matrix3d& covariance) {
@@ -94,7 +94,7 @@ Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, S
       for (int s = 0; s < kSegmentCount; ++s) judge.add(frame.rows[s], said->second[s]);
     }
 
-  // It is an error if no frame has a pose in both tables.
+  // Report an error if no frame has a pose in both tables.
   Reliability result = judge.result();
   if (result.frames == 0)
     return fail("have no frame with a pose in common with the truth", "the states",

@@ -13,7 +13,7 @@ namespace barehand {
 /// The pose of one segment in an estimate, with the stated uncertainty. Camera frame, metres.
 struct StatedSegment {
   Eigen::Vector3d proximal, distal;
-  Eigen::Matrix3d proximal_covariance, distal_covariance;  ///< of the two ends [m^2]
+  Eigen::Matrix3d proximal_covariance, distal_covariance;  ///< stated covariances of the two ends [m^2]
   double confidence = 0;                                   ///< SegmentState::confidence
   bool seen = false;                                       ///< estimated from data; false: inferred
 };

@@ -36,7 +36,7 @@ void visit(V& v, Config& c) {
   v("openni2", c.openni2,
     "wanted mode of an OpenNI2 sensor, and when it is reopened; fx, fy, cx and cy replace the sensor's own");
 
-  // The publisher has no key of its own for this: it uses the tracker's.
+  // The hold time of the published pose has no key of its own: it is that of the tracker.
   c.publish.hold_time = c.tracker.loss.hold_time;
 }
 

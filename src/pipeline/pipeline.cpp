@@ -13,8 +13,8 @@ std::size_t capacity(const FrameSource& source, const PipelineOptions& options) 
   return source.live() ? 1 : options.replay_capacity;
 }
 
-/// If a frame's time stamp differs by more than this from the present time, it says nothing about latency (for example
-/// when a log is replayed to the bus).
+/// If a frame's time stamp differs by more than this from the present time, its latency is not measured (for example
+/// when a log is replayed to the bus) [us].
 constexpr std::int64_t kMaxLatencyUs = 10'000'000;
 /// The inline runner takes at most this many frames at once from a live source, since a source that never pauses must
 /// not starve the tracker.
@@ -86,7 +86,7 @@ void Pipeline::run_inline() {
   Capture captured = Capture::nothing;
   while (captured != Capture::end) {
     captured = capture(options_.patience);
-    if (stages_.source.live())  // as with threads, the newest of the frames that arrived meanwhile wins
+    if (stages_.source.live())  // as with threads, only the newest of the frames that arrived meanwhile is kept
       for (int i = 0; i < kMaxBacklog && captured == Capture::frame; ++i) captured = capture({});
     while (auto item = try_pop(kInput)) process(std::move(*item));
     if (captured == Capture::nothing) idle();
@@ -125,7 +125,7 @@ HandEstimates Pipeline::take_feedback() {
 Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
   if (stopped() || ending_) return Capture::end;
 
-  // A source that throws has failed.
+  // Ask the source for an event; a source that throws has failed.
   SourceEvent event;
   try {
     event = stages_.source.next(patience);
@@ -135,7 +135,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
 
   ++answers_;
 
-  // A frame goes into the input queue.
+  // Put a frame into the input queue.
   if (auto* frame = std::get_if<FramePtr>(&event)) {
     waited_ = {};
     notice_at_ = kFirstNotice;
@@ -143,7 +143,7 @@ Pipeline::Capture Pipeline::capture(std::chrono::milliseconds patience) {
     return Capture::frame;
   }
 
-  // Anything else is reported; only a failure or the end of the source ends the run.
+  // Report anything else; only a failure or the end of the source ends the run.
   if (auto* skipped = std::get_if<SkippedFrame>(&event)) {
     ++skipped_;
     log_.warn("skipped", "skipped a frame: " + skipped->error.message());
@@ -199,7 +199,7 @@ bool Pipeline::track(Item& item) {
 
 void Pipeline::deliver(const Item& item) {
   bool delivered = true;
-  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // a failing sink does not keep the frame from the others
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // if a sink fails, the others still get the frame
     StageMonitor& monitor = *sink_monitors_[i];
     const int missed = monitor.failures_in_a_row();
     const auto consumed = monitor.run(&Sink::consume, stages_.sinks[i], item.data);
@@ -208,7 +208,7 @@ void Pipeline::deliver(const Item& item) {
       continue;
     }
     delivered = false;
-    // A lasting failure is reported after 1, 2, 4, 8, ... failed frames only.
+    // Report a lasting failure only after 1, 2, 4, 8, ... failed frames.
     if (std::has_single_bit(static_cast<unsigned>(missed) + 1)) report(monitor, item, consumed.error());
     if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
   }
@@ -264,7 +264,7 @@ std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
 }
 
 PipelinePulse Pipeline::pulse() const {
-  // Read before the queue, so that the number of frames inside is never too small.
+  // Read these counters before the queue's, so that the number of frames inside is never too small.
   const std::int64_t finished = published_ + failed_;
   const QueueHealth input = queues_[kInput].health();
   return {answers_, finished, input.pushed - input.dropped - finished};

@@ -51,7 +51,7 @@ struct RunResult {
   PipelineHealth health;
   std::optional<Error> error;           ///< why the run ended early, or why a sink could not finish
   std::vector<std::string> incomplete;  ///< names of the sinks that missed frames
-  bool stopped = false;                 ///< by request_stop() or the stop token
+  bool stopped = false;                 ///< whether request_stop() or the stop token ended the run
 };
 
 /// Counters, since the start of the run, by which a watchdog sees whether the pipeline still works.
@@ -78,16 +78,16 @@ class Pipeline {
   void request_stop() { stop_ = true; }
   /// Counters since the start of the run. Any thread may call it at any time.
   PipelineHealth health() const;
-  /// The same, with times and latency since the last call of this function. Only one caller may use it.
+  /// Like health(), but times and latency are those since the last call of this function. Only one caller may use it.
   PipelineHealth take_interval_health();
-  /// Any thread may call it at any time.
+  /// Counters for a watchdog. Any thread may call it at any time.
   PipelinePulse pulse() const;
 
  private:
   struct Item {
     std::int64_t index = 0;       ///< number of the frame among those that entered the input queue
-    std::int64_t arrived_us = 0;  ///< steady clock
-    std::int64_t queued_us = 0;   ///< steady clock, when it entered the queue that it is in
+    std::int64_t arrived_us = 0;  ///< time at which the frame arrived, steady clock
+    std::int64_t queued_us = 0;   ///< time at which it entered the queue that it is in, steady clock
     TrackedFrame data;
   };
   using Queue = BoundedQueue<Item>;

@@ -40,7 +40,7 @@ Reload::Changes Reload::apply(const Config& wanted) {
   next.tracker.shape_fit = in_force_.tracker.shape_fit;
   next.publish = wanted.publish;
 
-  // Post them to the stages and sinks that they concern.
+  // Post the changed groups to the stages and sinks that use them.
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
   for (auto* slot : {&out_.bus, &out_.states_log, &out_.mcap, &out_.view})

@@ -9,7 +9,8 @@
 namespace barehand {
 namespace {
 
-/// Every line of a message is one assignment, so only the text's first line can be sent.
+/// The status assignment of a message to systemd. Every line of such a message is one assignment, so only the text's
+/// first line can be sent.
 std::string status_line(const std::string& text) {
   return "STATUS=" + as_utf8(text.substr(0, text.find('\n')));  // systemd accepts UTF-8 only
 }
@@ -26,7 +27,7 @@ void ServiceManager::ready(const std::string& status) const {
 }
 
 void ServiceManager::reloading() const {
-  // From the time, systemd (253 and later) knows which request to reload this message answers.
+  // The time tells systemd (253 and later) which request to reload this message answers.
   sd_notify(0, ("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(clock_.steady_us())).c_str());
 }
 

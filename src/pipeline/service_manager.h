@@ -15,12 +15,12 @@ class ServiceManager {
 
   /// Whether a service manager listens.
   bool present() const { return present_; }
-  /// The service has started, or has reloaded its configuration. Sends the first line of `status`. Any thread may call
-  /// it.
+  /// Reports that the service has started, or has reloaded its configuration, with the first line of `status`. Any
+  /// thread may call it.
   void ready(const std::string& status) const;
-  /// The service reloads its configuration; call ready() when that is done. Any thread may call it.
+  /// Reports that the service reloads its configuration; call ready() when that is done. Any thread may call it.
   void reloading() const;
-  /// The service shuts down. Any thread may call it.
+  /// Reports that the service shuts down. Any thread may call it.
   void stopping() const;
   /// Sends the first line of `text` for `systemctl status`. Any thread may call it.
   void status(const std::string& text) const;

@@ -47,7 +47,7 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   const auto profile = std::make_shared<const HandProfile>(*loaded);
   HandModel model(config.tracker, profile, workers, nullptr);
 
-  // Render it with the palm's middle on the optical axis, and preprocess the frame.
+  // Render the hand with the middle of the palm on the optical axis, and preprocess the frame.
   const SE3 T_camera_palm{palm_orientation(0, 0, 0), {0, 0.5 * profile->hand_length(), kDistance}};
   const HandPose pose = forward_kinematics(*profile, T_camera_palm, {});
   const auto seen =
@@ -63,7 +63,7 @@ Result<TrialTimes> time_trial_level(const Config& config, int per_segment, Devic
   const SegmentTrackerParams& params = config.tracker.segment_tracker;
   const SampleBatch batch{model.surface, prepared.map, prepared.id, samples.poses, first_compared(params)};
 
-  // Time both observers with it.
+  // Measure how long both observers take to compare the batch.
   CpuObserver cpu(distance_cap(params), workers);
   PatchDistances distances;
   const auto times = time_comparison(batch, cpu, device, SystemClock(), distances);

@@ -65,7 +65,7 @@ void Workers::run(int n, Call call) {
 }
 
 void Workers::give_way() {
-  constexpr int kLast = 19;  // lowest priority, as a nice value; Linux has one per thread
+  constexpr int kLast = 19;  // nice value of the lowest priority; on Linux every thread has its own nice value
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLast);
 }
 

@@ -48,7 +48,7 @@ class Workers {
     done.wait();
     return done;
   }
-  /// Call when frames come from a live source, which nothing may delay.
+  /// Must be called when frames come from a live source, which long work must not delay (see aside()).
   void go_live() { live_ = true; }
 
  private:

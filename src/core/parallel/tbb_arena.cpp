@@ -8,7 +8,7 @@ namespace barehand {
 
 struct TbbArena::State {
   explicit State(int threads) : limit(tbb::global_control::max_allowed_parallelism, threads), arena(threads) {}
-  tbb::global_control limit;  // without it, TBB uses at most one thread per core
+  tbb::global_control limit;  // allows more threads than cores, which TBB does not by default
   tbb::task_arena arena;
 };
 

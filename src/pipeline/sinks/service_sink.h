@@ -30,10 +30,10 @@ class ServiceSink : public Sink {
   const std::function<PipelineHealth()> health_;
   const Clock& clock_;
   PipelinePulse fed_at_;      // counters when the watchdog was fed last
-  HandEstimates hands_;       // of the last frame
+  HandEstimates hands_;       // estimates of the last frame
   std::int64_t frame_us_,     // time of the last frame; steady clock
       status_us_,             // time of the last status line; steady clock
-      status_published_ = 0;  // frames published by then
+      status_published_ = 0;  // number of frames published when the last status line was sent
 };
 
 }  // namespace barehand
