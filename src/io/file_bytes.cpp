@@ -35,7 +35,7 @@ Result<std::string> read_pipe(const std::string& path) {
   return text;
 }
 
-/// Reads every pipe once and keeps its content: what one reader takes out of a pipe is gone for the others.
+/// Reads every pipe once and keeps its content, since a pipe can be read only once.
 class PipesRead {
  public:
   Result<std::string> read(const std::string& path) {
@@ -57,7 +57,7 @@ bool looks_like_utf16(std::string_view text) {
   return text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0');
 }
 
-/// "\r\n" and a lone "\r" become "\n".
+/// Replaces "\r\n" and a lone "\r" by "\n".
 std::string with_plain_line_ends(std::string_view text) {
   std::string plain;
   plain.reserve(text.size());

@@ -17,8 +17,8 @@ Result<std::string> read_text(const std::string& path);
 /// Whether the path can be read only once: a pipe, <(...) of a shell, a terminal.
 bool is_pipe(const std::string& path);
 
-/// Whether nothing is there. False if that cannot be found out (no permission, too long a name); opening it then
-/// reports why.
+/// Whether there is no file at `path`. False if that cannot be found out (no permission, too long a name); opening the
+/// file then reports why.
 bool is_missing(const std::string& path);
 
 }  // namespace barehand

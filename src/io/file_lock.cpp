@@ -84,7 +84,7 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  if (!path_.empty()) unlink(path_.c_str());  // while it is locked: no other file can have this name yet
+  if (!path_.empty()) unlink(path_.c_str());  // still locked here, so no other process can have replaced the file
   close(descriptor_);
 }
 

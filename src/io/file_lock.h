@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// An exclusive lock, against other processes and other locks in this one. The kernel releases it when the process
-/// ends, in whatever way. On a network file system that supports locks (as NFS does), it works between machines.
+/// An exclusive lock, against other processes and other locks in this process. The kernel releases it when the process
+/// ends, even if it is killed. On a network file system that supports locks (as NFS does), it works between machines.
 class FileLock {
  public:
   /// Creates the file `path`, which names the holder while the lock is held and is then removed; a file that a killed

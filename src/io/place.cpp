@@ -48,9 +48,9 @@ Place::Place(const std::string& path) {
   const fs::path given = fs::absolute(target_of(path).path, error);
   fs::path at = fs::weakly_canonical(given, error);
   if (error) at = given.lexically_normal();
-  if (!at.has_filename()) at = at.parent_path();  // for a path like "folder/"
+  if (!at.has_filename()) at = at.parent_path();  // removes the slash at the end of a path like "folder/"
 
-  // Go up to the first path that exists; the names on the way are missing.
+  // Go up to the first path that exists, and collect the names that do not.
   for (; !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path())
     missing_.insert(missing_.begin(), at.filename().string());
 

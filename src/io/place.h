@@ -7,10 +7,10 @@
 
 namespace barehand {
 
-/// Where something written to a path goes: needed to decide how to open an output.
+/// The destination of what is written to a path; needed to decide how to open an output.
 struct Target {
   std::string path;     ///< the path after all symbolic links
-  bool direct = false;  ///< a pipe, a device or a descriptor (/dev/stdout), not a file to replace
+  bool direct = false;  ///< whether it is a pipe, a device or a descriptor (/dev/stdout), not a file to replace
   int descriptor = -1;  ///< the descriptor of this process that `path` names; -1: none
 };
 Target target_of(const std::string& path);
@@ -24,9 +24,9 @@ class Place {
 
   bool exists() const { return missing_.empty(); }
   bool operator==(const Place& other) const;
-  /// Whether it is anywhere below `folder`.
+  /// Whether the file is in `folder` or in a folder below it.
   bool lies_in(const Place& folder) const;
-  /// Whether it is directly in `folder`.
+  /// Whether the file is directly in `folder`.
   bool is_entry_of(const Place& folder) const;
 
  private:

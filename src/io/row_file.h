@@ -41,11 +41,11 @@ class RowFile {
 
   std::string path_, header_;
   WholeFile whole_;
-  std::unique_ptr<std::FILE, CloseFile> file_;  ///< null: finished, or moved away
+  std::unique_ptr<std::FILE, CloseFile> file_;  ///< the open file; null when it is finished or was moved from
   bool has_rows_ = false;
   std::int64_t good_ = 0;  ///< size of the file up to the last complete write
-  bool torn_ = false;      ///< the file could not be cut back after a failed write
-  bool unread_ = false;    ///< the reader of the pipe was gone at the last write
+  bool torn_ = false;      ///< whether the file could not be cut back after a failed write
+  bool unread_ = false;    ///< whether the reader of the pipe was gone at the last write
 };
 
 }  // namespace barehand

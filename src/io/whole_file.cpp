@@ -23,7 +23,7 @@ tl::unexpected<Error> cannot_write(int reason, const std::string& path,
   return fail(std::string("cannot be written: ") + std::strerror(reason), path, remedy);
 }
 
-/// Returns 0 or errno. That pipes and some file systems cannot be synchronised is no failure.
+/// Writes a file's content to the disk. Returns 0 or errno; also 0 for pipes and file systems that do not support it.
 int synchronise(int file) {
   if (fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP) return 0;
   return errno;
@@ -41,7 +41,7 @@ void synchronise_folder_of(const std::string& path) {
 int rename_unless_there(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  // The file system cannot check and rename in one step.
+  // Check and rename in two steps if the file system does not support one.
   if (access(to.c_str(), F_OK) == 0) return EEXIST;
   return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
@@ -68,7 +68,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
   file.descriptor_ = target.descriptor;
   file.overwrite_ = overwrite;
 
-  // A pipe, device or descriptor must be open for writing, or may be opened for it.
+  // Check that a pipe, device or descriptor can be written to.
   if (target.direct) {
     if (target.descriptor >= 0) {
       const int mode = fcntl(target.descriptor, F_GETFL);
@@ -81,7 +81,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
     return file;
   }
 
-  // An existing file must be one that may be replaced.
+  // Check that an existing file may be replaced.
   struct stat there {};
   if (stat(target.path.c_str(), &there) == 0) {
     if (S_ISDIR(there.st_mode)) return fail("is a folder", path, "give a file");
@@ -135,7 +135,7 @@ Result<void> WholeFile::finish() {
   if (file >= 0) reason = synchronise(file);
   if (file >= 0) close(file);
 
-  // Only what is on the disk gets the name.
+  // Rename the draft only when its content is on the disk.
   if (reason == 0 && overwrite_) reason = std::rename(draft.c_str(), target_.c_str()) == 0 ? 0 : errno;
   if (reason == 0 && !overwrite_) reason = rename_unless_there(draft, target_);
   if (lock >= 0) close(lock);

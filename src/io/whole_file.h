@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// What the draft of a file adds to its name.
+/// Ending that is appended to a file's name for its draft.
 inline constexpr std::string_view kUnfinished = ".unfinished";
 
 /// A file that gets its name when it is complete. Until then it is a draft next to that name, NAME.unfinished
@@ -43,7 +43,8 @@ class WholeFile {
  private:
   WholeFile() = default;
 
-  std::string path_, target_, draft_;  ///< as given; after all links; of the draft, "" if nothing is to be finished
+  /// The path as given, the path after all links, and the path of the draft ("" if nothing is to be finished).
+  std::string path_, target_, draft_;
   bool direct_ = false, overwrite_ = false;
   int descriptor_ = -1;  ///< descriptor that the path names, not owned; -1: none
   int lock_ = -1;        ///< descriptor that holds the draft's lock, which shows that a program is writing it

@@ -41,7 +41,7 @@ bool convert(const YAML::Node& node, T& value) {
 
 template <class T>
 bool within(T value, T lo, T hi) {
-  return value >= lo && value <= hi;  // false for NaN
+  return value >= lo && value <= hi;  // NaN is never within
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ bool within(T value, T lo, T hi) {
 struct ConfigReader::State {
   struct Group {
     YAML::Node node;   ///< a map, unless the file does not name the group
-    std::string path;  ///< its prefix, such as "tracker."
+    std::string path;  ///< prefix of the group's keys, such as "tracker."
     std::vector<std::string> known;
   };
 

@@ -22,10 +22,10 @@ class ConfigVisitor {
   virtual void operator()(const char* key, std::int64_t& value, std::int64_t lo, std::int64_t hi, const char* doc) = 0;
   virtual void operator()(const char* key, bool& value, const char* doc) = 0;
   virtual void operator()(const char* key, std::string& value, const char* doc) = 0;
-  /// One of `choices`.
+  /// Visits a key whose value must be one of `choices`.
   virtual void operator()(const char* key, std::string& value, std::initializer_list<std::string_view> choices,
                           const char* doc) = 0;
-  /// Any number of values, each within the range.
+  /// Visits a key with any number of values, each within the range.
   virtual void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) = 0;
 
   /// Visits a key that is meant for users.

@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// Which keys are written: all; those for users and all others that differ from the defaults; or only those that
-/// differ. Each choice reads back as the same configuration.
+/// Which keys are written: all; those for users and others that differ from the defaults; or only those that differ
+/// from the defaults. Reading any of these files gives the same configuration.
 enum class ConfigKeys { all, user, changed };
 
 /// Writes a parameter struct as YAML that ConfigReader accepts, with the meaning and range of each key in a comment
@@ -26,7 +26,7 @@ class ConfigWriter final : public ConfigText {
  private:
   struct Group {
     std::string key, doc;
-    bool written = false;  ///< a group appears with its first key
+    bool written = false;  ///< whether the group has been written, which happens with its first key
   };
   bool is_shown(const std::string& key, const std::string& value) const;
   void line(std::size_t depth, const std::string& text) { text_ += std::string(2 * depth, ' ') + text + "\n"; }

@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// Writes the decisions of a tracker, one per row (docs/formats.md).
+/// Writes the decisions of a tracker to a table, one per row (docs/formats.md).
 class DecisionTable {
  public:
   static Result<DecisionTable> create(const std::string& path, bool overwrite);

@@ -25,7 +25,7 @@ tl::unexpected<Error> bad(const Object& object, const char* key, const std::stri
 Result<double> checked(const Object& object, const char* key, const Json& value, double lo, double hi) {
   if (!value.is_number()) return bad(object, key, "is " + value.dump() + ", not a number", range_text(lo, hi));
   const double number = value.get<double>();
-  if (!(number >= lo && number <= hi))  // also catches NaN
+  if (!(number >= lo && number <= hi))  // rejects NaN, too
     return bad(object, key, "is " + value.dump(), range_text(lo, hi));
   return number;
 }
@@ -100,7 +100,7 @@ Result<SE3> Object::transform(const char* key) const {
     }
   }
 
-  // Only a rigid motion is accepted.
+  // Reject a matrix that is not a rigid motion.
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   const double skew = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (R.determinant() > 0 && skew >= 1e-3 && skew < 0.1)
@@ -114,7 +114,7 @@ Result<SE3> Object::transform(const char* key) const {
 
 double rounded(double value) {
   const double r = std::round(value * 1e9) / 1e9;
-  return r == 0 ? 0.0 : r;  // avoids "-0.0" in files
+  return r == 0 ? 0.0 : r;  // replaces -0, so that files never contain "-0.0"
 }
 
 Json to_json(const SE3& T) {

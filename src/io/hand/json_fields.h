@@ -12,12 +12,12 @@ using Json = nlohmann::json;
 
 /// Reads and parses a file. Errors: a missing file, or a syntax error with its line.
 Result<Json> read_json(const std::string& path);
-/// `where`: origin of the text, for messages.
+/// Parses a text. `where`: origin of the text, for messages.
 Result<Json> parse_json(const std::string& text, const std::string& where);
 /// Writes `json` to a file, replacing one that is there; a directory that does not exist or a full disk is an error.
 Result<void> write_json(const std::string& path, const Json& json);
 
-/// A JSON object together with its place, so that every message names file, object and key.
+/// A JSON object together with its origin, so that every message names file, object and key.
 struct Object {
   const Json& json;
   std::string where;  ///< for example "hand.json: segment index_distal"
@@ -33,7 +33,7 @@ struct Object {
 
 /// The 4x4 matrix, row by row, rounded to 1e-9; Object::transform() reads this form.
 Json to_json(const SE3& T);
-/// A quantity rounded to 1e-9, which has a short decimal form.
+/// A number rounded to a multiple of 1e-9, so that its decimal form is short.
 double rounded(double value);
 
 }  // namespace barehand::json_fields

@@ -43,7 +43,7 @@ Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) 
 
   HandPose pose;
 
-  // The parent comes before its child.
+  // Read the segments; parents come before their children, whose poses may depend on them.
   const Json none = Json::object();
   for (int s = 0; s < kSegmentCount; ++s) {
     const std::string name(kSegmentNames[s]);

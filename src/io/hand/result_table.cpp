@@ -20,7 +20,7 @@ constexpr std::string_view kHeader = "frame,timestamp,segment,px,py,pz,dx,dy,dz,
 constexpr std::size_t kColumns = 10;
 // Limits that no real table exceeds; sums and differences of numbers within them are finite.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
-constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // [s], no source has later frames
+constexpr double kLargestTime = 1e-6 * static_cast<double>(kLatestUtime);  // latest time of a frame [s]
 constexpr double kFarthest = 1e6;                                          // largest coordinate [m]
 
 struct ParsedLine {
@@ -128,7 +128,7 @@ Result<ResultTable> read_table(const std::string& path) {
                 "it must be \"" + std::string(kHeader) + "\"");
   TableBuilder builder;
   for (int number = 2; std::getline(file, text); ++number) {
-    const bool ended = !file.eof();  // false: the last line has no line feed
+    const bool ended = !file.eof();  // whether the line ends with a line feed; a last line without one was cut short
     if (text.empty()) continue;
     const auto line = parse_line(text);
     if (!line && !ended) return builder.finish(true);

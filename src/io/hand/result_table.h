@@ -18,7 +18,7 @@ struct TableRow {
 };
 struct TableFrame {
   std::int64_t number = 0;  ///< frame number of the recording
-  double timestamp = 0;     ///< seconds
+  double timestamp = 0;     ///< time stamp of the frame [s]
   std::array<TableRow, kSegmentCount> rows;
 };
 
@@ -27,14 +27,14 @@ TableFrame table_frame(const HandEstimate& estimate);
 
 struct ResultTable {
   std::vector<TableFrame> frames;  ///< in the order of the file
-  bool truncated = false;          ///< the last frame was cut short (its writer was stopped) and is left out
+  bool truncated = false;          ///< whether the last frame was cut short (its writer was killed) and is left out
 };
 
 /// Reads a truth or result table (docs/formats.md). Errors name the line: a frame without all segments (except a last
 /// one that was cut short), a frame that occurs twice, an implausibly large number.
 Result<ResultTable> read_table(const std::string& path);
 
-/// Writes such a table, every frame in one piece (RowFile).
+/// Writes a result table, every frame in one piece (RowFile).
 class TableWriter {
  public:
   /// An existing file is replaced only if `overwrite`; otherwise it is an error.
@@ -42,7 +42,7 @@ class TableWriter {
 
   /// Writes a frame. A full disk is an error.
   Result<void> write(const TableFrame& frame);
-  /// Writes nothing unless the hand is tracked: a pose that is merely held is no measurement.
+  /// Writes an estimate if the hand is tracked; otherwise nothing, since a pose that is only held is not a measurement.
   Result<void> write(const HandEstimate& estimate);
   /// Gives the table its name, even if it has no frames. Nothing can be written afterwards. If it is not called, the
   /// destructor finishes a table that has frames and removes one that has none.

@@ -28,13 +28,14 @@ bool all_numbers(const Json& row) {
 
 bool is_segment(double x) { return x >= 0 && x < kSegmentCount && x == std::floor(x); }
 
-// A vertex is [segment, x, y, z] or [segment, x, y, z, second segment, its weight, x, y, z].
+// Reads a vertex: [segment, x, y, z] or [segment, x, y, z, second segment, its weight, x, y, z]. Returns false if the
+// row is invalid.
 bool read_vertex(const Json& row, SkinVertex& v) {
   // Check the shape of the row.
   if (!row.is_array() || (row.size() != 4 && row.size() != 9) || !all_numbers(row)) return false;
   const auto number = [&](std::size_t i) { return row[i].get<double>(); };
   const auto point = [&](std::size_t i) { return Eigen::Vector3d(number(i), number(i + 1), number(i + 2)); };
-  const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthest; };  // false for NaN, too
+  const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthest; };  // NaN is never near
 
   // Read the first segment.
   if (!is_segment(number(0)) || !near(point(1))) return false;

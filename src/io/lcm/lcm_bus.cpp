@@ -26,8 +26,8 @@ std::string chosen_url(const std::string& url) {
   return !url.empty() ? url : in_environment ? from_environment : kDefaultUrl;
 }
 
-/// The URL with a hop limit and a receive buffer. With the kernel's default buffer almost every depth image is lost,
-/// with 2 MiB none (the kernel may grant less).
+/// Adds a hop limit and a receive buffer to the URL. With the kernel's default buffer almost every depth image is lost,
+/// with 2 MiB none (if the kernel grants that much).
 std::string effective_url(const std::string& url, int ttl) {
   const std::string chosen = chosen_url(url);
   return is_udp(chosen) ? with_option(with_option(chosen, "ttl", ttl), kBufferOption, kReceiveBuffer) : chosen;

@@ -29,7 +29,7 @@ class Scanner {
     for (std::int64_t at = 0; at < size_;) {
       auto entry = event_at(at);
       std::int64_t next = entry ? end_of(*entry) : next_sync(at + 1);
-      if (entry && !may_follow(next)) {  // it may be incomplete, with later events within its stated length
+      if (entry && !may_follow(next)) {  // the event may be cut short, so that its stated length covers later events
         if (const auto within = whole_event(at + 1, next)) {
           entry.reset();
           next = *within;

@@ -12,7 +12,7 @@ namespace barehand {
 
 /// A complete event of an LCM log.
 struct LogEntry {
-  std::int64_t position = 0;   ///< byte offset of its header in the file
+  std::int64_t position = 0;   ///< byte offset of the event's header in the file
   std::int64_t timestamp = 0;  ///< the log's own time stamp: when the event was received [us]
   std::string channel;
   std::int32_t size = 0;   ///< size of the message [bytes]
@@ -29,7 +29,7 @@ class LcmLogReader {
   /// a file that cannot be opened or is empty.
   static Result<LcmLogReader> open(const std::string& path);
 
-  const std::vector<LogEntry>& entries() const { return entries_; }  ///< in file order
+  const std::vector<LogEntry>& entries() const { return entries_; }  ///< complete events in the order of the file
   /// Number of bytes that belong to no complete event: an incomplete end, damage in the middle. 0 for a healthy log.
   std::int64_t damaged_bytes() const { return damaged_bytes_; }
 

@@ -55,7 +55,7 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   if (channel.empty() || channel.size() > kLongestChannel)
     return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
   lcm::LogEvent event;
-  event.eventnum = 0;  // set by LogFile
+  event.eventnum = 0;  // LogFile sets the event's number
   event.timestamp = utime;
   event.channel = channel;
   event.datalen = static_cast<std::int32_t>(message.size());

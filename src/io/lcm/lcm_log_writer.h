@@ -49,7 +49,7 @@ class LcmLogWriter : public MessageSink {
 
   std::string path_;
   WholeFile file_;
-  std::unique_ptr<lcm::LogFile> log_;  ///< null: finished
+  std::unique_ptr<lcm::LogFile> log_;  ///< the open log; null when it is finished
   std::int64_t events_ = 0;
   std::int64_t good_ = 0;          ///< size of the file up to the last complete event
   std::int64_t written_back_ = 0;  ///< position up to which the operating system was told to write to the disk

@@ -17,7 +17,7 @@ namespace {
 /// "take.lcmlog.01" is part 1 of "take.lcmlog"; the base of a whole log is its own name.
 struct LogName {
   std::string base;
-  std::int64_t part = -1;  ///< -1: whole
+  std::int64_t part = -1;  ///< number of the part; -1: the log is not a part of a set
   bool rotated = false;    ///< the number was written without a leading zero
 };
 
@@ -40,7 +40,7 @@ fs::path final_name(const fs::path& path) {
   return name.empty() ? path : fs::path(name);
 }
 
-/// The paths in the order in which the logs were written.
+/// Sorts paths into the order in which the logs were written.
 std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> sets;
   std::map<std::string, bool> rotated;
@@ -82,7 +82,7 @@ FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
     std::error_code ignored;
     if (!entry->is_regular_file(ignored) || entry->file_size(ignored) == 0 || !wanted(final_name(path))) continue;
 
-    // Other programs may have drafts, too.
+    // Ignore drafts of other programs.
     if (final_name(path) != path && !begins_as_log(path) && !mcap::is_mcap(path)) continue;
     if (auto reason = why_left_out(path))
       logs.left_out.push_back(std::move(*reason));

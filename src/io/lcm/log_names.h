@@ -14,7 +14,7 @@ namespace barehand {
 /// as lcmlog-2026-11-26. A number may follow, as for the parts that lcm-logger makes: take.lcmlog.00.
 bool is_log_name(const std::filesystem::path& path);
 
-/// A time [us since the epoch] as it stands in the names of logs: 20261122T090000Z.
+/// A time [us since the epoch] in the form that the names of logs contain: 20261122T090000Z.
 std::string utc_stamp(std::int64_t utime);
 
 /// The number of a log in the set that RotatingLog makes of the name `set`: take-000007-20261122T090000Z.lcmlog is the

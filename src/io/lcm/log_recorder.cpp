@@ -26,7 +26,7 @@ LogRecorder::LogRecorder(Options options, std::shared_ptr<spdlog::logger> log, c
 Result<void> LogRecorder::start(int user) {
   const std::lock_guard command(command_mutex_);
   if (recording_) return {};
-  if (thread_.joinable()) thread_.join();  // of the recording before
+  if (thread_.joinable()) thread_.join();  // the thread of the previous recording
 
   auto log = open_new();
   if (!log) {
@@ -48,7 +48,7 @@ Result<void> LogRecorder::start(int user) {
   return {};
 }
 
-/// A new name in the folder, which the state then says.
+/// Creates a log with an unused name in the folder, and stores the name in the state.
 Result<std::unique_ptr<LcmLogWriter>> LogRecorder::open_new() {
   const std::string stem = "barehand-" + utc_stamp(clock_.utime());
   std::string name = stem + ".lcmlog";
@@ -77,7 +77,7 @@ void LogRecorder::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-/// Nothing more is taken. What waits is still to be written.
+/// Stops accepting entries; the waiting ones are still written. `note` and `failed` are stored in the state.
 void LogRecorder::end(const std::string& note, bool failed) {
   const std::lock_guard lock(mutex_);
   if (failed || state_.recording) {
@@ -107,7 +107,7 @@ void LogRecorder::run(LcmLogWriter& log) {
   Result<void> written = write_entries(log);
   if (!written) end("The recording ended: " + written.error().message(), true);
 
-  // The log gets its name, unless nothing was written: then nothing remains of it.
+  // Finish the log, which gives it its name. A log without entries is removed instead (by its destructor).
   if (const auto finished = log.events() > 0 ? log.finish() : Result<void>(); !finished && written) {
     written = finished;
     end("The recording could not be finished: " + finished.error().message(), true);
@@ -122,7 +122,7 @@ void LogRecorder::run(LcmLogWriter& log) {
     log_->info(done.note);
 }
 
-/// The file is whole, or as whole as it becomes.
+/// Notes in the state that nothing more is written. `empty`: no entry was written, so there is no file.
 RecorderState LogRecorder::close(bool empty) {
   const std::lock_guard lock(mutex_);
   if (empty) {

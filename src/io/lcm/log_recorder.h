@@ -16,52 +16,53 @@
 
 namespace barehand {
 
-/// What a LogRecorder does, or did last.
+/// The state of a LogRecorder and of its current or last recording.
 struct RecorderState {
-  std::string folder;       ///< where recordings go; "": there is none, so nothing can be recorded
-  bool recording = false;   ///< further frames are taken
-  bool writing = false;     ///< the file is not whole yet
-  std::string file;         ///< name, in the folder, of the recording that is written or was written last; "": none yet
-  std::int64_t frames = 0;  ///< written
-  std::int64_t bytes = 0;   ///< written
-  double seconds = 0;       ///< since it was started, until it was stopped
-  std::int64_t dropped = 0;  ///< entries that came faster than they could be written
-  std::string note;          ///< a sentence about an end that the user did not bring about himself; "": there is none
-  bool failed = false;       ///< the note says what went wrong
+  std::string folder;        ///< folder of the recordings; "": there is none, so nothing can be recorded
+  bool recording = false;    ///< whether new frames are being recorded
+  bool writing = false;      ///< whether the file is not complete yet
+  std::string file;          ///< name of the current or last recording's file in the folder; "": none yet
+  std::int64_t frames = 0;   ///< number of frames written
+  std::int64_t bytes = 0;    ///< number of bytes written
+  double seconds = 0;        ///< duration of the recording so far, or until it was stopped [s]
+  std::int64_t dropped = 0;  ///< number of entries dropped because they arrived faster than they could be written
+  std::string note;          ///< why the recording ended, as a sentence; "": the user stopped it, or it has not ended
+  bool failed = false;       ///< whether `note` describes an error
 };
 
-/// Records into LCM logs when a user who looks on says so. Every recording is a new file of the folder,
-/// barehand-20261122T090000Z.lcmlog, which never replaces another one. A thread of its own encodes and writes: whoever
-/// posts never waits, and entries that come faster are dropped and counted. A disk that is full or gone ends the
-/// recording; what was written until then stays. All methods may be called from any thread.
+/// Records frames to LCM logs when a user of the live page asks for it. Every recording is a new file in the folder,
+/// such as barehand-20261122T090000Z.lcmlog, which never replaces another one. A separate thread encodes and writes, so
+/// post() never waits; if entries arrive faster than they are written, the oldest waiting ones are dropped and counted.
+/// A full or missing disk ends the recording; what was written before stays. All functions may be called from any
+/// thread.
 class LogRecorder {
  public:
   /// Encodes and writes one entry; called on the recorder's thread.
   using Write = std::function<Result<void>(MessageSink& log)>;
   struct Options {
     std::string folder;
-    std::size_t capacity = 30;  ///< entries that may wait, each with a frame in memory
+    std::size_t capacity = 30;  ///< largest number of waiting entries, each with a frame in memory
   };
 
-  /// Errors: `folder` is no folder that can be written to.
+  /// Checks that recordings can be written to `folder`. Errors: it is not a folder, or there is no permission.
   static Result<void> check_folder(const std::string& folder);
-  /// `clock` outlives it.
+  /// `clock` must outlive the recorder.
   LogRecorder(Options options, std::shared_ptr<spdlog::logger> log, const Clock& clock);
   ~LogRecorder() { finish(); }
   LogRecorder(const LogRecorder&) = delete;
   LogRecorder& operator=(const LogRecorder&) = delete;
 
-  /// `user`: who says so. Where a recording is under way, it goes on. Errors: no file can be made; the state says so,
-  /// too.
+  /// Starts a recording unless one is in progress. `user`: number of the user who asks for it. Error: no file can be
+  /// created; the state contains the error, too.
   Result<void> start(int user);
-  /// What waits is still written. Where nothing is recorded, nothing happens.
+  /// Stops the recording if one is in progress; waiting entries are still written. `user`: as for start().
   void stop(int user);
-  /// Ends a recording that is under way, and waits until the last one is whole.
+  /// Stops the recording if one is in progress, and waits until its file is complete.
   void finish();
 
   bool recording() const { return recording_; }
-  /// Nothing happens unless a recording is under way. `utime`: of the frame that this belongs to; a later one than
-  /// before counts as a frame.
+  /// Queues an entry; does nothing unless a recording is in progress. `utime`: time stamp of the entry's frame [us];
+  /// entries whose time stamp is later than all before count as a new frame.
   void post(std::int64_t utime, Write write);
   RecorderState state() const;
 
@@ -83,14 +84,14 @@ class LogRecorder {
   const Clock& clock_;
   std::atomic<bool> recording_ = false;
 
-  std::mutex command_mutex_;  // one start or stop at a time; protects the next member. Held while a file is made
+  std::mutex command_mutex_;  // serialises start() and stop(), also while a file is created; protects the next member
   std::thread thread_;
 
-  mutable std::mutex mutex_;      // protects the members below; never held while anything is written, also to the log
-  std::unique_ptr<Queue> queue_;  // of the last recording; closed: it takes nothing more
+  mutable std::mutex mutex_;      // protects the members below; never held while writing to a file or logging
+  std::unique_ptr<Queue> queue_;  // entries of the current or last recording; closed when the recording was stopped
   RecorderState state_;
-  std::int64_t started_us_ = 0;  // steady clock
-  int user_ = 0;                 // who started it
+  std::int64_t started_us_ = 0;  // start of the recording, steady clock
+  int user_ = 0;                 // number of the user who started the recording
 };
 
 }  // namespace barehand

@@ -16,8 +16,8 @@ inline constexpr std::size_t kLongestChannel = 63;
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
-  /// Sends a message. `utime`: time of the measurement [us]; a log uses it as the event's time stamp, never the wall
-  /// clock.
+  /// Sends a message. `utime`: time of the measurement [us], which a log stores as the event's time stamp instead of
+  /// the wall-clock time.
   virtual Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) = 0;
   /// Call it after the last message. On return, everything that was sent has reached its destination.
   virtual Result<void> finish() { return {}; }

@@ -59,7 +59,8 @@ Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path
   return log;
 }
 
-/// Call it before the first file of this run is created: until then, every draft of the set is from an earlier run.
+/// Gives the drafts of earlier runs their names. Must be called before the first file of this run is created, because
+/// until then every draft of the set is from an earlier run.
 void RotatingLog::finish_abandoned_files() const {
   const std::string ending = path_.extension().string() + std::string(kUnfinished);
   std::error_code ignored;
@@ -129,7 +130,7 @@ bool RotatingLog::remove_oldest() {
   if (files_.size() <= (log_ ? 1u : 0u)) return false;
   std::error_code error;
   fs::remove(files_.front().path, error);
-  files_.pop_front();  // even if it cannot be removed or is gone: it is not tried again
+  files_.pop_front();  // forget the file even if it could not be removed, so that this is not tried again
   return true;
 }
 

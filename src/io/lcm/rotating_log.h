@@ -13,7 +13,7 @@
 
 namespace barehand {
 
-/// When a recording continues in a new file, and how much of it is kept. 0: no limit.
+/// Limits after which a recording continues in a new file, and of what is kept of it. 0: no limit.
 struct LogRotation {
   std::int64_t max_bytes = 0;   ///< largest size of one file [bytes]
   std::int64_t max_age_us = 0;  ///< longest time in one file [us]

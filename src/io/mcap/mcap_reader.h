@@ -25,7 +25,7 @@ struct Channel {
 struct Message {
   std::uint16_t channel = 0;  ///< key of McapReader::channels()
   std::uint32_t sequence = 0;
-  std::uint64_t log_time = 0;  ///< [ns]
+  std::uint64_t log_time = 0;  ///< time at which the message was recorded [ns]
   std::int64_t chunk = -1;     ///< position of its chunk in the file; -1: it is not in a chunk
   std::uint64_t offset = 0;    ///< position of its data in the unpacked chunk, or in the file if it is not in a chunk
   std::uint64_t size = 0;

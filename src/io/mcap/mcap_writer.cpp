@@ -74,7 +74,7 @@ std::uint16_t McapWriter::channel_of(const NewMessage& message) {
   const auto [known, added] = channel_ids_.try_emplace(key, static_cast<std::uint16_t>(channels_.size() + 1));
   if (!added) return known->second;
 
-  // A new channel: its record precedes the next chunk, and is repeated in the summary.
+  // Make the record of a new channel, which precedes the next chunk and is repeated in the summary.
   const std::uint16_t schema = schema_of(message);
   Bytes& record = channels_.emplace_back().record;
   RecordWriter writer(record);
@@ -149,7 +149,7 @@ McapWriter::Bytes McapWriter::chunk_record(Span span) const {
 }
 
 Result<void> McapWriter::write_chunk() {
-  // Before the chunk: the beginning of the file, if this is the first chunk, and new schemas and channels.
+  // Write the beginning of the file, if this is the first chunk, and new schemas and channels.
   Bytes bytes;
   RecordWriter writer(bytes);
   if (good_ == 0) {
@@ -161,7 +161,7 @@ Result<void> McapWriter::write_chunk() {
   }
   writer.put_bytes(new_records_);
 
-  // The chunk, and the index of its messages.
+  // Write the chunk and the index of its messages.
   const Span span = span_of(index_);
   const std::uint64_t start = good_ + bytes.size();
   const Bytes chunk = chunk_record(span);
@@ -215,8 +215,8 @@ McapWriter::Bytes McapWriter::statistics() const {
   writer.put(messages_);
   writer.put(static_cast<std::uint16_t>(schemas_.size()));
   writer.put(static_cast<std::uint32_t>(channels_.size()));
-  writer.put<std::uint32_t>(0);  // attachments
-  writer.put<std::uint32_t>(0);  // metadata
+  writer.put<std::uint32_t>(0);  // number of attachments
+  writer.put<std::uint32_t>(0);  // number of metadata records
   writer.put(static_cast<std::uint32_t>(chunk_indexes_.size()));
   writer.put(span_.first);
   writer.put(span_.last);
@@ -233,7 +233,7 @@ McapWriter::Bytes McapWriter::ending() const {
   writer.put(crc_);
   writer.end();
 
-  // The summary: the records in groups of one kind, then the offset of each group.
+  // Write the summary: the records in groups of one kind, then the offset of each group.
   const std::size_t summary = bytes.size();
   Bytes offsets;
   const auto group = [&](Kind kind, const auto& put_records) {
@@ -259,7 +259,7 @@ McapWriter::Bytes McapWriter::ending() const {
   const std::size_t offsets_start = bytes.size();
   writer.put_bytes(offsets);
 
-  // The footer. Its checksum covers the summary and the footer up to the checksum.
+  // Write the footer. Its checksum covers the summary and the footer up to the checksum.
   writer.put(Kind::footer);
   writer.put<std::uint64_t>(20);
   writer.put<std::uint64_t>(good_ + summary);
@@ -278,7 +278,7 @@ Result<void> McapWriter::finish() {
   if (!failed_ && good_ > 0)
     if (auto ended = append(ending()); !ended && result) result = ended;
   close(std::exchange(descriptor_, -1));
-  if (good_ == 0) {  // nothing that looks finished comes from nothing
+  if (good_ == 0) {  // nothing was written, so no file must get the name
     file_.discard();
     return result;
   }

@@ -43,7 +43,7 @@ class McapWriter {
 
   /// An entry of a message index.
   struct Stamp {
-    std::uint64_t time = 0, offset = 0;  ///< time of the message [ns]; its position in the chunk
+    std::uint64_t time = 0, offset = 0;  ///< time of the message [ns], and its position in the chunk
   };
   struct Channel {
     Bytes record;
@@ -52,7 +52,7 @@ class McapWriter {
   struct Span {
     std::uint64_t first = 0, last = 0;  ///< times of the first and the last message [ns]
   };
-  using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< by channel
+  using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< messages of each channel
 
   McapWriter(std::string path, WholeFile file, int descriptor);
   std::uint16_t schema_of(const NewMessage& message);
@@ -68,22 +68,22 @@ class McapWriter {
 
   const std::string path_;
   WholeFile file_;
-  int descriptor_;                  // -1: finished
+  int descriptor_;                  // descriptor of the file; -1 when it is finished
   std::uint64_t good_ = 0;          // size of the file up to the last complete chunk
-  std::uint32_t crc_ = 0;           // checksum of these bytes
+  std::uint32_t crc_ = 0;           // checksum of the first `good_` bytes
   std::uint64_t written_back_ = 0;  // number of bytes whose writing to the disk was started
-  bool failed_ = false;             // a failed write could not be undone
+  bool failed_ = false;             // whether a failed write could not be undone
 
   Bytes records_;                  // messages of the next chunk
-  Index index_;                    // their index
-  std::uint64_t chunk_start_ = 0;  // time of the first of them [ns]
+  Index index_;                    // index of the messages in `records_`
+  std::uint64_t chunk_start_ = 0;  // time of the first message in `records_` [ns]
   Bytes new_records_;              // schemas and channels that are not in the file yet
 
   std::vector<Bytes> schemas_, chunk_indexes_;
   std::vector<Channel> channels_;
   std::map<std::string, std::uint16_t> schema_ids_, channel_ids_;
   std::uint64_t messages_ = 0;  // number of messages in the file
-  Span span_;                   // their times
+  Span span_;                   // times of the first and the last message in the file
 };
 
 }  // namespace barehand::mcap

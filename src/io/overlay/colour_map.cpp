@@ -30,7 +30,7 @@ Rgb darkened(const Rgb& c) {
 
 ColouredDepths typical_range(const RgbdFrame& frame) {
   std::vector<std::uint16_t> counts;
-  for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel suffices
+  for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel is enough for the percentiles
     if (frame.depth[i] > 0) counts.push_back(frame.depth[i]);
   if (counts.empty()) return {};
   const auto at = [&](double fraction) {

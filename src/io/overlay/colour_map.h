@@ -9,7 +9,7 @@ namespace barehand {
 struct ColouredDepths {
   double near = 0, far = 1;
 };
-/// The range of the middle 96 % of a frame's valid depths; the default range if it has none.
+/// The range that contains the middle 96 % of a frame's valid depths; the default range if there are none.
 ColouredDepths typical_range(const RgbdFrame& frame);
 
 /// Depth in the colours of the Turbo map: near is red, far is blue, values out of range are darkened, and missing

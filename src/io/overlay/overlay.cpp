@@ -21,7 +21,7 @@ bool is_other_video(const std::string& path) {
   return !fs::is_directory(path, error) && std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-/// Whether the image of a frame can have this name, such as 000012.jpg.
+/// Whether a file has a name that OverlayWriter gives to the image of a frame, such as 000012.jpg.
 bool is_picture_name(const fs::path& name) {
   const std::string stem = name.stem().string();
   const bool number = stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
@@ -57,7 +57,7 @@ class OverlayWriter::Folder : public OverlayWriter::Output {
 
  private:
   std::string path_;
-  bool old_pictures_;  ///< images of an earlier run may be there and are to be removed
+  bool old_pictures_;  ///< whether images of an earlier run may exist and must be removed
 };
 
 class OverlayWriter::Video : public OverlayWriter::Output {
@@ -90,7 +90,7 @@ OverlayWriter& OverlayWriter::operator=(OverlayWriter&&) noexcept = default;
 OverlayWriter::~OverlayWriter() = default;
 
 void OverlayWriter::HandSkin::follow(const HandEstimate& estimate) {
-  constexpr double kCell = 0.004;  // m; finer is not seen in the picture
+  constexpr double kCell = 0.004;  // size of the skin's triangles [m]; smaller ones make no visible difference
   if (!estimate.has_pose() || estimate.profile == profile) return;
   profile = estimate.profile;
   skin = make_skin(*profile, kCell);

@@ -17,11 +17,12 @@
 namespace barehand {
 namespace {
 
-constexpr int kSmallWidth = 480;       // narrower frames are enlarged
-constexpr double kDepthAround = 0.12;  // depth in front of and behind the hand that the colours show [m]
+constexpr int kSmallWidth = 480;       // frames narrower than this are enlarged [px]
+constexpr double kDepthAround = 0.12;  // the colours show depths up to this far in front of and behind the hand [m]
 const cv::Scalar kDistalBlue(40, 80, 255), kWhite(255, 255, 255);
 
-/// Draws the bones and the distal ends of a hand's segments onto a picture, thin: the skin below shall stay visible.
+/// Draws the bones and the distal ends of a hand's segments onto an image, with thin lines that hide little of the
+/// skin.
 class BoneDrawing {
  public:
   BoneDrawing(cv::Mat picture, const Intrinsics& camera, int scale, const HandEstimate& estimate)
@@ -35,7 +36,7 @@ class BoneDrawing {
   }
 
  private:
-  /// Bones are light where they were measured, and have the colour of the finger where they are inferred.
+  /// Draws a bone from `a` to `b` in the colour of its finger, lighter if the segment was measured in this frame.
   void draw_bone(int s, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     const auto from = pixel_of(camera_, a), to = pixel_of(camera_, b);
     if (!from || !to) return;
@@ -108,7 +109,7 @@ cv::Mat view(Image<Rgb>& image) { return {image.height(), image.width(), CV_8UC3
 int overlay_scale(const Intrinsics& camera) { return camera.width < kSmallWidth ? 2 : 1; }
 
 Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands, SegmentNames names) {
-  // Prepare the sheet, its two images and the skin that is painted over both.
+  // Prepare the output image, its two halves and the skin that is painted over both.
   const int scale = overlay_scale(frame.camera);
   const Intrinsics camera = enlarged(frame.camera, scale);
   Image<Rgb> sheet(2 * camera.width, camera.height + kCaptionHeight);

@@ -14,7 +14,7 @@ inline constexpr int kCaptionHeight = 28;
 /// The factor by which small frames are enlarged, so that lines stay legible.
 int overlay_scale(const Intrinsics& camera);
 
-/// A hand with a skin of its profile.
+/// A hand to be drawn: its estimate, and the skin of its profile.
 struct DrawnHand {
   const HandEstimate& estimate;
   const Skin& skin;
@@ -23,10 +23,10 @@ struct DrawnHand {
 /// Whether an overlay names the segments.
 enum class SegmentNames { left_out, drawn };
 
-/// Draws colour and depth side by side with the hands over both: the skin, translucent and shaded, in one colour for
-/// each finger (paint_skin); on top thin bones, and the distal ends of the segments as blue dots (paper Fig. 8), hollow
-/// where a segment is inferred. Names stand over the colour image. The caption below states frame number, time and the
-/// status of each hand. Without a pose, only images and caption are drawn.
+/// Draws the colour and the depth image side by side, and the hands over both: the translucent, shaded skin in one
+/// colour for each finger (paint_skin), then thin bones and the distal ends of the segments as blue dots (paper Fig.
+/// 8), hollow if the segment is inferred. Names of segments are written over the colour image only. The caption below
+/// states frame number, time and the status of each hand. Without a pose, only images and caption are drawn.
 Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands,
                         SegmentNames names = SegmentNames::left_out);
 

@@ -9,21 +9,21 @@
 
 namespace barehand {
 
-// What the parts of an overlay share: cameras, pixels and ends of segments.
+// Functions that all parts of an overlay use: cameras, pixels and ends of segments.
 
 /// Whether a segment was estimated from this frame's data.
 inline bool is_measured(const HandEstimate& estimate, int segment) {
   return estimate.status == TrackStatus::tracking && estimate.segments[segment].seen;
 }
 
-/// The camera whose images are `scale` times as large. Pixel centres lie at integers: enlarging keeps the edges of
-/// pixels in place, not their centres.
+/// The camera whose images are `scale` times as large. Pixel centres have integer coordinates, so the principal point
+/// changes by more than the factor: enlarging keeps the edges of pixels in place, not their centres.
 inline Intrinsics enlarged(const Intrinsics& camera, int scale) {
   return {camera.width * scale, camera.height * scale,           camera.fx * scale,
           camera.fy * scale,    (camera.cx + 0.5) * scale - 0.5, (camera.cy + 0.5) * scale - 0.5};
 }
 
-inline constexpr int kFractionBits = 4;  ///< of the fixed-point coordinates that the functions below pass to OpenCV
+inline constexpr int kFractionBits = 4;  ///< fractional bits of the fixed-point coordinates that OpenCV gets
 
 /// The pixel of a point in the camera frame with kFractionBits fractional bits; none if it is behind the camera or so
 /// far outside that its coordinates would not fit.

@@ -11,18 +11,18 @@
 namespace barehand {
 namespace {
 
-constexpr int kLineHeight = 15;  // px
-constexpr int kGap = 28;         // from the outermost middle of a segment to the labels [px]
+constexpr int kLineHeight = 15;  // distance of two labels in a column [px]
+constexpr int kGap = 28;         // distance of the labels from the outermost middle of a segment [px]
 constexpr double kFontScale = 0.38;
 
 struct Label {
   std::string text;
   cv::Scalar colour;
-  cv::Point segment;  // middle of the segment [px]
-  int v = 0;          // centre of the text [px]
+  cv::Point segment;  // middle of the segment in the image [px]
+  int v = 0;          // row of the text's centre [px]
 };
 
-/// One label for every segment whose middle lies in the picture.
+/// One label for every segment whose middle lies in the image.
 std::vector<Label> labels_of(const HandEstimate& estimate, const Intrinsics& camera, const cv::Size& picture) {
   std::vector<Label> labels;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -38,7 +38,7 @@ std::vector<Label> labels_of(const HandEstimate& estimate, const Intrinsics& cam
   return labels;
 }
 
-/// Moves the labels of a column apart, so that they neither overlap nor leave the picture, where it is high enough.
+/// Moves the labels of a column apart, so that they neither overlap nor leave the image, if the image is high enough.
 void spread(std::vector<Label>& column, int height) {
   std::stable_sort(column.begin(), column.end(), [](const Label& a, const Label& b) { return a.v < b.v; });
   int lowest = kLineHeight;
@@ -53,15 +53,15 @@ void spread(std::vector<Label>& column, int height) {
   }
 }
 
-/// Draws a column whose inner edge is at `edge`, to its left or right.
+/// Draws a column of labels to the left or right of `edge`, the column of pixels at its inner side.
 void draw_column(const std::vector<Label>& column, int edge, bool to_left, cv::Mat& picture) {
   for (const Label& label : column) {
-    // Place the text beside the edge, but within the picture.
+    // Place the text next to the edge, but within the image.
     const cv::Size size = cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, nullptr);
     const int left = std::clamp(to_left ? edge - size.width : edge, 2, std::max(2, picture.cols - size.width - 2));
     const cv::Point text(left, label.v + size.height / 2), joint(to_left ? left + size.width + 2 : left - 2, label.v);
 
-    // A dark rim keeps the text legible over any picture; a rim of the line would cover the hand.
+    // Draw the line, then the text with a dark rim, which keeps it legible over any image.
     cv::line(picture, label.segment, joint, label.colour, 1, cv::LINE_AA);
     for (const auto& [colour, thickness] : {std::pair{cv::Scalar(20, 20, 20), 3}, {label.colour, 1}})
       cv::putText(picture, label.text, text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, colour, thickness, cv::LINE_AA);
@@ -74,7 +74,7 @@ void draw_segment_names(const HandEstimate& estimate, const Intrinsics& camera, 
   std::vector<Label> labels = labels_of(estimate, camera, picture.size());
   if (labels.empty()) return;
 
-  // The left half of the segments is named on the left, the other half on the right.
+  // Put the labels of the left half of the segments into the left column, the others into the right one.
   std::stable_sort(labels.begin(), labels.end(),
                    [](const Label& a, const Label& b) { return a.segment.x < b.segment.x; });
   const auto middle = labels.begin() + static_cast<std::ptrdiff_t>(labels.size() / 2);

@@ -6,8 +6,8 @@
 
 namespace barehand {
 
-/// Writes the names of a hand's segments in two columns beside it, each joined by a line with the middle of its
-/// segment. `camera` is that of the picture (R, G, B).
+/// Writes the names of a hand's segments in two columns to the left and right of the hand, each connected by a line to
+/// the middle of its segment. `camera` is the camera of the image `picture` (R, G, B).
 void draw_segment_names(const HandEstimate& estimate, const Intrinsics& camera, cv::Mat& picture);
 
 }  // namespace barehand

@@ -15,17 +15,19 @@ namespace {
 
 using Pixel = SkinLayer::Pixel;
 
-// Skin counts as hidden if it lies farther behind the measured surface than this [m]: errors of skin and pose, and
-// three standard deviations of a structured-light camera's noise, which grows with the square of the depth.
+// Skin at the depth `z` counts as hidden if it lies farther behind the measured surface than this [m]: the sum of the
+// errors of skin and pose and of three standard deviations of a structured-light camera's noise, which grows with the
+// square of the depth.
 float hidden_behind(float z) { return 0.012f + 0.006f * z * z; }
 
-/// Brightness of a vertex, in [0, 1]: the light comes from the camera, a little from its top left.
+/// Brightness of a vertex with this normal (camera frame), in [0, 1]: one light is at the camera, the other above it to
+/// the left.
 float light_of(const Eigen::Vector3f& normal) {
   const Eigen::Vector3f to_lamp = Eigen::Vector3f(-0.35f, -0.6f, -0.72f).normalized();
   return std::min(1.0f, 0.35f + 0.5f * std::max(0.0f, normal.dot(to_lamp)) + 0.2f * std::max(0.0f, -normal.z()));
 }
 
-/// Colour (R, G, B) and opacity.
+/// Colour (R, G, B) in [0, 255], and opacity in [0, 1].
 using Paint = cv::Vec4f;
 
 Paint paint_of(const HandEstimate& estimate, int segment) {
@@ -36,7 +38,7 @@ Paint paint_of(const HandEstimate& estimate, int segment) {
   return {faded(full.r), faded(full.g), faded(full.b), 0.3f + 0.4f * confidence};
 }
 
-/// The lit paint of every vertex, which near a joint is a mixture of two segments.
+/// The shaded colour and the opacity of every vertex; near a joint, those of the two segments are mixed.
 std::vector<Paint> vertex_paints(const HandEstimate& estimate, const Skin& skin, const RenderedHand& rendered) {
   std::array<Paint, kSegmentCount> paints;
   for (int s = 0; s < kSegmentCount; ++s) paints[s] = paint_of(estimate, s);
@@ -45,13 +47,13 @@ std::vector<Paint> vertex_paints(const HandEstimate& estimate, const Skin& skin,
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const SkinVertex& v = skin.vertices[i];
     const float light = light_of(rendered.normal[i]);
-    const float share_b = std::max(0.0f, 3 * v.weight_b - 1);  // narrower than the blend of the skin; 1/2 at 1/2, too
+    const float share_b = std::max(0.0f, 3 * v.weight_b - 1);  // colours mix in a narrower zone than the skin bends
     mixed[i] = (paints[v.a] * (1 - share_b) + paints[v.b] * share_b).mul({light, light, light, 1});
   }
   return mixed;
 }
 
-/// Adds the skin of one hand where it is in front of what the layer holds.
+/// Adds the skin of one hand to the pixels in which it is in front of the skin added before.
 void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& rendered, SkinLayer& layer) {
   const std::vector<Paint> paints = vertex_paints(hand.estimate, hand.skin, rendered);
   int left = rendered.grid.width, right = 0, top = rendered.grid.height, bottom = 0;
@@ -61,7 +63,7 @@ void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& re
       Pixel& p = layer.pixels.at(u, v);
       if (z == 0 || (p.z > 0 && p.z <= z)) continue;
 
-      // The hand is the nearest skin here so far: paint the pixel, and extend the rectangle that holds skin.
+      // Set the pixel, and extend the rectangle that contains skin.
       const std::int32_t vertex = rendered.vertex.at(u, v);
       const Paint& paint = paints[vertex];
       const int segment = hand.skin.vertices[vertex].a;
@@ -75,7 +77,7 @@ void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& re
   if (left < right) layer.part |= cv::Rect(left, top, right - left, bottom - top);
 }
 
-/// Calls `visit(pixel, row, column)` for all pixels of the part that holds skin; row and column count from its corner.
+/// Calls `visit(pixel, row, column)` for all pixels of `layer.part`; row and column count from its top left corner.
 template <typename Visit>
 void for_each_pixel(SkinLayer& layer, Visit&& visit) {
   for (int v = 0; v < layer.part.height; ++v) {
@@ -84,9 +86,9 @@ void for_each_pixel(SkinLayer& layer, Visit&& visit) {
   }
 }
 
-/// Smooths colour and opacity, which are constant around each vertex, among the pixels with skin.
+/// Smooths the colours and opacities of the pixels with skin, which are constant around each vertex.
 void smooth_paint(int scale, SkinLayer& layer) {
-  // Blur paint and coverage alike.
+  // Blur the colours and opacities together with the coverage (1 where there is skin, otherwise 0).
   using PaintAndCoverage = cv::Vec<float, 5>;
   cv::Mat_<PaintAndCoverage> paint(layer.part.size());
   for_each_pixel(layer, [&](const Pixel& p, int v, int u) {
@@ -95,7 +97,7 @@ void smooth_paint(int scale, SkinLayer& layer) {
   const int width = 4 * scale + 1;
   cv::blur(paint, paint, {width, width});
 
-  // Their ratio is the mean over the skin in the neighbourhood.
+  // Divide by the blurred coverage, which gives the mean over the pixels with skin in the neighbourhood.
   for_each_pixel(layer, [&](Pixel& p, int v, int u) {
     if (p.z == 0) return;
     const PaintAndCoverage& sum = paint(v, u);
@@ -116,9 +118,10 @@ void mark_hidden(const RgbdFrame& frame, int scale, SkinLayer& layer) {
   for_each_pixel(layer, [&](Pixel& p, int v, int u) { p.hidden = hidden(v, u) > 0; });
 }
 
-/// Whether the skin at a pixel ends here: beside it is no skin, or skin that lies clearly deeper.
+/// Whether a pixel is on the outline of the skin: a neighbouring pixel has no skin, or skin that is clearly deeper.
 bool on_outline(const SkinLayer& layer, int u, int v) {
-  constexpr float kStep = 0.010f, kStepToOther = 0.003f;  // within a finger, and to other fingers and hands [m]
+  // Depth steps from which on there is an outline [m]: within a finger, and to another finger or hand.
+  constexpr float kStep = 0.010f, kStepToOther = 0.003f;
   const Pixel& p = layer.pixels.at(u, v);
   const auto finger = [](const Pixel& q) { return q.segment == kPalm ? -1 : finger_of(q.segment); };
   for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
@@ -153,16 +156,16 @@ SkinLayer render_skin(const RgbdFrame& frame, int scale, std::span<const DrawnHa
 }
 
 void paint_skin(const SkinLayer& layer, cv::Mat& picture) {
-  constexpr int kStripe = 4;                                         // width of the stripes of the hatching [px]
-  constexpr float kHidden = 0.4f, kGap = 0.2f;                       // factors of the opacity
-  constexpr float kOutline = 0.85f, kHiddenOutline = 0.5f;           // opacities
-  constexpr float kOutlineLight = 0.7f, kHiddenOutlineLight = 1.2f;  // factors of the colour
+  constexpr int kStripe = 4;                                // width of the stripes of the hatching [px]
+  constexpr float kHidden = 0.4f, kGap = 0.2f;              // factors on the opacity of hidden skin and between stripes
+  constexpr float kOutline = 0.85f, kHiddenOutline = 0.5f;  // opacities of outlines
+  constexpr float kOutlineLight = 0.7f, kHiddenOutlineLight = 1.2f;  // factors on the colour of outlines
   for (int v = layer.part.y; v < layer.part.br().y; ++v) {
     for (int u = layer.part.x; u < layer.part.br().x; ++u) {
       const Pixel& p = layer.pixels.at(u, v);
       if (p.z == 0) continue;
 
-      // An outline is darker than the skin, but lighter where the skin is hidden and nearly invisible.
+      // Choose the opacity and brightness: an outline is darker than the skin, but lighter if the skin is hidden.
       float opacity = p.hidden ? kHidden * p.opacity : p.opacity, light = 1;
       if (on_outline(layer, u, v)) {
         opacity = p.hidden ? kHiddenOutline : kOutline;
@@ -171,7 +174,7 @@ void paint_skin(const SkinLayer& layer, cv::Mat& picture) {
         opacity *= kGap;
       }
 
-      // Blend the skin with the picture.
+      // Blend the skin with the image below it.
       auto& pixel = picture.at<cv::Vec3b>(v, u);
       const cv::Vec3f below = pixel;
       pixel = below + opacity * (light * p.colour - below);

@@ -16,22 +16,22 @@ struct SkinLayer {
   struct Pixel {
     float z = 0;               ///< depth of the skin [m]; 0: there is no skin
     cv::Vec3f colour;          ///< R, G, B of the lit skin, in [0, 255]
-    float opacity = 0;         ///< in [0, 1]
+    float opacity = 0;         ///< opacity of the skin, in [0, 1]
     std::uint8_t hand = 0;     ///< index of the hand
     std::uint8_t segment = 0;  ///< the segment that the skin belongs to
-    bool inferred = false;     ///< the segment was not measured in this frame
-    bool hidden = false;       ///< farther than the measured depth by more than noise and errors of the skin explain
+    bool inferred = false;     ///< whether the segment was not measured in this frame
+    bool hidden = false;       ///< whether it is farther than the measured depth by more than noise and errors explain
   };
   Image<Pixel> pixels;
-  cv::Rect part;  ///< the part of the image that holds skin
+  cv::Rect part;  ///< smallest rectangle that contains all pixels with skin
 };
 
 /// Renders the hands that have a pose into an image `scale` times as large as the frame: shaded, in the colours of the
-/// fingers. The less sure a segment, the paler and the more transparent it is.
+/// fingers. The lower the confidence of a segment, the paler and the more transparent it is.
 SkinLayer render_skin(const RgbdFrame& frame, int scale, std::span<const DrawnHand> hands);
 
-/// Paints a layer over a picture (R, G, B) of the same size, with an outline around each finger. Inferred skin is
-/// hatched, and hidden skin is fainter than any other.
+/// Paints a layer over an image (R, G, B) of the same size, with an outline around each finger. Inferred skin is
+/// hatched, and hidden skin is more transparent than other skin.
 void paint_skin(const SkinLayer& layer, cv::Mat& picture);
 
 }  // namespace barehand

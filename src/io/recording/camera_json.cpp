@@ -58,7 +58,7 @@ std::optional<std::vector<double>> listed(const Json& json) {
   return std::nullopt;
 }
 
-/// The same for coefficients that have one key each.
+/// The coefficients in OpenCV's order, from one key for each of them; none if there are no such keys.
 std::optional<std::vector<double>> named(const Json& json) {
   constexpr std::array<const char*, 8> kNames = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
   std::vector<double> values(kNames.size(), 0);
@@ -75,8 +75,8 @@ bool has_part(const std::string& name, std::initializer_list<const char*> parts)
   return std::ranges::any_of(parts, [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
-/// Whether the model has other formulas: those for wide-angle lenses, and librealsense's variants of Brown and
-/// Conrady's.
+/// Whether a distortion model of this name has other formulas than struct Distortion: those for wide-angle lenses, and
+/// librealsense's variants of Brown and Conrady's.
 bool is_other(const std::string& model) {
   return has_part(model, {"inverse", "modified", "fisheye", "fish_eye", "equidistant", "kannala", "theta", "fov",
                           "omni", "division"});
@@ -99,7 +99,7 @@ std::string model_of(const Json& json) {
   return "";
 }
 
-/// The object that holds the coefficients: the whole, or one of its parts.
+/// The object that holds the coefficients of distortion: the whole file, or one of its parts.
 const Json& part_with_distortion(const Json& json) {
   for (const char* key : {"distortion", "depth", "intrinsics", "depth_intrinsics", "intrinsic", "parameters"})
     if (json.contains(key) && json.at(key).is_object() && (listed(json.at(key)) || named(json.at(key))))

@@ -10,13 +10,13 @@ namespace {
 
 using Times = std::span<const std::int64_t>;
 
-/// A colour image: its time and its place in the list.
+/// A colour image: its time stamp and its index in the list.
 struct Stamped {
   std::int64_t utime = 0;
   std::size_t index = 0;
 };
 
-/// The typical time between two frames [us].
+/// The typical (median) time between two frames [us].
 std::int64_t frame_interval(Times depth) {
   std::vector<std::int64_t> steps;
   for (std::size_t i = 1; i < depth.size(); ++i) steps.push_back(depth[i] - depth[i - 1]);
@@ -25,7 +25,8 @@ std::int64_t frame_interval(Times depth) {
   return std::max<std::int64_t>(steps[steps.size() / 2], 1);
 }
 
-/// The image nearest in time; none if it is not within one frame interval: older colour belongs to another pose.
+/// Index of the image nearest in time; none if its time differs by more than `window`, because the hand then had
+/// another pose.
 std::optional<std::size_t> nearest(const std::vector<Stamped>& sorted, std::int64_t utime, std::int64_t window) {
   const auto after = std::lower_bound(sorted.begin(), sorted.end(), utime,
                                       [](const Stamped& image, std::int64_t t) { return image.utime < t; });
@@ -36,7 +37,8 @@ std::optional<std::size_t> nearest(const std::vector<Stamped>& sorted, std::int6
   return best->index;
 }
 
-/// The part of the recording that each time of a list belongs to, from 0.
+/// For each time stamp, the part of the recording that it belongs to, from 0: a part ends where the recorder was
+/// restarted.
 std::vector<int> parts_of(Times times) {
   std::vector<int> parts(times.size(), 0);
   for (std::size_t i = 1; i < times.size(); ++i)
@@ -50,7 +52,7 @@ ColourPairs pair_colour(Times depth, Times colour) {
   ColourPairs pairs{{}, frame_interval(depth)};
   const std::vector<int> depth_parts = parts_of(depth), colour_parts = parts_of(colour);
 
-  // Where the lists agree about the parts, colour is looked for in its own part only.
+  // If both lists have the same number of parts, search the colour images of the corresponding part only.
   const bool agree = !depth.empty() && !colour.empty() && depth_parts.back() == colour_parts.back();
   std::map<int, std::vector<Stamped>> by_part;
   for (std::size_t i = 0; i < colour.size(); ++i) by_part[agree ? colour_parts[i] : 0].push_back({colour[i], i});
@@ -58,7 +60,8 @@ ColourPairs pair_colour(Times depth, Times colour) {
     std::stable_sort(images.begin(), images.end(),
                      [](const Stamped& a, const Stamped& b) { return a.utime < b.utime; });
 
-  // Else a colour image belongs to the first part in which it is the nearest.
+  // Find the colour of each depth image. If the numbers of parts differ, use a colour image only in the first part in
+  // which it is the nearest.
   std::map<std::size_t, int> first_part;
   for (std::size_t i = 0; i < depth.size(); ++i) {
     auto found = nearest(by_part[agree ? depth_parts[i] : 0], depth[i], pairs.window);

@@ -24,7 +24,8 @@ Result<ImageSize> png_size(std::span<const std::uint8_t> bytes) {
   return ImageSize{big_endian_16(bytes, 18), big_endian_16(bytes, 22)};
 }
 
-/// The frame header of a JPEG: markers C0..CF without C4 (tables), C8 (reserved) and CC (arithmetic coding).
+/// Whether a marker begins the frame header of a JPEG: C0 to CF without C4 (tables), C8 (reserved) and CC (arithmetic
+/// coding).
 bool starts_jpeg_frame(int marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
@@ -33,7 +34,7 @@ Result<ImageSize> jpeg_size(std::span<const std::uint8_t> bytes) {
   std::size_t at = 2;
   while (at + 9 <= bytes.size() && bytes[at] == 0xFF) {
     const int marker = bytes[at + 1];
-    if (marker == 0xFF) {  // fill byte
+    if (marker == 0xFF) {  // a fill byte before a marker
       ++at;
     } else if (starts_jpeg_frame(marker)) {
       return ImageSize{big_endian_16(bytes, at + 7), big_endian_16(bytes, at + 5)};

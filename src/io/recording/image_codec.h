@@ -21,7 +21,8 @@ Result<ImageSize> compressed_image_size(std::span<const std::uint8_t> bytes);
 /// before memory is allocated for it.
 Result<Image<Rgb>> decode_image(std::span<const std::uint8_t> bytes, ImageSize expected);
 
-/// Decodes a 16-bit PNG of one channel in memory, counts as stored. A JPEG is an error, as is any other PNG.
+/// Decodes a PNG in memory with one channel of 16 bits; the values are returned as stored. A JPEG or another kind of
+/// PNG is an error.
 Result<Image<std::uint16_t>> decode_depth_image(std::span<const std::uint8_t> bytes);
 
 }  // namespace barehand

@@ -28,7 +28,7 @@ Result<void> write_bytes(const std::string& path, const Bytes& bytes) {
   return {};
 }
 
-/// The error of a codec, which does not know the file.
+/// Adds the path to the error of a codec, which does not know the file.
 template <typename T>
 Result<T> located(Result<T> result, const std::string& path) {
   if (!result) result.error().where = path;

@@ -19,9 +19,9 @@ constexpr int kCmykChannels = 4;
 /// whole image.
 constexpr int kMaxScans = 100;
 
-/// Keeps libjpeg's errors: its own handlers would print them and end the program.
+/// Error handlers for libjpeg that keep the error, since its default handlers would print it and end the program.
 struct ErrorManager {
-  jpeg_error_mgr base;  // first: libjpeg hands out its address
+  jpeg_error_mgr base;  // must be the first member, because libjpeg passes its address to the handlers
   std::jmp_buf leave;
   std::array<char, JMSG_LENGTH_MAX> message;
 };
@@ -39,8 +39,8 @@ jpeg_error_mgr* quiet_errors(ErrorManager& errors) {
   return &errors.base;
 }
 
-/// Runs `step`; false where libjpeg reported an error meanwhile. The error leaves `step` by longjmp, which runs no
-/// destructors, so `step` and the callbacks below hold no objects that have one.
+/// Runs `step`; returns false if libjpeg reported an error meanwhile. An error leaves `step` by longjmp, which runs no
+/// destructors, so `step` and the callbacks below must not hold objects with destructors.
 template <typename Step>
 bool guarded(ErrorManager& errors, Step&& step) {
   if (setjmp(errors.leave) != 0) return false;
@@ -48,7 +48,8 @@ bool guarded(ErrorManager& errors, Step&& step) {
   return true;
 }
 
-/// Input from memory. If it ends too early, libjpeg's own source would make up an end marker, and grey pixels with it.
+/// A source of libjpeg that reads from memory and reports an early end as an error; libjpeg's own source would insert
+/// an end marker and fill the rest of the image with grey.
 jpeg_source_mgr memory_source(std::span<const std::uint8_t> bytes) {
   jpeg_source_mgr source{};
   source.next_input_byte = bytes.data();
@@ -114,12 +115,13 @@ class Reader {
         if (cmyk) to_rgb(inks[0], image.width(), image.row(v));
       }
     };
-    // Data after the last row does not matter.
+    // Read the rows; data after the last one is ignored.
     return guarded(errors_, read_rows) ? Result<void>() : damaged();
   }
 
  private:
-  /// Adobe stores inks inverted (255 is no ink), so a colour is the product of its stored ink and the stored black.
+  /// Converts CMYK, which Adobe stores inverted (255 is no ink), so that a colour is the product of its stored ink and
+  /// the stored black.
   static void to_rgb(const JSAMPLE* inks, int width, Rgb* row) {
     for (int u = 0; u < width; ++u, inks += kCmykChannels) {
       const int black = inks[3];
@@ -180,7 +182,7 @@ class Writer {
     bool grown = true;
     try {
       bytes.resize(2 * used + 65536);
-    } catch (const std::bad_alloc&) {  // must not pass through libjpeg, and longjmp must not leave a handler
+    } catch (const std::bad_alloc&) {  // exceptions must not pass through libjpeg, nor longjmp leave this handler
       grown = false;
     }
     if (!grown) {

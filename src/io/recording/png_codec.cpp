@@ -14,7 +14,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kColourLevel = 1, kDepthLevel = 3;  // zlib's, 1 (fast) to 9 (small)
+constexpr int kColourLevel = 1, kDepthLevel = 3;  // compression levels of zlib, from 1 (fast) to 9 (small)
 
 using Message = std::array<char, 128>;
 
@@ -24,10 +24,10 @@ using Message = std::array<char, 128>;
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}  // ignored: warnings concern nothing that changes the pixels
+void on_warning(png_structp, png_const_charp) {}  // ignores warnings, which concern nothing that changes the pixels
 
-/// Runs `step`; false where libpng reported an error meanwhile. The error leaves `step` by longjmp, which runs no
-/// destructors, so `step` and the callbacks below hold no objects that have one when they call libpng.
+/// Runs `step`; returns false if libpng reported an error meanwhile. An error leaves `step` by longjmp, which runs no
+/// destructors, so `step` and the callbacks below must not hold objects with destructors when they call libpng.
 template <typename Step>
 bool guarded(png_structp png, Step&& step) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -47,7 +47,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Reads up to the pixels. An error, too, where the image has another size.
+  /// Reads the image's headers. Errors: damage, or a size other than `width` by `height`.
   Result<void> open(int width, int height) {
     if (!info_) return fail("libpng cannot be started");
     if (!guarded(png_, [this] { png_read_info(png_, info_); })) return damaged();
@@ -122,7 +122,7 @@ class Writer {
     if (!info_) return fail("libpng cannot be started");
     const auto write_all = [&] {
       png_set_compression_level(png_, level);
-      png_set_compression_strategy(png_, 0);  // zlib's usual one
+      png_set_compression_strategy(png_, 0);  // the default strategy of zlib
       png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), bits,
                    colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       png_write_info(png_, info_);
@@ -140,7 +140,7 @@ class Writer {
     try {
       auto& bytes = static_cast<Writer*>(png_get_io_ptr(png))->bytes_;
       bytes.insert(bytes.end(), from, from + size);
-    } catch (const std::bad_alloc&) {  // must not pass through libpng, and longjmp must not leave a handler
+    } catch (const std::bad_alloc&) {  // exceptions must not pass through libpng, nor longjmp leave this handler
       taken = false;
     }
     if (!taken) png_error(png, "out of memory");

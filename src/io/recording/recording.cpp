@@ -34,7 +34,7 @@ std::vector<std::int64_t> times_of(const std::vector<StampedFile>& files) {
   return times;
 }
 
-/// The frames of depth.txt with their colour, and what their stamps say.
+/// Lists the frames of depth.txt with their colour images, and marks the frames that their time stamps rule out.
 void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
   const std::vector<StampedFile> colour = read_colour_list(recording);
   const ColourPairs pairs = pair_colour(times_of(depth), times_of(colour));
@@ -54,7 +54,7 @@ void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
     recording.doubts.push_back(recording.directory + "/depth.txt: " + doubt);
 }
 
-/// Sets the camera by its file. If its coefficients of distortion are plausible, the images will be undistorted.
+/// Sets the camera of the recording. If its coefficients of distortion are plausible, the images will be undistorted.
 void use_camera(CameraFile file, const std::string& path, Recording& recording) {
   constexpr double kNoticed = 0.5;  // smallest shift that is corrected [px]
   constexpr double kLeast = 0.5;    // smallest fraction of the image that must stay visible
@@ -84,7 +84,7 @@ Result<void> check_first_image(const Recording& recording) {
   return check_size(image->width(), image->height(), recording.camera, recording.entries.front().depth_file);
 }
 
-/// The colour of a frame, or why there is none.
+/// Reads the colour image of a frame, or returns why it cannot be used.
 Result<Image<Rgb>> read_frame_colour(const Recording& recording, const std::string& path) {
   auto colour = read_colour(path);
   if (!colour) return colour;

@@ -30,7 +30,7 @@ std::string stamp_text(std::int64_t utime) {
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Options options) {
   std::error_code error;
-  // The folder must not contain parts of another recording.
+  // Refuse a folder that contains parts of another recording.
   const std::string unfinished = directory + "/depth.txt" + std::string(kUnfinished);
   if (fs::exists(unfinished, error))
     return fail("holds a recording that was not finished", directory,
@@ -89,7 +89,7 @@ Result<void> RecordingWriter::append(std::optional<WholeFile>& list, const char*
   file.close();
   if (file) return {};
 
-  // Half a line would make the whole list unreadable.
+  // Cut an incomplete line off, since it would make the whole list unreadable.
   const std::string path = list->draft();
   fs::resize_file(path, error ? 0 : size, error);
   if (first) list.reset();

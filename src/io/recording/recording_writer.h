@@ -18,7 +18,7 @@ class RecordingWriter {
  public:
   struct Options {
     double fps = 0;                     ///< nominal rate stored in camera.json; 0 = not stored
-    std::string colour_ending = "png";  ///< or "jpg": smaller, but lossy: black ("no colour here") may turn grey
+    std::string colour_ending = "png";  ///< "png", or the smaller but lossy "jpg", in which black may turn grey
   };
   /// Creates the folder. A folder that already holds a recording, or some of its files, is an error: nothing is
   /// overwritten.
@@ -45,7 +45,7 @@ class RecordingWriter {
   Options options_;
   Intrinsics camera_;
   double depth_unit_ = 0;
-  bool made_ = false, finished_ = false;            ///< the folder was created here; finish() was called
+  bool made_ = false, finished_ = false;            ///< whether it created the folder, and whether finish() was called
   std::optional<WholeFile> depth_list_, rgb_list_;  ///< created with their first line
   std::int64_t count_ = 0;
 };

@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpaces) + 1 - first);
 }
 
-/// Up to the '#' that begins a comment.
+/// The text before the '#' that begins a comment.
 std::string_view without_comment(std::string_view text) {
   for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1))
     if (at == 0 || kSpaces.find(text[at - 1]) != std::string_view::npos) return text.substr(0, at);

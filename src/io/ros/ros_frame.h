@@ -18,15 +18,15 @@ std::string camera_frame(const std::string& sensor);
 
 /// The camera as a pinhole camera without distortion.
 CameraInfo camera_info(const RgbdFrame& frame);
-/// The depth image in the sensor's counts, 16UC1. ROS assumes that a count is a millimetre; if it is not, the unit must
-/// be passed separately (kDepthUnit).
+/// The depth image in the sensor's units, encoding 16UC1. ROS assumes that a unit is a millimetre; if it is not, the
+/// unit must be passed separately (kDepthUnit).
 Image depth_image(const RgbdFrame& frame);
 /// The colour image, which the frame must have, as PNG or as JPEG of the given quality.
 Result<CompressedImage> colour_image(const RgbdFrame& frame, std::optional<int> jpeg_quality);
 /// Points x, y, z [m], with rgb if the frame has colour, of the pixels with depth on a grid of about `most` pixels.
 PointCloud2 point_cloud(const RgbdFrame& frame, int most = 20'000);
 
-/// The counts of a depth image in 16UC1 or mono16. Errors: another encoding, an impossible size, too few bytes.
+/// The values of a depth image in 16UC1 or mono16. Errors: another encoding, an impossible size, too few bytes.
 Result<barehand::Image<std::uint16_t>> depth_of(const Image& image);
 /// The pixels of a colour image in rgb8 or bgr8. Errors as for depth_of().
 Result<barehand::Image<Rgb>> colour_of(const Image& image);

@@ -18,7 +18,7 @@ Header header_of(const hand_state_t& state) {
   return {time_of(state.utime).value_or(Time{}), camera_frame(state.sensor)};
 }
 
-/// From (w, x, y, z), the order in the LCM types.
+/// Converts a quaternion from (w, x, y, z), the order in the LCM types.
 Quaternion quaternion(const double (&q)[4]) { return {q[1], q[2], q[3], q[0]}; }
 Quaternion quaternion(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -155,7 +155,7 @@ DiagnosticStatus diagnostic(const HandState& hand) {
   message.message = to_string(status);
   message.hardware_id = hand.state.sensor;
 
-  // The numbers; those of the pose only if there is one.
+  // Add the numbers; those of the pose only if there is one.
   message.values = {value("hand_id", std::int64_t{hand.state.hand_id}), value("frame_number", hand.state.frame_number)};
   if (!hand.state.has_pose) return message;
   message.values.push_back(value("score [m]", hand.state.score));

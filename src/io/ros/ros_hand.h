@@ -28,7 +28,7 @@ std::string side_of(const hand_state_t& state);
 
 /// The angles [rad] of those joints of glove_state_t that can be observed.
 JointState joint_state(const HandState& hand);
-/// From every segment's frame to the camera's.
+/// Adds the transform from every segment's frame to the camera's frame.
 void add_transforms(const HandState& hand, TFMessage& message);
 /// The hand as spheres at its joints and cylinders between them, coloured by confidence from red to green and
 /// translucent if inferred, and ellipsoids of two standard deviations at the proximal ends of the segments. Without a

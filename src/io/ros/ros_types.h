@@ -116,7 +116,7 @@ struct Image {
 
 struct CompressedImage {
   Header header;
-  std::string format;  ///< "png", "jpeg"
+  std::string format;  ///< "png" or "jpeg"
   std::vector<std::uint8_t> data;
   static constexpr const char* kType = "sensor_msgs/CompressedImage";
   static void fields(auto& v, auto& m) { v("header", m.header), v("format", m.format), v("data", m.data); }

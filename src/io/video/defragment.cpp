@@ -14,7 +14,7 @@ class InputFile {
   int open(const char* path) {
     const AVInputFormat* format = av_find_input_format("mp4");
     const int error = avformat_open_input(&context_, file_url(path).c_str(), format, nullptr);
-    return error < 0 ? error : avformat_find_stream_info(context_, nullptr);  // the size is stated only in the data
+    return error < 0 ? error : avformat_find_stream_info(context_, nullptr);  // finds the image size in the data
   }
   AVFormatContext* operator->() const { return context_; }
   AVFormatContext* get() const { return context_; }
@@ -48,7 +48,7 @@ int copy(const char* from, const char* to) {
   AVStream* stream = avformat_new_stream(output.get(), nullptr);
   if (!stream) return AVERROR(ENOMEM);
   if (const int error = avcodec_parameters_copy(stream->codecpar, input->streams[0]->codecpar); error < 0) return error;
-  stream->codecpar->codec_tag = 0;  // the muxer chooses the right one
+  stream->codecpar->codec_tag = 0;  // lets the muxer choose the tag for its format
   stream->time_base = input->streams[0]->time_base;
   stream->avg_frame_rate = input->streams[0]->avg_frame_rate;
 

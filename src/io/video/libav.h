@@ -27,7 +27,7 @@ struct FreeByAddress {
 using AvFramePtr = std::unique_ptr<AVFrame, FreeByAddress<av_frame_free>>;
 using AvPacketPtr = std::unique_ptr<AVPacket, FreeByAddress<av_packet_free>>;
 
-/// The URL of a file. libav would take a plain name for a URL, and text before a colon for its protocol.
+/// The URL of a file. libav would read a plain name as a URL, and the text before a colon in it as the protocol.
 inline std::string file_url(const char* path) { return std::string("file:") + path; }
 
 /// A muxer and its file.
@@ -57,7 +57,7 @@ class OutputFile {
 /// Writes libav's text for an error into `message`.
 inline void say(VideoModule::Message& message, int error) { av_strerror(error, message.data(), message.size()); }
 
-/// See VideoModule::defragment.
+/// Copies a fragmented mp4 to an ordinary one (VideoModule::defragment).
 bool defragment(const char* from, const char* to, VideoModule::Message& message);
 
 }  // namespace barehand

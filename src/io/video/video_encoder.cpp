@@ -109,12 +109,12 @@ class Video {
     encoder_->width = even(width_);
     encoder_->height = even(height_);
     encoder_->pix_fmt = codec->pixels;
-    encoder_->framerate = av_d2q(fps, 60'000);  // MPEG-4 stores it in 16 bits
+    encoder_->framerate = av_d2q(fps, 60'000);  // a fraction with small numbers, since MPEG-4 stores them in 16 bits
     encoder_->time_base = av_inv_q(encoder_->framerate);
     encoder_->gop_size = std::clamp(static_cast<int>(std::lround(fps)), 1, 120);  // one key frame per second
-    encoder_->colorspace = AVCOL_SPC_SMPTE170M;                                   // the scaler's default
+    encoder_->colorspace = AVCOL_SPC_SMPTE170M;  // the colour space that libswscale converts to by default
     encoder_->color_range = codec->pixels == AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-    encoder_->thread_count = 1;  // the tracker needs the cores
+    encoder_->thread_count = 1;  // leaves the other cores to the tracker
     if (file_->oformat->flags & AVFMT_GLOBALHEADER) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     return avcodec_open2(encoder_.get(), found, Options(codec->options).get());
   }

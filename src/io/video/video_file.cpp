@@ -44,7 +44,7 @@ Result<const VideoModule*> load_video_module(const std::string& library) {
     return fail(std::string("videos cannot be written: ") + dlerror(), file,
                 "install the package barehand-video, or give a folder for single images");
   };
-  void* loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: libav cannot be unloaded
+  void* loaded = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed, because libav cannot be unloaded
   if (!loaded) return failure();
   void* symbol = dlsym(loaded, kVideoModuleSymbol);
   if (!symbol) return failure();

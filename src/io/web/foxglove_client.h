@@ -58,7 +58,7 @@ class FoxgloveClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // all but the frame
+  Due next_;  // data to be sent next, except for the frame, which `frames_` holds
   NewestFrame frames_;
   bool ending_ = false, broken_ = false;
 

@@ -64,7 +64,7 @@ class ViewClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // all but the frame
+  Due next_;  // data to be sent next, except for the frame, which `frames_` holds
   NewestFrame frames_;
   int under_way_ = 0;            // number of frames that were sent and not acknowledged yet
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock

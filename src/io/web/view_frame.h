@@ -37,14 +37,14 @@ std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const
 class ViewFrame {
  public:
   struct Content {
-    std::int64_t utime = 0;          ///< of the depth image [us since the epoch]
+    std::int64_t utime = 0;          ///< time stamp of the depth image [us since the epoch]
     std::int64_t number = 0;         ///< RgbdFrame::number
     FramePtr frame;                  ///< null: there are no images
     std::optional<ViewFocus> focus;  ///< none: no hand has a pose
     FrameVector<ViewMessage> messages;
-    std::array<ViewSkinPtr, 2> skins;   ///< by Handedness; null: no such hand
-    std::vector<ros::HandState> hands;  ///< the same messages, not encoded, for viewers of ROS messages
-    std::optional<health_t> health;     ///< none: not due
+    std::array<ViewSkinPtr, 2> skins;   ///< skins of the hands, by Handedness; null: no such hand
+    std::vector<ros::HandState> hands;  ///< the hands' messages, not encoded, for viewers of ROS messages
+    std::optional<health_t> health;     ///< counters of the pipeline; none: it is not their time
     std::optional<SE3> T_world_camera;  ///< none: the pose of the camera in the room is unknown
   };
   explicit ViewFrame(Content content) : content_(std::move(content)) {}

@@ -9,9 +9,9 @@ namespace barehand {
 struct ViewScanSegment {
   std::string name;
   int palm_side = 0, back_side = 0;  ///< frames in which that side faced the sensor
-  double bent = 0;                   ///< range of flexion of its joint that was seen [rad]
-  bool to_bend = false;              ///< whether the user is to bend it
-  double before = 0, after = 0;      ///< its length in the profile [m]
+  double bent = 0;                   ///< range of flexion of the segment's joint that was seen [rad]
+  bool to_bend = false;              ///< whether the user is asked to bend this joint
+  double before = 0, after = 0;      ///< length of the segment before and after the scan [m]
 };
 
 /// The progress of a scan of the hand, as the page shows it.

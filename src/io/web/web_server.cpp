@@ -25,7 +25,7 @@ const char* chosen_protocol(const mg_connection* connection) {
   return mg_get_request_info(connection)->acceptedWebSocketSubprotocol;
 }
 
-/// What the server keeps of one connection.
+/// The server's data about one connection.
 struct Connection {
   std::unique_ptr<WebPeer> peer;
   std::string message;  // the fragments of the current message received so far
@@ -116,7 +116,7 @@ Result<int> WebServer::Impl::start() {
                             "no",
                             nullptr};
 
-  // Listen.
+  // Start to listen on the port.
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
   context_ = mg_start(&callbacks, this, settings);

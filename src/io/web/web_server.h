@@ -42,7 +42,7 @@ class WebPeer {
 };
 
 struct WebFile {
-  std::string type;  ///< MIME
+  std::string type;  ///< MIME type
   std::string bytes;
 };
 
@@ -54,8 +54,8 @@ class WebServer {
   static constexpr int kStuckSeconds = 10;  ///< a client that accepts nothing for this time is disconnected
 
   struct Options {
-    std::string address = "127.0.0.1";     ///< of the network interface; 0.0.0.0: all interfaces
-    int port = 0;                          ///< 0: any free port
+    std::string address = "127.0.0.1";     ///< address of the network interface; 0.0.0.0: all interfaces
+    int port = 0;                          ///< TCP port; 0: any free port
     std::map<std::string, WebFile> files;  ///< by path, such as "/index.html", which is also served as "/"
     std::vector<std::string> invited;      ///< other origins whose pages may connect
     std::string socket_path = "/live";
