@@ -30,7 +30,7 @@ int run_program(int argc, char** argv) {
       "Exit codes: 0 done, 1 failed while running or too few frames could be read, 2 wrong arguments, configuration or "
       "files, 130 interrupted, 141 the reader of the output has gone.\n"
       "barehand COMMAND --help says more.");
-  cv::setNumThreads(1);  // otherwise OpenCV would start threads of its own, in addition to Workers
+  cv::setNumThreads(1);  // prevents OpenCV from starting threads of its own in addition to those of Workers
   int exit_code = kExitOk;
   add_track_command(app, exit_code);
   add_sim_command(app, exit_code);

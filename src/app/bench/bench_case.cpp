@@ -38,7 +38,7 @@ class MeasuringSink : public Sink {
     if ((seen_ - conditions_.warm_up) % step == 0)
       resident_mb_.push_back(static_cast<double>(memory_usage().resident - stored_bytes_) / kMegabyte);
 
-    // The last frame sets the end of the measurement.
+    // Move the end of the measurement to this frame.
     end_us_ = clock_.steady_us();
     cpu_end_ = cpu_seconds();
     return {};
@@ -94,7 +94,7 @@ class Reception {
  private:
   mutable std::mutex mutex_;
   TimeHistogram ages_;
-  LcmListener listener_;  // last, as its thread uses the members above
+  LcmListener listener_;  // declared last, because its thread uses the members above
 };
 
 }  // namespace
@@ -107,14 +107,14 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   if (!workers) return tl::unexpected(workers.error());
   (*workers)->go_live();  // as with a sensor, the scan of a mean hand uses only the time that tracking leaves
 
-  // The states are sent through LCM and received again.
+  // Open LCM, through which the states are sent and received again.
   auto opened = LcmBus::open(conditions.lcm_url);
   if (!opened) return tl::unexpected(opened.error());
   const std::shared_ptr<LcmBus> bus = std::move(*opened);
   const std::string& prefix = bench.config.run.channel_prefix;
   Reception reception(bus, prefix, clock);
 
-  // The source replays the stored frames; the sinks publish and measure.
+  // Make the source, which replays the stored frames, and the sinks, which publish and measure.
   reset_peak_memory();
   MemorySource source(store, {conditions.warm_up + conditions.frames, conditions.rate}, clock);
   MeasuringSink measure(conditions, store.bytes(), clock);
@@ -125,7 +125,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       clock);
   if (!publish) return tl::unexpected(publish.error());
 
-  // The stages are those of `barehand track`.
+  // Make the same stages as `barehand track`.
   TrackStages stages = make_track_stages(bench.config, hands, std::nullopt, {}, **workers, log);
   PipelineOptions options;
   options.threaded = !conditions.inline_stages;
@@ -133,7 +133,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       PipelineStages{source, std::move(stages.preprocess), std::move(stages.track), {publish->get(), &measure}},
       options, clock, log);
 
-  // Only frames after the warm-up count.
+  // Begin to count when the warm-up is over.
   std::int64_t dropped_before = 0;
   measure.on_start = [&] {
     dropped_before = pipeline->take_interval_health().dropped;

@@ -20,7 +20,7 @@ struct BenchCase {
   double value = 0;   ///< value of that parameter
   Config config;
   int threads = 1;
-  int decimate = 1;  ///< every n-th pixel and row of the frames is used
+  int decimate = 1;  ///< only every n-th column and row of the frames is used
 };
 
 /// The conditions that all cases of a benchmark share.
@@ -29,7 +29,7 @@ struct BenchConditions {
   std::int64_t warm_up = 0;    ///< frames before them, which include the search for the hand
   std::optional<double> rate;  ///< frames per second of a live sensor; none: as fast as possible
   bool inline_stages = false;
-  std::string lcm_url;  ///< where the states are published to and received from
+  std::string lcm_url;  ///< LCM network to which the states are published and from which they are received
 };
 
 /// What was measured in one case over all counted frames.

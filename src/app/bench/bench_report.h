@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// One measured case, with everything that is written to a file and drawn.
+/// One measured case with its conditions, as it is written to a file and drawn.
 struct BenchRow {
   std::string sweep;  ///< parameter that is varied; "": the configuration as it is
   double value = 0;

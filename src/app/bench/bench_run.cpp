@@ -110,7 +110,7 @@ Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditio
 /// the reader of the output has gone.
 Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input, const BenchOptions& options,
                          BenchReport& report, std::ostream& told) {
-  for (int round = 0; round < options.repeat; ++round)  // interleaved: other load affects all cases
+  for (int round = 0; round < options.repeat; ++round)  // repeats all cases in turn: other load affects all of them
     for (const NamedCase& named : cases) {
       if (options.json.empty() && nobody_reads()) return {};
       auto row = measure(named, report.conditions, input);

@@ -65,7 +65,7 @@ MemorySource::MemorySource(const FrameStore& store, Options options, const Clock
 const FramePtr& MemorySource::stored(std::int64_t index) const {
   const auto n = static_cast<std::int64_t>(store_.frames.size());
   if (n == 1) return store_.frames[0];
-  const std::int64_t place = index % (2 * n - 2);  // 0 ... n-1, n-2 ... 1
+  const std::int64_t place = index % (2 * n - 2);  // plays 0 ... n-1 forwards, then n-2 ... 1 backwards
   return store_.frames[place < n ? place : 2 * n - 2 - place];
 }
 

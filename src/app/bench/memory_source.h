@@ -45,7 +45,7 @@ class MemorySource : public FrameSource {
   const Options options_;
   const Clock& clock_;
   std::int64_t delivered_ = 0;
-  std::optional<std::int64_t> start_us_;  // steady clock at the first call of `next`
+  std::optional<std::int64_t> start_us_;  // time of the first call of next(), steady clock
 };
 
 }  // namespace barehand

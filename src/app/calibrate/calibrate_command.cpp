@@ -38,11 +38,11 @@ int tell(const Error& error, int exit_code) {
   return exit_code;
 }
 
-constexpr int kSettling = 60;                 // tracked frames before the first that is kept
-constexpr int kMost = 128, kMostOfSkin = 64;  // most frames to keep; kMostOfSkin if joints are fixed
+constexpr int kSettling = 60;                 // number of tracked frames before the first one that is kept
+constexpr int kMost = 128, kMostOfSkin = 64;  // largest numbers of frames that are kept; kMostOfSkin with fixed joints
 
-/// Collects what a scan needs, which is the latest fitted hand and a selection of frames, and tells the user what to
-/// show next.
+/// Collects the data for a scan, which are the latest fitted hand and a selection of frames, and tells the user which
+/// views of the hand are still missing.
 class ScanSink : public Sink {
  public:
   // What was collected so far.
@@ -64,7 +64,7 @@ class ScanSink : public Sink {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kAdvise{4};  // time that the user gets to follow an advice
+  static constexpr std::chrono::seconds kAdvise{4};  // time between two instructions to the user
 
   // Tells the user from time to time what is still missing.
   void advise() {
@@ -101,7 +101,7 @@ void print(std::FILE* out, const ScanReport& report, const HandProfile& start, c
 /// Scans the skin from the frames that were kept; none if they do not suffice.
 std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads,
                                    ScanPage& page) {
-  // Too few frames do not determine a skin.
+  // Refuse too few frames, which do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
     std::fputs("the scan was too short to measure the skin\n", out);
@@ -126,13 +126,13 @@ std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, d
 
 struct Measured {
   HandProfile hand;
-  bool skin = false;  ///< was measured, too
+  bool skin = false;  ///< whether the skin was measured, too
 };
 
-/// Scans the skin, and saves the profile that comes of it: as scanned, or else as fitted. Errors: it cannot be saved.
+/// Scans the skin, and saves the scanned profile or, if the scan fails, the fitted one. Error: it cannot be saved.
 Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSink::Scan& scan, double cell,
                          ScanPage& page) {
-  // Save the fitted hand before the scan, which takes a while. From a pipe it could not be taken back.
+  // Save the fitted hand before the scan, which takes a while, unless the output is a pipe, which would get both.
   const bool once = target_of(o.out).direct;
   if (!once)
     if (const auto saved = save_profile(*scan.profile, o.out); !saved) return tl::unexpected(saved.error());
@@ -146,10 +146,10 @@ Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSi
   return result;
 }
 
-/// Makes a profile of what was shown while tracking, and tells of it. Returns the exit code.
+/// Makes a profile from the frames of the run, saves it, and reports the result. Returns the exit code.
 int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, const HandProfile& start,
              const ScanSink::Scan& scan, const TrackOutcome& tracked) {
-  // Without a hand there is nothing to measure.
+  // Report it if no hand was tracked, so that there is nothing to measure.
   ViewState state;
   state.source = o.track.source;
   state.T_world_camera = world_from(config.world).value_or(std::nullopt);
@@ -168,7 +168,7 @@ int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, co
     return tell(result.error(), kExitFailure);
   }
 
-  // Tell what came of it.
+  // Report the measured profile.
   print(out, scan.report, start, result->hand);
   page.done(formatted("Saved in %s%s. The hand is %.0f mm long, %.0f mm before.", o.out.c_str(),
                       result->skin ? ", with a skin of its own" : "; the skin could not be measured",
@@ -182,7 +182,7 @@ int run(const CalibrateOptions& o) {
   auto config = read_configuration(o.track.config);
   if (!config) return tell(config.error(), kExitUsage);
   config->tracker.shape_fit.enabled = true;
-  config->tracker.shape_fit.scans = 0;  // a scan of all frames follows at the end
+  config->tracker.shape_fit.scans = 0;  // no scans while tracking, since all frames are scanned at the end
   const auto hands = choose_hands({o.hand}, {});
   if (!hands) return tell(hands.error(), kExitUsage);
   if (hands->size() != 1)

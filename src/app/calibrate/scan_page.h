@@ -9,18 +9,20 @@
 
 namespace barehand {
 
-/// What the live page says of a scan. `how_to`: what the user is to do. `start`: the profile that it began with; `now`:
-/// as fitted or measured so far.
+/// The state of a scan as the live page shows it. `how_to`: instructions for the user. `start`: the profile that the
+/// scan began with; `now`: the profile as fitted or measured so far.
 ViewScan view_scan(const std::string& how_to, const ScanReport& report, const HandProfile& start,
                    const HandProfile& now);
 
-/// Tells the page, where there is one, what becomes of a scan after its last frame.
+/// Shows on the live page, if there is one, how a scan continues after its last frame.
 class ScanPage {
  public:
-  /// `server`: null, or outlives this object. `state`: of the last frame, with its scan.
+  /// `server`: null if there is no page; otherwise it must outlive this object. `state`: state of the page at the last
+  /// frame, with its scan.
   ScanPage(ViewServer* server, ViewState state) : server_(server), state_(std::move(state)) {}
   void measuring(const std::string& progress) { show(ViewScan::Phase::measuring, progress); }
-  /// The last word: it is with every browser that reads when this returns. `result`: null: no profile came of it.
+  /// Shows the end of the scan; when it returns, every browser that reads has received it. `result`: the measured
+  /// profile; null: there is none.
   void done(const std::string& what, const HandProfile* result);
 
  private:

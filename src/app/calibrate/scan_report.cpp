@@ -19,7 +19,7 @@ void ScanReport::add(const HandEstimate& estimate) {
     ScannedSegment& segment = segments_[s];
 
     if (!estimate.segments[s].seen) continue;
-    const double back = -pose[s].R.col(1).dot(pose[s].t.normalized());  // +y points out of the back of the hand
+    const double back = -pose[s].R.col(1).dot(pose[s].t.normalized());  // cosine; +y points out of the back of the hand
     if (back > kFacing) ++segment.back_side;
     if (back < -kFacing) ++segment.palm_side;
 
@@ -43,7 +43,7 @@ std::vector<std::string> ScanReport::missing() const {
     if (asks_to_bend(s) && segment.most_bent - segment.least_bent < kEnoughBending) stiff.push_back(name);
   }
 
-  // Ask for it, one sentence per kind.
+  // Ask for these views and motions, in one sentence per kind.
   if (!palm_sides.empty()) sentences.push_back("show the palm side of: " + comma_list(palm_sides));
   if (!back_sides.empty()) sentences.push_back("show the back of: " + comma_list(back_sides));
   if (!stiff.empty()) sentences.push_back("bend and stretch: " + comma_list(stiff));

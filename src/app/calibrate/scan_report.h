@@ -10,8 +10,8 @@ namespace barehand {
 
 /// What was seen of one segment during a scan.
 struct ScannedSegment {
-  int seen = 0;                      ///< tracked frames in which the segment was seen
-  int palm_side = 0, back_side = 0;  ///< number of these frames in which that side faced the camera
+  int seen = 0;                      ///< number of tracked frames in which the segment was seen
+  int palm_side = 0, back_side = 0;  ///< numbers of those frames in which the palm side or the back faced the camera
   /// Smallest and largest flexion of its joint in these frames [rad]; zeros for the palm.
   double least_bent = 0, most_bent = 0;
 };
@@ -23,7 +23,8 @@ class ScanReport {
   static constexpr int kEnoughFrames = 15;       ///< frames that must show each side of a segment
   static constexpr double kEnoughBending = 0.5;  ///< range of flexion that a joint must show [rad]
 
-  /// Whether bending the joint of segment `s` is asked for: the thumb's metacarpal moves too little.
+  /// Whether the user is asked to bend the joint of segment `s`; the thumb's metacarpal is left out, since it moves too
+  /// little.
   static bool asks_to_bend(int s) { return s != kPalm && s != segment_of(0, 0); }
 
   /// Adds a frame; frames in which the hand is not tracked are ignored.

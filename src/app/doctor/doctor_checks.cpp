@@ -112,7 +112,7 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
   if (!LcmBus::is_network(lcm_url)) return {Level::ok, "multicast route", "not needed for " + lcm_url, ""};
   std::ifstream routes(route_file);
   std::string line;
-  std::getline(routes, line);  // column names
+  std::getline(routes, line);  // skips the column names
   while (std::getline(routes, line)) {
     std::string interface;
     std::uint32_t destination = 0, gateway = 0, mask = 0;

@@ -12,8 +12,8 @@ namespace barehand {
 struct Finding {
   enum class Level {
     ok,
-    note,     ///< something optional is absent
-    warning,  ///< works, but badly
+    note,     ///< something optional is missing
+    warning,  ///< tracking or publishing works, but badly
     problem,  ///< tracking or publishing will fail
   };
   Level level = Level::ok;
@@ -35,12 +35,12 @@ Finding check_receive_buffer(const std::string& lcm_url,
 Finding check_multicast_route(const std::string& lcm_url, const std::string& route_file = "/proc/net/route");
 /// Sends messages of a frame's size over LCM, and counts how many come back.
 Finding check_lcm(const std::string& lcm_url);
-/// Whether a graphics device can compare samples instead of the CPU (key `observer` of the configuration), and which is
-/// faster.
+/// Checks whether a graphics device can compare samples instead of the CPU (key `observer` of the configuration), and
+/// which of the two is faster.
 Finding check_graphics(const std::string& egl_library = kEglLibrary);
-/// The version of OpenNI2, and the sensors that it finds.
+/// Reports the version of OpenNI2, and the sensors that it finds.
 std::vector<Finding> check_openni();
-/// The known depth sensors on the USB bus: port, speed, permission.
+/// Reports port, speed and permission of the known depth sensors on the USB bus.
 std::vector<Finding> check_usb();
 
 }  // namespace barehand

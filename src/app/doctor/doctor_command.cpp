@@ -30,7 +30,7 @@ int run_doctor(const std::string& lcm_url) {
   examine(lcm_url, [&](const Finding& finding) {
     std::cout << label(finding.level) << finding.subject << ": " << finding.text << "\n";
     if (!finding.remedy.empty()) std::cout << "         -> " << finding.remedy << "\n";
-    std::cout << std::flush;  // the next check may take seconds
+    std::cout << std::flush;  // shows this finding now, since the next check may take seconds
     problems += finding.level == Finding::Level::problem;
   });
   std::cout << (problems == 0 ? "Ready to track.\n" : "Not ready: see the lines marked PROBLEM.\n");

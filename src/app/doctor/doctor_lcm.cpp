@@ -12,13 +12,13 @@
 namespace barehand {
 namespace {
 
-// At least kMessages are sent, one after the other: the next one when all have come back, or after kAgain. kPatience
-// bounds the time until all must have come back.
+// At least kMessages are sent, one after the other: the next one when all before have been received, or after kAgain.
+// All must have been received after kPatience.
 constexpr int kMessages = 5;
 constexpr std::chrono::milliseconds kPatience{10'000}, kAgain{500};
 constexpr std::size_t kSize = 150'000;  // size of a compressed VGA depth image [bytes]
 
-/// Counts the messages that come back.
+/// Counts the messages that are received.
 struct Mailbox {
   std::mutex mutex;
   std::condition_variable changed;
@@ -29,7 +29,7 @@ struct Mailbox {
     ++received;
     changed.notify_all();
   }
-  /// Waits for `count` messages, but not longer than kAgain; returns how many have come so far.
+  /// Waits for `count` messages, but not longer than kAgain; returns how many have been received so far.
   int wait_for(int count) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, kAgain, [&] { return received >= count; });
@@ -51,8 +51,8 @@ Finding check_lcm(const std::string& lcm_url) {
     if (message.size() == kSize) mailbox.put();
   });
   const std::vector<std::uint8_t> message(kSize, 0x5a);
-  // Send until all messages have come back: on a busy machine some may be late. Lost ones never come, so there is a
-  // deadline.
+  // Send until all messages have been received, since some may be late on a busy machine. The deadline is for messages
+  // that are lost.
   int sent = 0, received = 0;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (sent < kMessages || (received < sent && std::chrono::steady_clock::now() < deadline)) {

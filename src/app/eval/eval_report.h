@@ -24,10 +24,10 @@ Result<EvaluatedRun> evaluate_run(const std::string& label, const std::string& t
                                   const std::string& result_path, const ResultTable& result,
                                   const ExpectedFrames& expected = {});
 
-/// What `barehand eval` found.
+/// All results of one run of `barehand eval`.
 struct EvalReport {
   std::vector<EvaluatedRun> runs;
-  std::optional<double> hand_length;  ///< [m], for errors as a fraction of it
+  std::optional<double> hand_length;  ///< length of the hand [m], to state errors as a fraction of it
   std::optional<FingertipEvaluation> fingertips;
   std::optional<Reliability> reliability;
 };

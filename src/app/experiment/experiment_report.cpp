@@ -42,7 +42,7 @@ std::string decimal(const Figure& figure, const char* none) {
   return formatted("%.*f", figure.decimals, figure.value);
 }
 
-/// Right-aligned in `width` characters.
+/// The text, right-aligned in `width` characters.
 std::string padded(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
 }

@@ -22,7 +22,7 @@ struct ExperimentReport {
 
 /// A text table with one line per row: numbers of frames and lost frames, errors [mm], times [ms].
 std::string experiment_table(const ExperimentReport& report);
-/// Writes the same as DIRECTORY/NAME.txt, .csv and .json, and draws the errors as boxes per sequence and variant
+/// Writes the report to DIRECTORY/NAME.txt, .csv and .json, and draws the errors as boxes per sequence and variant
 /// (paper Fig. 7) in DIRECTORY/NAME.png. Errors: a file that cannot be written, for example because the disk is full.
 Result<void> write_experiment(const ExperimentReport& report, const std::string& directory);
 

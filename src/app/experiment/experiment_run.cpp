@@ -40,7 +40,7 @@ class ExperimentRun {
   tl::expected<ExperimentReport, TrackFailure> run();
 
  private:
-  // Finds wrong input before anything is written.
+  // Checks the input before anything is written.
   Step check() const;
   // Removes what an earlier experiment left, and marks the folder as an experiment's.
   Step take_folder() const;
@@ -155,7 +155,7 @@ Step ExperimentRun::compare(const std::string& sequence) {
     report_.rows.push_back(std::move(*row));
   }
 
-  // Write what `barehand eval` would write.
+  // Write the same report and plots as `barehand eval`.
   const auto written = write_json_report(compared, options_.out + "/figures/" + sequence + ".json").and_then([&] {
     return write_plots(compared, options_.out + "/plots/" + sequence);
   });
@@ -182,7 +182,7 @@ tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::stri
   options.threads = options_.threads;
   options.no_publish = true;
 
-  // Track.
+  // Track the sequence.
   const auto tracked = track(options, variant.config);
   if (!tracked) return tl::unexpected(tracked.error());
   if (tracked->stopped) return stop({"stopped", name, ""}, kExitInterrupted);

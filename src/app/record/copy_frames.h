@@ -24,13 +24,13 @@ struct CopyOptions {
 
 struct CopyResult {
   std::int64_t written = 0;
-  std::int64_t skipped = 0;    ///< frames that the source could not read
-  std::int64_t missing = 0;    ///< frames that a live source numbered but did not deliver
-  std::int64_t dropped = 0;    ///< the missing frames that were dropped here, since they came too fast to be written
-  std::int64_t lost = 0;       ///< delivered but not written
-  std::string lost_why;        ///< why the last of them was not written
+  std::int64_t skipped = 0;  ///< frames that the source could not read
+  std::int64_t missing = 0;  ///< frames that a live source numbered but did not deliver
+  std::int64_t dropped = 0;  ///< those missing frames that this program dropped, since it could not write them in time
+  std::int64_t lost = 0;     ///< frames that were delivered but not written
+  std::string lost_why;      ///< why the last lost frame was not written
   std::optional<Error> error;  ///< what ended the copy early; what was written before is complete
-  bool stopped = false;        ///< ended by `stop`
+  bool stopped = false;        ///< whether `stop` ended the copy
 };
 
 /// Copies frames from a source to a writer until the source ends, a limit is reached or `stop` becomes true. A frame

@@ -41,10 +41,10 @@ class McapFrameWriter : public FrameWriter {
     scene.utime = frame.utime;
     scene.number = frame.number;
     scene.fps = options_.fps;
-    scene.cloud = false;  // it follows from depth
+    scene.cloud = false;  // the point cloud can be computed from the depth image
     if (options_.encoding.colour == ColourEncoding::jpeg) scene.jpeg_quality = options_.encoding.jpeg_quality;
     if (options_.encoding.colour != ColourEncoding::none) {
-      scene.frame = FramePtr(FramePtr(), &frame);  // it outlives the call
+      scene.frame = FramePtr(FramePtr(), &frame);  // does not own the frame, which outlives this call
     } else {
       auto depth_only = std::make_shared<RgbdFrame>(frame);
       depth_only->colour = {};

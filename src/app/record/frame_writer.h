@@ -21,15 +21,15 @@ class FrameWriter {
   /// Call it after the last frame. On return, everything is on the disk under its final name. If no frame was written,
   /// nothing is left on the disk.
   virtual Result<void> finish() = 0;
-  /// For log output and errors, e.g. "LCM log /data/a.lcmlog".
+  /// The name of the destination for messages, such as "LCM log /data/a.lcmlog".
   virtual std::string name() const = 0;
 };
 
 struct FrameWriterOptions {
-  FrameEncoding encoding = {};               ///< for a log; the other forms use only the colour, with raw as PNG
-  std::string channel = "RGBD_FRAME";        ///< for a log
-  double fps = 0;                            ///< nominal frame rate [Hz], stored except in a log; 0: not stored
-  bool overwrite = false;                    ///< replace a file; a folder with a recording is never replaced
+  FrameEncoding encoding = {};         ///< encodings in a log; other forms use that of colour only, with raw as PNG
+  std::string channel = "RGBD_FRAME";  ///< channel of the frames in a log
+  double fps = 0;                      ///< nominal frame rate [Hz], stored except in a log; 0: not stored
+  bool overwrite = false;              ///< replace a file; a folder with a recording is never replaced
   std::optional<LogRotation> rotation = {};  ///< for a log: write a set of files instead of one
   const Clock* clock = nullptr;              ///< for the rotation; must outlive the writer
 };
@@ -37,11 +37,12 @@ struct FrameWriterOptions {
 /// Whether `path` is written as an LCM log (is_log_name), or as an MCAP file.
 bool is_log_path(const std::string& path);
 bool is_mcap_path(const std::string& path);
-/// One of these: a single file, not a folder.
+/// Whether `path` is written as one of these two, a single file, and not as a folder.
 bool is_file_path(const std::string& path);
 
-/// Creates an LCM log or an MCAP file, as the name says, and otherwise a recording folder. Errors: it exists or cannot
-/// be created, `path` ends in .oni, which is not written, or something else than an LCM log is to rotate.
+/// Creates an LCM log, an MCAP file or a recording folder, depending on the ending of `path`. Errors: it exists or
+/// cannot be created, `path` ends in .oni, which cannot be written, or a rotation is requested for something else than
+/// an LCM log.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 
 }  // namespace barehand

@@ -11,7 +11,7 @@ namespace barehand {
 
 void add_record_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
-  request->source.live_capacity = 128;  // frames of a few seconds, since a recording should lose none
+  request->source.live_capacity = 128;  // number of frames in a few seconds, since a recording should lose none
   CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log, an MCAP file or a folder");
   record
       ->add_option("--source", request->source.spec,

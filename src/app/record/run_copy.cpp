@@ -51,7 +51,7 @@ Output output_of(const CopyRequest& request, bool rotates) {
   return {request.out_option, request.out, is_log_path(request.out) ? log : Output::Kind::recording};
 }
 
-/// Why a copy that reached the end of its source has failed all the same; none if it has not.
+/// Why a copy that reached the end of its source has failed nevertheless; none if it has succeeded.
 std::optional<Error> failure_of(const CopyResult& result, const std::string& source, bool live) {
   const std::string frames = std::to_string(result.written + result.skipped);
   if (result.written == 0 && live) return Error{"no frame arrived, so nothing is written", source, ""};
@@ -85,7 +85,7 @@ class NewFolders {
   explicit NewFolders(const std::string& output) {
     std::error_code ignored;
     fs::path folder = fs::absolute(output, ignored);
-    if (!folder.has_filename()) folder = folder.parent_path();  // for a path like "folder/"
+    if (!folder.has_filename()) folder = folder.parent_path();  // removes the slash at the end of a path like "folder/"
     for (folder = folder.parent_path(); !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
       folders_.push_back(folder);
   }
@@ -100,7 +100,8 @@ class NewFolders {
   std::vector<fs::path> folders_;  // created by this run, innermost first
 };
 
-/// Reports to systemd, if it listens, that the copy is alive, and every second its counts.
+/// Reports to systemd, if it started this program as a service, that the copy makes progress, and its counts every
+/// second.
 class ServiceReport {
  public:
   ServiceReport(ServiceManager& service, std::string place, const Clock& clock)
@@ -144,7 +145,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
   if (request.source.foreign.any()) input.openni2.camera = request.source.foreign;
   auto source = open_source(input, clock);
-  if (!source && input.spec == "lcm") {  // no usage error: the network may come later
+  if (!source && input.spec == "lcm") {  // not a usage error, since the network may become available later
     refuse(source.error());
     return kExitFailure;
   }
@@ -161,7 +162,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     auto taken = lock_set(request.out, std::chrono::seconds(3));  // a previous service may be about to end
     if (!taken) {
       refuse(taken.error());
-      return kExitFailure;  // no usage error: the set may be free later
+      return kExitFailure;  // not a usage error, since the set may be free later
     }
     lock = std::move(*taken);
   }

@@ -8,11 +8,11 @@
 namespace barehand {
 namespace {
 
-constexpr int kPixelStep = 4;  // every fourth pixel of every fourth row is enough
+constexpr int kPixelStep = 4;  // only every fourth pixel of every fourth row is used, which is enough
 constexpr int kMostFrames = 30;
 constexpr std::int64_t kLongest = 1'000'000;  // time that is checked at most [us]
 constexpr double kNearest = 0.18;             // smallest plausible median depth [m]
-constexpr double kFew = 1e-3;                 // fraction of the measured values; fewer within the limits are noise
+constexpr double kFew = 1e-3;                 // a smaller fraction of depths within the limits counts as noise
 
 }  // namespace
 

@@ -33,9 +33,9 @@ class DepthRange {
   bool done_ = false;
   int frames_ = 0;
   std::int64_t first_utime_ = 0;
-  double unit_ = 0;                    // metres per count
+  double unit_ = 0;                    // metres per unit of `values_`
   std::int64_t within_ = 0;            // number of `values_` within the limits
-  std::vector<std::uint16_t> values_;  // a sample of the measured depths [counts]
+  std::vector<std::uint16_t> values_;  // a sample of the measured depths, in units of `unit_`
 };
 
 }  // namespace barehand

@@ -31,7 +31,7 @@ InterruptWatcher::~InterruptWatcher() {
   thread_.request_stop();
   thread_.join();
 
-  // A SIGHUP that came too late must not end the process now.
+  // Discard a SIGHUP that arrived too late, which would otherwise end the process now.
   constexpr timespec kNow{0, 0};
   sigset_t hangup;
   sigemptyset(&hangup);
@@ -62,8 +62,8 @@ void InterruptWatcher::watch(const std::stop_token& stop) {
     }
     signal_ = received;
 
-    // The next signal has its default effect, through this thread. SIGHUP stays blocked: a terminal that closes sends
-    // it twice, through the shell and by itself.
+    // Let the next signal have its default effect on this thread. SIGHUP stays blocked, because a terminal that closes
+    // sends it twice: through the shell and by itself.
     sigdelset(&watched_, SIGHUP);
     pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
     on_signal_();

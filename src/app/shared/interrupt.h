@@ -24,7 +24,7 @@ class InterruptWatcher {
   /// From now on, SIGHUP calls `on_signal`, too. Any thread may call this.
   void stop_on_hangup() { hangup_stops_ = true; }
 
-  /// The signal that came: SIGINT, SIGTERM or SIGHUP; 0 if none did.
+  /// The signal that was received: SIGINT, SIGTERM or SIGHUP; 0 if there was none.
   int signal() const { return signal_; }
   /// Name of that signal, for messages.
   std::string name() const;
@@ -34,7 +34,7 @@ class InterruptWatcher {
   bool is_for_others(const siginfo_t& info) const;
 
   const std::function<void()> on_signal_, on_hangup_;
-  const bool in_background_;  // the process was started to ignore SIGINT
+  const bool in_background_;  // whether the process was started with SIGINT ignored
   sigset_t watched_{}, before_{};
   std::atomic<bool> hangup_stops_;
   std::atomic<int> signal_ = 0;

@@ -49,7 +49,7 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
       return refuse(output, "is or lies in " + folder + ", where images of the source " + source.name + " are",
                     "choose another folder");
 
-  // A set of logs must not contain a log of the source, nor add one to it.
+  // Refuse a set of logs that contains a log of the source or would add one to the source.
   if (output.kind == Output::Kind::log_set)
     for (const std::string& file : source.files)
       if (belongs_to_set(file, output.path))
@@ -58,7 +58,7 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   if (source.set_of_logs && log && place.is_entry_of(Place(source.folder)))
     return refuse(output, "would become a part of the source " + source.name, "choose another folder");
 
-  // A folder must neither be the source nor contain it.
+  // Refuse a folder that is the source or contains it.
   if (!is_folder(output.kind)) return {};
   const std::vector<std::string>& whole =
       source.folder.empty() ? source.files : std::vector<std::string>{source.folder};

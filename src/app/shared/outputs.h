@@ -18,13 +18,13 @@ struct InputFile {
   std::string path;    ///< "": none
 };
 
-/// What a run writes.
+/// A file or folder that a run writes.
 struct Output {
   enum class Kind {
     file,
     pictures,   ///< a folder with one image per frame
     recording,  ///< a folder that becomes a recording; its writer checks what the folder contains
-    log_set,    ///< logs whose names begin with this one's (RotatingLog)
+    log_set,    ///< a set of logs whose names begin with the name in `path` (RotatingLog)
   };
   std::string option;  ///< such as "--result"
   std::string path;    ///< "": not written

@@ -88,8 +88,8 @@ Result<OpenSource> open_mcap(const std::string& path, const SourceRequest& reque
   return open;
 }
 
-/// An LCM log or an MCAP file, told apart by what is in it. Instead of a file that is not there the draft is played
-/// that a killed recorder left.
+/// Opens an LCM log or an MCAP file, which are distinguished by their content. If the file does not exist, the draft
+/// that a killed recorder left is played instead.
 Result<OpenSource> open_log_or_mcap(const std::string& path, const SourceRequest& request) {
   const auto files = find_logs(path);
   const bool mcap = files && files->files.size() == 1 && mcap::is_mcap(files->files.front());
@@ -166,7 +166,7 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
 
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
   auto open = open_kind(request, clock);
-  // The simulator's images are not checked: without noise, they may rightly stay the same.
+  // Check the images, except for the simulator's, which may be identical if they have no noise.
   if (open && !request.spec.starts_with("sim:"))
     open->source = std::make_unique<WatchedSource>(std::move(open->source), request.depth, clock);
   return open;

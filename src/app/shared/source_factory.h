@@ -17,7 +17,7 @@
 
 namespace barehand {
 
-/// What `--source` and the options that belong to it ask for.
+/// The source of frames that the user asks for by `--source` and the options that belong to it.
 struct SourceRequest {
   std::string spec;                   ///< folder:DIR | log:FILE | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME
   std::optional<std::int64_t> start;  ///< first frame of a recording
@@ -26,8 +26,8 @@ struct SourceRequest {
   std::string channel;                ///< glob of LCM channels with frames; "": the driver chooses one
   GivenIntrinsics foreign;            ///< intrinsics of frames that come without
   OpenNiParams openni2;               ///< wanted mode of a sensor
-  std::size_t live_capacity = 1;      ///< live frames that may wait; 1: only the newest
-  DepthLimits depth;                  ///< where a hand is searched for; a warning is given if nothing is measured there
+  std::size_t live_capacity = 1;      ///< largest number of live frames that wait; 1: only the newest
+  DepthLimits depth;                  ///< range in which a hand is searched; nothing measured there leads to a warning
 };
 
 /// A hand that a source knows.

@@ -14,19 +14,19 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_recording(const std::string& directory, SourceFiles& files) {
-  // The files from which a recording is read, even those that it lacks: a result that is written there would be taken
-  // for its truth.
+  // Add the files from which a recording is read, even those that do not exist: a result that is written there would
+  // later be read as the recording's truth.
   files.folder = directory;
   for (const char* name : {"camera.json", "depth.txt", "rgb.txt", "truth.csv", "truth_left.csv", "truth_right.csv",
                            "fingertips.csv", "fingertips_2d.csv", "start_pose.json", "start_pose_left.json"})
     files.files.push_back(directory + "/" + name);
 
-  // Its hand profiles, if they exist: a new one may be written into a recording without.
+  // Add the recording's hand profiles that exist; a new one may be written into a recording that has none.
   std::error_code ignored;
   for (const char* name : {"hand.json", "hand_left.json", "hand_right.json"})
     if (const std::string hand = directory + "/" + name; fs::exists(hand, ignored)) files.files.push_back(hand);
 
-  // The images, and their folders unless that is the recording's own.
+  // Add the images, and their folders unless they are in the recording's own folder.
   files.image_folders = {directory + "/depth", directory + "/rgb"};
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     const auto list = read_stamped_list(directory + "/" + name);

@@ -9,8 +9,8 @@ namespace barehand {
 struct SourceFiles {
   std::string name;                        ///< as the user gave it, such as "folder:DIR"
   std::string folder;                      ///< a recording or a set of logs; "": a single file, or none
-  bool set_of_logs = false;                ///< every log that is put into `folder` belongs to it
-  std::vector<std::string> files;          ///< its files, and those that would belong to it if they existed
+  bool set_of_logs = false;                ///< whether every log that is put into `folder` belongs to the source
+  std::vector<std::string> files;          ///< files of the source, and those that would belong to it if they existed
   std::vector<std::string> image_folders;  ///< folders with the images of a recording
 };
 

@@ -14,7 +14,8 @@
 namespace barehand {
 
 void prepare_standard_streams() {
-  // open() returns the lowest free number, which is `descriptor`, since those below it are open by now.
+  // Open what is closed. open() returns the lowest free number, which is `descriptor`, since those below it are open by
+  // then.
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) open("/dev/null", O_RDWR);
   std::signal(SIGPIPE, SIG_IGN);
@@ -22,7 +23,7 @@ void prepare_standard_streams() {
 }
 
 bool nobody_reads() {
-  pollfd output{STDOUT_FILENO, 0, 0};  // POLLERR and POLLHUP are reported without being asked for
+  pollfd output{STDOUT_FILENO, 0, 0};  // poll() always reports POLLERR and POLLHUP, even if no events are requested
   return poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kRepeatEvery = 10'000'000;  // time [us] in which a problem of one kind is reported once
 constexpr std::int64_t kStillFor = 1'000'000;      // an unchanged image of a recording is reported after this time [us]
-constexpr int kStillFrames = 10;                   // and after this number of frames
+constexpr int kStillFrames = 10;                   // and only after this number of unchanged frames
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 

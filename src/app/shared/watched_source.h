@@ -37,7 +37,7 @@ class WatchedSource : public FrameSource {
   RepeatFilter filter_;
   std::optional<DepthRange> range_;  ///< check of the current camera; none before the first frame
   FramePtr before_;
-  FramePtr still_since_;  ///< first of a run of frames with the same depth image; null: none
+  FramePtr still_since_;  ///< first of a run of frames with the same depth image; null: the image changes
   int still_frames_ = 0;
   std::deque<SourceEvent> to_come_;  ///< events to deliver before another frame is read
 };

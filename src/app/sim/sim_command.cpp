@@ -63,7 +63,7 @@ int run(const SimArguments& a) {
     return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog or .mcap"},
                      kExitUsage);
 
-  // Render. An error before the first frame is one of the arguments.
+  // Render the sequence. An error before the first frame means that an argument is wrong.
   std::int64_t done = 0;
   std::atomic<bool> stop = false;
   const InterruptWatcher interrupt([&stop] { stop = true; });

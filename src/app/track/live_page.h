@@ -20,7 +20,7 @@ class LivePage {
   static Result<std::unique_ptr<LivePage>> open(const TrackOptions& options, std::shared_ptr<spdlog::logger> log);
 
   ViewServer& server() { return *server_; }
-  LogRecorder* recorder() { return recorder_.get(); }  ///< null: nothing can be recorded
+  LogRecorder* recorder() { return recorder_.get(); }  ///< the recorder; null: nothing can be recorded
 
  private:
   LivePage() = default;

@@ -27,7 +27,7 @@ std::optional<std::string> PipeReaders::wait_for(const std::string& path, const 
   std::condition_variable_any never;
   while (!stop.stop_requested()) {
     const int pipe = open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-    if (pipe < 0 && errno != ENXIO) return path;  // opening it later reports the error
+    if (pipe < 0 && errno != ENXIO) return path;  // the error is reported when the pipe is opened later
     if (pipe >= 0) {
       fcntl(pipe, F_SETFL, fcntl(pipe, F_GETFL) & ~O_NONBLOCK);
       return "/dev/fd/" + std::to_string(pipes_.emplace_back(pipe));

@@ -17,9 +17,9 @@ class PipeReaders {
   PipeReaders(const PipeReaders&) = delete;
   PipeReaders& operator=(const PipeReaders&) = delete;
 
-  /// Returns where to write what is meant for `path`: for a named pipe, once it has a reader, the descriptor that this
-  /// object holds open (such as /dev/fd/5); otherwise `path` itself, at once. `on_wait` is called repeatedly while it
-  /// waits. Returns none if `stop` came first.
+  /// Returns the path to write to instead of `path`: for a named pipe, as soon as it has a reader, the descriptor that
+  /// this object holds open (such as /dev/fd/5); otherwise `path` itself, at once. `on_wait` is called repeatedly while
+  /// it waits. Returns none if `stop` was requested first.
   std::optional<std::string> wait_for(const std::string& path, const std::stop_token& stop,
                                       const std::function<void()>& on_wait);
 

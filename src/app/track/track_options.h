@@ -18,19 +18,19 @@ struct TrackOptions {
   std::string init = "auto";
   std::string result, states_log, mcap, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
-  bool overwrite = false;   ///< outputs may replace existing files
-  int overlay_every = 1;    ///< every n-th frame is drawn
-  bool overlay_names = false;  ///< segments are named
+  bool overwrite = false;   ///< whether outputs may replace existing files
+  int overlay_every = 1;    ///< only every n-th frame is drawn
+  bool overlay_names = false;  ///< whether the overlay names the segments
   std::string lcm_url;
   std::optional<std::int64_t> seed;  ///< replaces the configuration's seed
   int threads = 1;
   bool single_threaded = false;  ///< --inline
   bool no_publish = false;
-  std::string print_config;  ///< which keys: user, all or changed; "": none
+  std::string print_config;  ///< which keys to print instead of tracking: user, all or changed; "": none
   bool health = false;
   std::optional<std::string> view;        ///< PORT or ADDRESS:PORT of the live page; none: no page is served
   std::vector<std::string> view_origins;  ///< foreign origins whose pages may connect
-  std::string view_record;                ///< folder of what the page's button records; "": it records nothing
+  std::string view_record;                ///< folder for recordings started on the page; "": nothing can be recorded
 
   /// The outputs that are one file each.
   static constexpr std::array kFiles = {&TrackOptions::result, &TrackOptions::states_log, &TrackOptions::mcap,

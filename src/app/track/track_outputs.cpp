@@ -53,11 +53,11 @@ std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Prof
 
 std::string numbered(const std::string& path, int number) {
   std::filesystem::path whole(path);
-  if (!whole.has_filename()) whole = whole.parent_path();  // for a path like "folder/"
+  if (!whole.has_filename()) whole = whole.parent_path();  // removes the slash at the end of a path like "folder/"
   return whole.parent_path() / (whole.stem().string() + "-" + std::to_string(number) + whole.extension().string());
 }
 
-/// `path` if it is free by `is_taken`, or else the first numbered name that is.
+/// Returns `path` if `is_taken` is false for it, otherwise the first numbered name for which it is false.
 template <class IsTaken>
 std::string free_name(const std::string& path, const IsTaken& is_taken) {
   std::string name = path;

@@ -84,7 +84,7 @@ class TrackRun {
   void reload();
   Result<Reload::Changes> exchange_configuration();
   Step add(Result<std::unique_ptr<Sink>> sink);
-  /// Nominal rate of the frames that are played; `unknown`: that of a source that states none.
+  /// Nominal rate of the frames that are played [Hz]; `unknown`: the rate to assume if the source states none.
   double rate(double unknown) const {
     return (input_.fps > 0 ? input_.fps : unknown) / std::abs(static_cast<double>(options_.step));
   }
@@ -107,11 +107,11 @@ class TrackRun {
   OpenSource input_;
   TwoHandTracker::Profiles profiles_;
   std::optional<HandPose> initial_;
-  std::optional<SE3> world_;  // T_world_camera; none: the room is not known
+  std::optional<SE3> world_;  // T_world_camera; none: the pose of the camera in the room is not known
   std::shared_ptr<LcmBus> bus_;
   std::unique_ptr<CommandInbox> commands_;
   PipeReaders readers_;
-  std::unique_ptr<LivePage> page_;  // null: nobody wants it, or it could not be served
+  std::unique_ptr<LivePage> page_;  // null: it was not requested, or its server could not be started
   std::vector<std::unique_ptr<Sink>> sinks_;
   ProgressSink* progress_ = nullptr;
   std::unique_ptr<Pipeline> pipeline_;
@@ -152,7 +152,7 @@ Step TrackRun::open_input() {
   if (input_.source->live())
     workers_->go_live();
   else
-    interrupt_.stop_on_hangup();  // the configuration must not change within a recording
+    interrupt_.stop_on_hangup();  // no reload, since the configuration must not change within a recording
   for (const std::string& warning : input_.warnings) log_.logger().warn(warning);
   return {};
 }
@@ -265,7 +265,7 @@ Step TrackRun::open_mcap() {
       McapSink::create(config_.publish, options_.mcap, options_.overwrite, std::move(input), clock_, &pending_.mcap));
 }
 
-/// Opens something that needs the LCM network. A live run waits until the network is there.
+/// Calls `open`, which needs the LCM network. If that fails, a live run waits until the network is available.
 template <class Open>
 auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   std::mutex mutex;
@@ -273,7 +273,7 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
   while (true) {
     auto opened = open();
     if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
-    if (LcmBus::open(options_.lcm_url)) return open();  // the network is there now, or another error occurred
+    if (LcmBus::open(options_.lcm_url)) return open();  // the network is available, or the error has another cause
     log_.warn("LCM", opened.error().message() + "; trying again every second");
     service_.ready("waiting for the LCM network");
     service_.alive();
@@ -301,7 +301,7 @@ Step TrackRun::open_view() {
   return {};
 }
 
-/// Adds the queue of frames for the live page.
+/// Adds the live page's queue of frames to the health of the pipeline.
 PipelineHealth TrackRun::with_view(PipelineHealth health) const {
   if (page_) health.queues.push_back(page_->server().health());
   return health;

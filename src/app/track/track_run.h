@@ -19,14 +19,15 @@ struct TrackFailure {
   int exit_code;  ///< exit_code.h
 };
 
-/// How a run went.
+/// The result of a run.
 struct TrackOutcome {
   PipelineHealth health;
   std::vector<StatusCounts> status;  ///< one for each hand
   double seconds = 0;                ///< duration of the run [s]
-  bool stopped = false;              ///< by a signal; everything tracked until then is written
+  bool stopped = false;              ///< whether a signal ended the run; everything tracked before is written
   int exit_code = kExitOk;
-  std::unique_ptr<LivePage> page;  ///< still served; null: nobody wants it, or it could not be
+  std::unique_ptr<LivePage>
+      page;  ///< the page, whose server still runs; null: not requested, or it could not be started
 };
 
 /// Tracks with `config` and `options`. Of the latter, seed and print_config are not used, and config only to protect

@@ -15,7 +15,7 @@ namespace barehand {
 class LiveView {
  public:
   struct Options {
-    std::string prefix;                      ///< of the tracker's channels
+    std::string prefix;                      ///< prefix of the tracker's channels
     std::optional<SE3> T_world_camera = {};  ///< none: the camera's pose in the room is unknown
     LogRecorder* recorder = nullptr;         ///< null: nothing can be recorded. Must outlive the view
   };

@@ -43,7 +43,7 @@ void LogPosition::follow(const PlayerCommand& command, std::int64_t now_us) {
 void LogPosition::go_to(std::int64_t frame, std::int64_t now_us) {
   frame_ = std::clamp<std::int64_t>(frame, 0, static_cast<std::int64_t>(seconds_.size()) - 1);
   shown_us_ = now_us;
-  started_ = false;  // it must be shown even if it is the same frame
+  started_ = false;  // makes advance() show the frame even if it is the same one
 }
 
 /// First frame of the next sequence of frames without a hand, or of the previous one; the current frame if there is

@@ -91,10 +91,10 @@ class LogShow {
 };
 
 void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
-  constexpr std::int64_t kPatienceUs = 50'000;  // bounds the time that stopping takes
+  constexpr std::int64_t kPatienceUs = 50'000;  // longest wait, which limits the time that stopping takes
   std::unique_lock lock(mutex_);
   while (!stop) {
-    if (!server.has_clients() && !stop) {  // playing starts when a page connects
+    if (!server.has_clients() && !stop) {  // wait, since playing starts when a page connects
       changed_.wait_for(lock, std::chrono::microseconds(kPatienceUs));
       position_.wait(clock_.steady_us());
       continue;
