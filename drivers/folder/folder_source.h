@@ -17,8 +17,8 @@ struct FolderRange {
 };
 
 /// Plays a recording folder (docs/formats.md). Frames keep the recording's own numbers and time stamps, also backwards,
-/// where time stamps decrease. A frame whose depth cannot be read, or that FrameOrder rejects, comes as SkippedFrame,
-/// and playing goes on.
+/// where time stamps decrease. A frame whose depth cannot be read, or that FrameOrder rejects, is delivered as
+/// SkippedFrame, and playing continues.
 class FolderSource : public FrameSource {
  public:
   /// Errors: those of open_recording, a start outside the recording, a step of 0.

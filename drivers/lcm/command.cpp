@@ -13,7 +13,7 @@ Result<HandPose> pose_of(const command_t& message) {
   HandPose pose;
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto& p = message.position[s];
-    const auto& q = message.orientation[s];  // (w, x, y, z)
+    const auto& q = message.orientation[s];  // quaternion (w, x, y, z)
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
     pose[s].t = Eigen::Vector3d(p[0], p[1], p[2]);
     const bool near = pose[s].t.cwiseAbs().maxCoeff() <= kFarthest && pose[s].t.allFinite();

@@ -100,8 +100,8 @@ Result<void> check_image_size(std::int64_t width, std::int64_t height) {
 
 Result<Depth> decode_depth(std::span<const std::uint8_t> bytes, DepthEncoding encoding, int width, int height) {
   if (auto size = check_image_size(width, height); !size) return tl::unexpected(size.error());
-  // Deflate compresses by at most 1032:1. Checking this first prevents a few bytes from making us allocate a large
-  // image.
+  // Check first that there are enough bytes, since deflate compresses by at most 1032:1: a message of a few bytes must
+  // not make the program allocate a large image.
   const bool too_little =
       encoding == DepthEncoding::zlib && static_cast<double>(bytes.size()) * 1040 < 2.0 * width * height;
   if (bytes.empty() || too_little)

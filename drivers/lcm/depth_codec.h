@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// How rgbd_frame_t carries depth; the values are those of the message type. All are lossless.
+/// The encodings of depth in rgbd_frame_t, with the values of the message type. All are lossless.
 enum class DepthEncoding : std::int8_t { raw16 = 0, zlib = 1, rvl_zstd = 2 };
 
 std::vector<std::uint8_t> encode_depth(const Image<std::uint16_t>& depth, DepthEncoding encoding);

@@ -7,7 +7,8 @@
 
 namespace barehand {
 
-// Frame types of other projects. They carry no intrinsics: `camera` must give them, or else every frame is an error.
+// Decodes frame types of other projects. They carry no intrinsics: `camera` must contain them, or every frame is an
+// error.
 
 // Colour that is damaged, or that differs in size from depth and so is not registered to it, is left out; the frame's
 // `colour_fault` says why.

@@ -7,13 +7,13 @@
 
 namespace barehand {
 
-/// How rgbd_frame_t carries colour; the values are those of the message type. JPEG is lossy.
+/// The encodings of colour in rgbd_frame_t, with the values of the message type. Only JPEG is lossy.
 enum class ColourEncoding : std::int8_t { none = 0, raw_rgb = 1, jpeg = 2, png = 3 };
 
 struct FrameEncoding {
   DepthEncoding depth = DepthEncoding::rvl_zstd;
   ColourEncoding colour = ColourEncoding::png;
-  int jpeg_quality = 92;  ///< 1..100
+  int jpeg_quality = 92;  ///< quality of JPEG colour, 1 to 100
 };
 
 /// Encodes a frame; its number becomes `seq`. A frame whose depth or colour differs in size from its intrinsics is an

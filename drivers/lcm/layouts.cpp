@@ -72,10 +72,10 @@ void walk(WireWalker& walker, const health_t*) {
 
 void walk(WireWalker& walker, const kinect::frame_msg_t*) {
   walker.skip(8);
-  walker.skip(8 + 2 + 2);  // image
+  walker.skip(8 + 2 + 2);  // fixed fields of the colour image
   walker.byte_array();
   walker.skip(1);
-  walker.skip(8 + 2 + 2);  // depth
+  walker.skip(8 + 2 + 2);  // fixed fields of the depth image
   walker.byte_array();
   walker.skip(1 + 1 + 4);
   walker.skip(3 * 2 + 1 + 3 * kDouble + kDouble + 1 + 1);

@@ -15,7 +15,7 @@ void LcmListener::hand_on(const lcm_recv_buf_t* buffer, const char* channel, voi
 LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channels, Handler handler)
     : bus_(std::move(bus)), handler_(std::move(handler)) {
   subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, this);
-  broken_ = subscription_ == nullptr;  // liblcm rejected the pattern
+  broken_ = subscription_ == nullptr;  // it is null if liblcm rejected the pattern
   thread_ = std::thread([this] { run(); });
 }
 
@@ -26,7 +26,7 @@ LcmListener::~LcmListener() {
 }
 
 void LcmListener::run() {
-  constexpr int kWait_ms = 20;  // bounds the time that stopping takes
+  constexpr int kWait_ms = 20;  // longest wait for a message, which limits the time that stopping takes
   while (!stop_) {
     if (bus_->lcm().handleTimeout(kWait_ms) < 0) {
       broken_ = true;

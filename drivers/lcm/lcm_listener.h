@@ -27,7 +27,7 @@ class LcmListener {
   LcmListener(const LcmListener&) = delete;
   LcmListener& operator=(const LcmListener&) = delete;
 
-  /// Whether the connection broke; then nothing more arrives.
+  /// Whether the connection is broken, so that no more messages arrive.
   bool broken() const { return broken_; }
 
  private:

@@ -39,12 +39,12 @@ void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
 }
 
 void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
-  constexpr std::int64_t kReordered = 32;  // messages; a larger step back means that the sender was restarted
+  constexpr std::int64_t kReordered = 32;  // if `seq` decreases by more messages than this, the sender was restarted
   const auto [last, first] = last_seq_.try_emplace(channel, seq);
   const std::int64_t step = seq - last->second;
   if (!first && step > 1) counts_.lost += step - 1;
   if (!first && step < 0 && step > -kReordered) {
-    --counts_.lost;  // late, not lost
+    --counts_.lost;  // the message was only late, but had been counted as lost
   } else {
     last->second = seq;
   }

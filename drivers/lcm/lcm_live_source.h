@@ -19,7 +19,7 @@ namespace barehand {
 struct LcmLiveOptions {
   std::string channel = {};  ///< glob; "": the first channel like *RGBD_FRAME on which a frame arrives
   GivenIntrinsics foreign = {};
-  std::size_t capacity = 1;  ///< messages that may wait: 1 to track the newest, more to record all
+  std::size_t capacity = 1;  ///< largest number of waiting messages: 1 to track the newest, more to record all
 };
 
 /// Counts since the start: received = delivered + replaced + waiting.
@@ -70,7 +70,7 @@ class LcmLiveSource : public FrameSource {
   LcmLiveCounts counts_;
   std::map<std::string, std::int64_t> last_seq_;
   std::string chosen_;  ///< the only channel that is accepted; "": every channel of the pattern
-  std::string other_;   ///< another channel on which frames arrive
+  std::string other_;   ///< another channel on which frames arrived; "": there is none
   bool told_of_other_ = false;
 
   LcmListener listener_;  ///< declared last: its thread uses the members above

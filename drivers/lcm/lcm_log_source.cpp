@@ -16,7 +16,7 @@
 namespace barehand {
 namespace {
 
-/// The hint of an error message: how to choose a channel.
+/// The remedy in an error message: how to choose a channel.
 std::string how_to_choose(const std::string& channel) {
   return "choose one: run.frame_channel: " + in_quotes(channel) + " in the configuration of track, --channel " +
          shell_word(channel) + " for record and convert";

@@ -63,7 +63,7 @@ class LcmLogSource : public FrameSource {
   std::vector<LcmLogReader> files_;
   std::vector<Error> left_out_;
   std::vector<Event> frames_;             ///< events of the chosen channels, in the order of the files
-  std::map<std::int64_t, Error> unused_;  ///< by index in frames_: why FrameOrder rejects the frame
+  std::map<std::int64_t, Error> unused_;  ///< why FrameOrder rejects a frame, by the frame's index in frames_
   std::vector<std::string> doubts_;
   ReplayPosition position_;
   std::size_t open_ = 0;  ///< index of the only file that may be open

@@ -14,7 +14,7 @@ namespace barehand {
 /// 32-bit words, high half first, so that the code is the same on any machine.
 std::vector<std::uint8_t> rvl_encode(std::span<const std::uint16_t> counts);
 
-/// Decodes an image into `counts`, all of which are filled. Code that is too short, too long or invalid is an error.
+/// Decodes an image and fills all of `counts`. Code that is too short, too long or invalid is an error.
 Result<void> rvl_decode(std::span<const std::uint8_t> code, std::span<std::uint16_t> counts);
 
 /// Upper bound of the code's size [bytes]. Per pixel, a difference of 17 bits takes at most 6 nibbles, and the lengths

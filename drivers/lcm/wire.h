@@ -21,9 +21,9 @@ class WireWalker {
   void skip(std::int64_t bytes);
   std::int64_t int64();
   std::int32_t int32();
-  void string();      ///< length (with the final NUL), characters other than NUL, NUL
-  void byte_array();  ///< for `int32_t n; byte data[n];`
-  /// For `int32_t n; element data[n];`: n if that many elements of at least `least` bytes each may follow, else 0.
+  void string();      ///< steps over a string: length (with the final NUL), characters other than NUL, NUL
+  void byte_array();  ///< steps over `int32_t n; byte data[n];`
+  /// Reads n of `int32_t n; element data[n];`. Returns 0 if the message is too short for n elements of `least` bytes.
   std::int32_t count(std::int64_t least);
 
   bool ok() const { return ok_; }

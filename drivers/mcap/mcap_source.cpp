@@ -42,7 +42,7 @@ double number_in(const mcap::Channel& channel, const char* key) {
   return found == channel.metadata.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
 }
 
-/// Metres per count: the unit that this program has stored, or else a millimetre, the convention of ROS.
+/// The depth unit [m]: the one that this program has stored, or else a millimetre, the convention of ROS.
 double depth_unit_of(const mcap::Channel& channel) {
   const double unit = number_in(channel, ros::kDepthUnit);
   return unit >= 1e-7 && unit <= 1 ? unit : 0.001;
@@ -75,7 +75,7 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
   if (channel.encoding != "cdr") return stream;
   if (channel.type == ros::schema_name<ros::CameraInfo>()) stream.kind = Kind::camera;
 
-  // A raw image: its encoding tells depth from colour.
+  // For a raw image, distinguish depth from colour by its encoding.
   if (channel.type == ros::schema_name<ros::Image>()) {
     const auto head = ros::decode<ImageHead>(bytes);
     if (!head) return stream;
@@ -88,7 +88,7 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     stream.height = static_cast<int>(head->height);
   }
 
-  // A compressed image: its format does, and its size is in the compressed data.
+  // For a compressed image, distinguish them by its format, and read its size from the compressed data.
   if (channel.type == ros::schema_name<ros::CompressedImage>()) {
     const auto image = ros::decode<ros::CompressedImage>(bytes);
     if (!image) return stream;
@@ -238,7 +238,7 @@ Result<FramePtr> McapSource::read_frame(const Frame& item) {
   if (const auto sensor = channel.metadata.find(ros::kSensor); sensor != channel.metadata.end())
     frame->sensor = sensor->second;
 
-  // The newest intrinsics that are not newer than the image, or the first ones if all are newer.
+  // Take the newest intrinsics that are not newer than the image, or the first ones if all are newer.
   if (const Stream* stream = camera_of(*item.topic)) {
     const auto after = stream->cameras.upper_bound(item.utime);
     frame->camera = (after == stream->cameras.begin() ? after : std::prev(after))->second;

@@ -5,8 +5,8 @@
 
 namespace barehand {
 
-/// The waiting time before the next attempt. It doubles each time up to a limit, so that a sensor's return is noticed
-/// within two seconds.
+/// The time to wait before the next attempt to open a sensor. It doubles with every attempt up to a limit, so that the
+/// return of a sensor is noticed within two seconds.
 class Backoff {
  public:
   std::chrono::milliseconds next() {

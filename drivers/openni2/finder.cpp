@@ -35,7 +35,7 @@ Result<void> OpenNiFinder::load() {
 }
 
 Result<std::string> OpenNiFinder::find() {
-  looked_us_ = clock_.steady_us();  // read first: OpenNI2 may hang until the clock is destroyed
+  looked_us_ = clock_.steady_us();  // read before OpenNI2 is called, which may hang until the clock is destroyed
   if (!library_)
     if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
 
@@ -53,13 +53,13 @@ Result<std::string> OpenNiFinder::find() {
     others += (others.empty() ? "; there are: " : ", ") + uri;
   }
 
-  // OpenNI2 may not have noticed a sensor that was plugged in.
+  // Have OpenNI2 loaded again, since it may not have noticed a sensor that was plugged in.
   distrust();
   return not_found(others);
 }
 
 tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
-  // No known sensor is plugged in.
+  // Report it if no known sensor is plugged in.
   const auto plugged = usb_ ? usb_->sensors() : Result<std::vector<UsbSensor>>{};
   std::string what = whom() + " yet" + others;
   if (!plugged || plugged->empty()) return fail(what, "OpenNI2", "plug it in; barehand doctor lists what is found");
@@ -80,7 +80,7 @@ void OpenNiFinder::distrust() {
   const std::string bus = bus_state();
   const std::int64_t patience = bus.empty() ? kReloadBlindly : kReloadAnyway;
   if (bus != bus_when_loaded_ || told_ || looked_us_ - loaded_us_ > patience)
-    library_.reset();  // find() loads it again
+    library_.reset();  // the next find() loads it again
 }
 
 bool OpenNiFinder::gone(const std::string& uri) const {

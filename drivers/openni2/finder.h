@@ -45,10 +45,10 @@ class OpenNiFinder {
   UsbBus* const usb_;
   const Clock& clock_;
   mutable std::mutex mutex_;
-  std::vector<std::string> gone_;  // guarded by mutex_
+  std::vector<std::string> gone_;  // addresses of sensors that were unplugged; guarded by mutex_
   std::unique_ptr<OpenNiLibrary> library_;
   std::string bus_when_loaded_;
-  std::atomic<bool> told_ = false;  // the bus reported a change since OpenNI2 was loaded
+  std::atomic<bool> told_ = false;  // whether the bus has reported a change since OpenNI2 was loaded
   std::int64_t looked_us_ = 0, loaded_us_ = 0;
 };
 

@@ -4,7 +4,7 @@ namespace barehand {
 namespace {
 
 constexpr std::int64_t kRepeatEvery = 2'000'000;  // time [us] in which a problem of one kind is reported once
-constexpr int kMostLost = 1000;  // frames; a larger gap means that the sensor counts in another way, not a loss
+constexpr int kMostLost = 1000;  // a gap of more frames is not a loss: the sensor counts in another way
 
 }  // namespace
 
@@ -12,7 +12,7 @@ LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& cl
     : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
-  // A recovery always passes the filter; otherwise the last message could be about a problem that is over.
+  // Let a recovery always pass the filter; otherwise the last message could be about a problem that is over.
   const std::optional<std::int64_t> suppressed = trouble ? filter_.admit(kind) : 0;
   if (!suppressed.has_value()) return;
   const std::string more = *suppressed > 0 ? " (and " + std::to_string(*suppressed) + " more like this)" : "";

@@ -13,7 +13,7 @@ namespace barehand {
 /// without repetitions.
 class LiveOutput {
  public:
-  /// `source`: name of the source, for messages; `capacity`: frames that may wait.
+  /// `source`: name of the source, for messages; `capacity`: largest number of waiting frames.
   LiveOutput(std::string source, std::size_t capacity, const Clock& clock);
 
   /// A frame with arbitrary content, to be filled.
@@ -25,13 +25,12 @@ class LiveOutput {
   /// Reports a frame that arrived but cannot be used.
   void skip(const std::string& what, const std::string& remedy);
 
-  /// The frame number that belongs to the index that the sensor gave to a frame; gaps in the indices count as lost
-  /// frames.
+  /// Converts the index that the sensor gave to a frame to a frame number; gaps in the indices count as lost frames.
   std::int64_t number(int index);
   /// Call when the sensor restarts its indices.
   void restart_numbers() { last_index_ = -1; }
 
-  /// Any thread may take from it.
+  /// The box with the frames and messages; any thread may take from it.
   EventBox& box() { return box_; }
   /// Counts of the frames that arrived and of those that were lost on the way.
   QueueHealth transit() const;

@@ -56,7 +56,7 @@ void LiveReader::connect() {
     return wait(backoff_.next());
   }
 
-  // Open it.
+  // Open the sensor.
   auto sensor = OpenNiSensor::open(*where, params_);
   if (stop_) return;
   if (!sensor) {
@@ -72,7 +72,7 @@ void LiveReader::connect() {
 }
 
 void LiveReader::follow() {
-  // Read. A sensor that delivers is healthy, so failures before no longer count.
+  // Read the sensor. If it delivers, it is healthy, so earlier failures no longer count.
   auto loss = session_->step();
   if (stop_) return;
   if (session_->proven()) {
@@ -80,7 +80,7 @@ void LiveReader::follow() {
     silent_ = resets_ = 0;
   }
 
-  // Check whether it was lost.
+  // Check whether the sensor was lost.
   if (finder_.gone(session_->where())) loss = LiveSession::Loss{"unplugged", "was unplugged", "plug it in again"};
   if (!loss) return;
 
@@ -91,7 +91,7 @@ void LiveReader::follow() {
   session_.reset();
   if (stop_) return;
 
-  // A sensor that opens but never answers is reset.
+  // Reset a sensor that opens but never answers.
   if (silent_ >= kSilentUntilReset && resets_ < kMostResets) reset(where);
   if (loss->kind != "unplugged") wait(backoff_.next());
 }
@@ -109,7 +109,7 @@ void LiveReader::reset(const std::string& uri) {
   if (!usb_ || !address) return;
   silent_ = 0;
   ++resets_;
-  finder_.unload();  // otherwise its driver would hold the device
+  finder_.unload();  // unloads the sensor's driver, which would otherwise keep the device open
   if (stop_) return;
   if (auto done = usb_->reset(*address); !done)
     output_.notice("not reset", done.error().message(), done.error().remedy);

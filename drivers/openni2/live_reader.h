@@ -13,8 +13,8 @@
 
 namespace barehand {
 
-/// The work of a live sensor's thread: it finds the sensor, opens it and reads it. When the sensor is lost, stalls or
-/// delivers invalid images, it starts again, until it is stopped.
+/// Finds a live sensor, opens it and reads it, on the thread that calls run(). When the sensor is lost, stalls or
+/// delivers invalid images, this starts again, until a stop is requested.
 class LiveReader {
  public:
   /// `wanted` and `capacity`: see OpenNiLiveSource. `usb`: the bus to which the sensor may be connected; null: no bus
@@ -38,7 +38,7 @@ class LiveReader {
   // Resets the sensor's USB port.
   void reset(const std::string& uri);
   void wait(std::chrono::milliseconds duration);
-  // Wakes the thread: something on the bus has changed.
+  // Wakes the thread, because something on the bus has changed.
   void look_again();
 
   const OpenNiParams params_;

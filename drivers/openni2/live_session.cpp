@@ -9,7 +9,7 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kReadWait = 50'000;       // longest wait for an image [us]; bounds the time that stopping takes
+constexpr std::int64_t kReadWait = 50'000;       // longest wait for an image [us]; limits the time that stopping takes
 constexpr double kFirstDepth = 3;                // time that a sensor may need for its first depth image [s]
 constexpr double kPeriods = 5;                   // frame periods that a stall lasts at least, for slow sensors
 constexpr std::int64_t kColourGone = 1'000'000;  // time without colour after which colour counts as stopped [us]
@@ -70,7 +70,7 @@ std::int64_t LiveSession::wait_us() const {
 void LiveSession::take(OpenNiSensor::Picture picture) {
   Pairing::Stamped stamped{static_cast<std::int64_t>(picture.frame.getTimestamp()), now_us_, picture.frame};
   if (picture.colour) {
-    if (pairing_held_all_ && any_depth_ && !colour_missing_) resume_step();  // both cameras deliver
+    if (pairing_held_all_ && any_depth_ && !colour_missing_) resume_step();  // both cameras deliver images again
     last_colour_us_ = now_us_;
     depth_since_colour_ = 0;
     if (auto pair = pairing_.add_colour(std::move(stamped))) deliver(*pair);
@@ -123,9 +123,9 @@ void LiveSession::stamp(const Pairing::Stamped& depth, RgbdFrame& frame) {
 }
 
 void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame) {
-  // A frame without usable colour is delivered without it.
+  // Leave colour out if it is not usable.
   const openni::VideoMode& mode = sensor_->colour_mode();
-  frame.colour_fault = picture ? "it is incomplete" : "";  // watch_colour() reports that there is none
+  frame.colour_fault = picture ? "it is incomplete" : "";  // if there is none, watch_colour() reports it
   if (!picture || !complete(*picture, mode, colour_bytes_per_pixel(mode.getPixelFormat()))) {
     frame.colour.reset(0, 0);
     return;
@@ -161,7 +161,7 @@ void LiveSession::pair_again() {
 /// slow, or pairing had blocked both streams.
 void LiveSession::resume_step() {
   pairing_held_all_ = false;
-  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // pairing has stopped them again
+  if (pairings_left_ < kPairings && in_step_ < kOutOfStep) return give_up_step();  // pairing blocked the streams again
   pair_again();
 }
 
@@ -180,7 +180,7 @@ void LiveSession::report_depth_fault(DepthFault fault) {
   switch (fault) {
     case DepthFault::none:
       break;
-    case DepthFault::empty:  // a valid image: tracking continues without a hand
+    case DepthFault::empty:  // the image is valid, so tracking continues without a hand
       if (now_us_ - fault_since_us_ > kSayAfter)
         output_.notice("empty", "no pixel has depth", "uncover the lens, and check that something is within its range");
       break;
@@ -197,7 +197,7 @@ void LiveSession::report_depth_fault(DepthFault fault) {
 }
 
 void LiveSession::watch_colour() {
-  // In paired streams, a colour camera that has stopped blocks depth as well, so pairing is switched off.
+  // Switch pairing off if a colour camera that has stopped may block the paired depth stream.
   const bool missing = now_us_ - last_colour_us_ > kColourGone && depth_since_colour_ >= kDepthAlone;
   if (sensor_->paired() && depth_missing_for(0.5)) {
     sensor_->pair_streams(false);
@@ -224,13 +224,13 @@ bool LiveSession::depth_missing_for(double factor) const {
 }
 
 std::optional<LiveSession::Loss> LiveSession::loss() {
-  // The sensor sends no depth.
+  // Report a loss if the sensor sends no depth.
   if (depth_missing_for(1)) {
     const double seconds = 1e-6 * static_cast<double>(now_us_ - last_depth_us_);
     return Loss{"stalled", formatted("stalled: no depth for %.1f s, and no error", seconds), kReplug};
   }
 
-  // All depth images have been useless for too long.
+  // Report a loss if all depth images have been useless for too long.
   const bool useless =
       fault_ == DepthFault::repeated || fault_ == DepthFault::senseless || fault_ == DepthFault::incomplete;
   const double seconds = 1e-6 * static_cast<double>(now_us_ - fault_since_us_);

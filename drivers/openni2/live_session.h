@@ -28,7 +28,7 @@ class LiveSession {
   std::optional<Loss> step();
 
   const std::string& where() const { return sensor_->where(); }
-  /// Whether a good frame has arrived.
+  /// Whether a valid frame has arrived.
   bool proven() const { return before_ != nullptr; }
 
  private:
@@ -43,7 +43,8 @@ class LiveSession {
   void add_colour(const std::optional<openni::VideoFrameRef>& picture, RgbdFrame& frame);
   // Checks whether paired streams really expose at the same time; `matched`: this depth image had its colour.
   void verify_step(bool matched);
-  // These switch the pairing on again, after colour returned or after both streams had stopped, and off for good.
+  // Switch the pairing of the streams on again after colour has returned (pair_again) or after both streams had stopped
+  // (resume_step), or off permanently (give_up_step).
   void pair_again();
   void resume_step();
   void give_up_step();
@@ -62,17 +63,17 @@ class LiveSession {
   const Clock& clock_;
   const std::atomic<bool>& stop_;
   const std::int64_t period_us_;
-  bool pair_wanted_;  ///< the sensor offers to expose depth and colour at the same time
+  bool pair_wanted_;  ///< whether the sensor can expose depth and colour at the same time
   Pairing pairing_;
   DeviceClock device_clock_;
   FramePtr before_;  ///< the last valid frame
 
   std::int64_t now_us_, last_depth_us_, last_colour_us_;  // times by the host's steady clock [us]
   int depth_since_colour_ = 0, out_of_step_ = 0;
-  int in_step_ = 0;  ///< frames with colour since the streams were paired
+  int in_step_ = 0;  ///< number of frames with colour since the streams were paired
   bool any_depth_ = false, colour_missing_ = false, pairing_held_all_ = false;
   static constexpr int kPairings = 3;
-  int pairings_left_ = kPairings;  ///< attempts: a colour camera that comes and goes must not interrupt depth each time
+  int pairings_left_ = kPairings;  ///< attempts left, since an unreliable colour camera must not interrupt depth often
   DepthFault fault_ = DepthFault::none;
   std::int64_t fault_since_us_ = 0, black_since_us_ = 0;
   std::optional<std::int64_t> epoch_us_;  ///< host time at the zero of the steady clock [us]

@@ -25,8 +25,8 @@ constexpr std::string_view kMagic = "NI10";
 constexpr const char* kRemedyIncomplete =
     "give a complete .oni recording: if the recorder was killed, the table of frames is missing";
 
-/// A path under which OpenNI2 does not know the file yet: it identifies a file by its name, and a second reader of the
-/// same name would continue where the first one stopped. The descriptor stays open, like the player's handles.
+/// Another path of the file, which OpenNI2 does not know yet: it identifies a file by its path, and a second reader of
+/// the same path would continue where the first one stopped. The descriptor stays open, like the player's handles.
 std::string name_of_its_own(const std::string& path) {
   return "/proc/self/fd/" + std::to_string(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
 }
@@ -34,20 +34,21 @@ std::string name_of_its_own(const std::string& path) {
 }  // namespace
 
 Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::string& path, const OpenNiParams& params) {
-  // The file must be readable.
+  // Check that the file is readable.
   if (eaccess(path.c_str(), R_OK) != 0 && errno == EACCES)
     return fail("this user may not read it", path, "give the user the permission");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     return fail("no such file", path, "give the path of an .oni file");
 
-  // OpenNI2's player cannot handle files that are not recordings, so they are refused here.
+  // Refuse files that are not recordings, which OpenNI2's player cannot handle.
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   if (std::string_view(head.data(), head.size()) != kMagic)
     return fail("is not an OpenNI recording", path, kRemedyIncomplete);
 
-  // Open it. Unloading OpenNI2 would destroy the player's streams, which may crash: see OpenNiSensor.
+  // Open the file. OpenNI2 is never unloaded: that would destroy the player's streams, which may crash (see
+  // OpenNiSensor).
   auto library = OpenNiLibrary::load();
   if (!library) return tl::unexpected(library.error());
   static_cast<void>(library->release());

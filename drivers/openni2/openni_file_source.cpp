@@ -22,7 +22,7 @@ OpenNiFileSource::OpenNiFileSource(std::string path, std::unique_ptr<OpenNiFileP
 OpenNiFileSource::~OpenNiFileSource() = default;
 
 SourceEvent OpenNiFileSource::next(std::chrono::milliseconds) {
-  // OpenNI2 crashes when it seeks, so frames that are not wanted are read and dropped.
+  // Read and drop the frames that are not requested, since OpenNI2 crashes when it seeks.
   while (player_->position() < wanted_) {
     SourceEvent passed = player_->next();
     if (std::holds_alternative<EndOfStream>(passed) || std::holds_alternative<SourceFailed>(passed)) return passed;

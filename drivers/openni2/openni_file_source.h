@@ -31,7 +31,7 @@ class OpenNiFileSource : public FrameSource {
   std::int64_t remaining() const;
   /// Frame rate of the depth stream [Hz].
   double fps() const;
-  /// What the recording lacks; none if it is complete.
+  /// A warning about what the recording lacks; none if it is complete.
   std::optional<std::string> warning() const;
 
  private:

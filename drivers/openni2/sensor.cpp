@@ -45,7 +45,7 @@ Result<void> OpenNiSensor::open_device() {
   playback_ = device_.getPlaybackControl();
   if (!playback_) return {};
   playback_->setRepeatEnabled(false);
-  if (playback_->setSpeed(-1) != openni::STATUS_OK)  // frame by frame, on request
+  if (playback_->setSpeed(-1) != openni::STATUS_OK)  // -1: images are delivered one by one, on request
     return fail("cannot be played frame by frame: " + openni_error(), where_, "record it again");
   return {};
 }
@@ -66,13 +66,13 @@ Result<void> OpenNiSensor::create_depth() {
     if (depth_.isCroppingSupported()) depth_.resetCropping();
   }
 
-  // Check the mode that is in force.
+  // Check the mode that the stream really has.
   depth_mode_ = depth_.getVideoMode();
   if (depth_unit(depth_mode_.getPixelFormat()) == 0)
     return fail("its depth format " + std::to_string(depth_mode_.getPixelFormat()) + " is not known", where_,
                 unless_file("use a sensor or a mode with depth in millimetres or tenths"));
 
-  // Report if it is not the one that was wanted.
+  // Report it if that is not the requested mode.
   const bool as_wanted =
       playback_ || (depth_mode_.getResolutionX() == params_.width && depth_mode_.getResolutionY() == params_.height &&
                     depth_mode_.getFps() == params_.fps);
@@ -84,7 +84,7 @@ Result<void> OpenNiSensor::create_depth() {
 }
 
 void OpenNiSensor::create_colour() {
-  // A sensor may have no colour, or may fail to create the stream.
+  // Create the stream; a sensor may have no colour, or fail to create the stream.
   if (!device_.hasSensor(openni::SENSOR_COLOR)) {
     shortfalls_.push_back("has no colour: skin and objects are distinguished by depth alone");
     return;
@@ -100,7 +100,7 @@ void OpenNiSensor::create_colour() {
     if (colour_.isCroppingSupported()) colour_.resetCropping();
   }
 
-  // Check the mode that is in force.
+  // Check the mode that the stream really has.
   colour_mode_ = colour_.getVideoMode();
   const bool fits = colour_mode_.getResolutionX() == depth_mode_.getResolutionX() &&
                     colour_mode_.getResolutionY() == depth_mode_.getResolutionY();
@@ -112,7 +112,7 @@ void OpenNiSensor::create_colour() {
 }
 
 void OpenNiSensor::register_colour() {
-  if (playback_) {  // a file does not state it: colour is as it was recorded
+  if (playback_) {  // a file does not state whether its colour is registered, so it is used as recorded
     registered_ = true;
     return;
   }
@@ -139,7 +139,7 @@ void OpenNiSensor::unmirror(openni::VideoStream& stream, bool& mirrored, const c
 }
 
 Result<void> OpenNiSensor::choose_intrinsics() {
-  // Intrinsics that were given take precedence.
+  // Use the intrinsics that the user has given, if any.
   const int width = depth_mode_.getResolutionX(), height = depth_mode_.getResolutionY();
   camera_ = params_.camera.of_size(width, height);
   if (params_.camera.any()) {
@@ -147,7 +147,7 @@ Result<void> OpenNiSensor::choose_intrinsics() {
     return fail("does not match the given fx, fy, cx and cy", where_, "give them in pixels of its depth image");
   }
 
-  // Otherwise they follow from the field of view. Depth that is registered to colour has the colour camera's
+  // Otherwise compute them from the field of view. Depth that is registered to colour has the colour camera's
   // intrinsics.
   openni::VideoStream& eye = has_colour() && registered_ && !playback_ ? colour_ : depth_;
   camera_.fx = width / 2.0 / std::tan(eye.getHorizontalFieldOfView() / 2.0);
@@ -155,7 +155,7 @@ Result<void> OpenNiSensor::choose_intrinsics() {
   camera_.cx = (width - 1) / 2.0;
   camera_.cy = (height - 1) / 2.0;
 
-  // Implausible values are refused or reported.
+  // Refuse or report implausible values.
   if (!plausible(camera_)) return fail("does not report its field of view", where_, kGiveIntrinsics);
   if (std::abs(camera_.fx / camera_.fy - 1) > kMostPixelStretch)
     shortfalls_.push_back("reports fields of view that imply non-square pixels (fx " + std::to_string(camera_.fx) +

@@ -30,7 +30,7 @@ class OpenNiSensor {
 
   /// An image of one of the streams.
   struct Picture {
-    bool colour = false;  ///< false: depth
+    bool colour = false;  ///< whether it is a colour image; false: a depth image
     openni::VideoFrameRef frame;
   };
   /// The next image of any stream; none if nothing arrives within `patience`.
@@ -50,10 +50,10 @@ class OpenNiSensor {
   /// For a file: the numbers of images in the depth and the colour stream; 0 for a sensor.
   int depth_pictures() { return playback_ ? playback_->getNumberOfFrames(depth_) : 0; }
   int colour_pictures() { return playback_ && has_colour() ? playback_->getNumberOfFrames(colour_) : 0; }
-  /// For log output, such as "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered,
+  /// Text for messages, such as "PrimeSense Sensor at 1d27/0601@1/4: 640x480 at 30 Hz, 0.1 mm, colour registered,
   /// synchronised".
   std::string description() const;
-  /// What was wanted but is not available, one entry each, worded to follow "the sensor".
+  /// Requested features that are not available, each worded to follow "the sensor".
   const std::vector<std::string>& shortfalls() const { return shortfalls_; }
 
  private:
@@ -81,7 +81,7 @@ class OpenNiSensor {
   openni::Device& device_ = handles_->device;
   openni::VideoStream& depth_ = handles_->depth;
   openni::VideoStream& colour_ = handles_->colour;
-  openni::PlaybackControl* playback_ = nullptr;  ///< for a file, owned by the device; null for a sensor
+  openni::PlaybackControl* playback_ = nullptr;  ///< control of a file, owned by the device; null for a sensor
   bool has_colour_ = false, paired_ = false;
   openni::VideoMode depth_mode_, colour_mode_;
   bool registered_ = false, depth_mirrored_ = false, colour_mirrored_ = false;

@@ -7,7 +7,7 @@ namespace barehand {
 namespace {
 
 constexpr Intrinsics kCamera = {320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double kDepthUnit = 0.0001;  // metres per count
+constexpr double kDepthUnit = 0.0001;  // metres per unit of the depth image
 constexpr double kPeriod = 2;          // duration of one swing [s]
 
 }  // namespace
@@ -30,7 +30,7 @@ SourceEvent PlaneSource::next(std::chrono::milliseconds) {
   const double swing = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPeriod);
   const double z = options_.near + swing * (options_.far - options_.near);
 
-  // A frame has its capture time, its number, its camera and the meaning of its depth.
+  // Make the frame with its capture time, its number, its camera and the unit of its depth.
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = 1'000'000 + std::llround(1e6 * time);
   frame->number = next_++;

@@ -23,8 +23,8 @@ class PlaneSource : public FrameSource {
   static Result<std::unique_ptr<PlaneSource>> open(const Options& options);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
-  /// False, since this source can wait, so every frame is delivered. The driver of a sensor returns true; its frames
-  /// may be dropped when the tracker is slow.
+  /// Returns false, since this source can wait, so that every frame is delivered. The driver of a sensor returns true;
+  /// its frames may be dropped when the tracker is slow.
   bool live() const override { return false; }
   std::string name() const override { return "plane"; }
 

@@ -29,12 +29,12 @@ Result<std::vector<Handedness>> sides_of(const SequenceInfo& info, const Simulat
 /// Index of the first surface of a hand, see AnimatedHand; objects follow after all hands.
 std::uint8_t first_surface(std::size_t hand) { return static_cast<std::uint8_t>(AnimatedHand::kSurfaceCount * hand); }
 
-/// Converts depth in metres to the sensor's counts of kDepthUnit.
+/// Converts depth in metres to integers in units of kDepthUnit.
 Image<std::uint16_t> counts(const Image<float>& depth) {
   Image<std::uint16_t> image(depth.width(), depth.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const float value = depth[i] * static_cast<float>(1 / Simulator::kDepthUnit) + 0.5f;
-    image[i] = value >= 1 && value < 65536 ? static_cast<std::uint16_t>(value) : 0;  // out of range: no measurement
+    image[i] = value >= 1 && value < 65536 ? static_cast<std::uint16_t>(value) : 0;  // out of range: 0, no measurement
   }
   return image;
 }
@@ -91,7 +91,7 @@ SceneGeometry Simulator::things(const SceneState& state) const {
   for (std::size_t i = 0; i < objects.size(); ++i)
     geometry.add(objects[i].mesh, state.T_camera_object[i],
                  static_cast<std::uint8_t>(first_surface(hands_.size()) + i));
-  if (params_.hand == "left") geometry.mirror();  // a single left hand: the whole scene is mirrored
+  if (params_.hand == "left") geometry.mirror();  // for a single left hand, the whole scene is mirrored
   return geometry;
 }
 
@@ -118,7 +118,7 @@ std::optional<TableFrame> Simulator::table_of(std::size_t hand, const RenderedVi
   const auto covered = covered_pixels(camera(), kMargin, geometry.vertices,
                                       std::span(geometry.triangles).first(segments.size()), segments);
 
-  // The visible fraction is the ratio of both counts.
+  // Compute the visible fractions as the ratios of both counts.
   TableFrame table;
   for (int s = 0; s < kSegmentCount; ++s) {
     table.rows[s] = {proximal_end(pose, s), distal_end(hands_[hand].profile(), pose, s),

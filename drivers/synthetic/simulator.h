@@ -12,7 +12,7 @@
 
 namespace barehand::synthetic {
 
-/// What to simulate; the meaning of each value is stated in visit().
+/// Parameters of a simulation; visit() states the meaning of each.
 struct SimulatorParams {
   std::string sequence = "fist";  ///< a name of sequence_list()
   std::string noise = "none";
@@ -59,7 +59,7 @@ struct SimulatedFrame {
 /// Frame i is a pure function of the parameters and of i. Not to be used by several threads at once.
 class Simulator {
  public:
-  static constexpr double kDepthUnit = 0.0001;            ///< length of one count of the depth image [m]
+  static constexpr double kDepthUnit = 0.0001;            ///< unit of the depth image [m]
   static constexpr std::int64_t kFirstUtime = 1'000'000;  ///< time stamp of frame 0 [us]
 
   /// Errors: the hand mesh was not fetched or is unusable, there is no such sequence, or a left hand is requested from
@@ -72,7 +72,7 @@ class Simulator {
   std::int64_t frame_count() const { return frame_count_; }
   double fps() const { return fps_; }
   const Intrinsics& camera() const { return rasteriser_.camera(); }
-  /// No hand, one, or a right and a left one.
+  /// The simulated hands: none, one, or a right and a left one.
   const std::vector<AnimatedHand>& hands() const { return hands_; }
   const SimulatorParams& params() const { return params_; }
 

@@ -36,7 +36,7 @@ SourceEvent SyntheticSource::next(std::chrono::milliseconds patience) {
 }
 
 bool SyntheticSource::wait_until_due(std::chrono::milliseconds patience) {
-  // The first call sets the time of frame 0.
+  // Set the time of frame 0 in the first call.
   if (start_us_ < 0) {
     start_us_ = clock_.steady_us();
     start_utime_ = clock_.utime();
@@ -46,7 +46,7 @@ bool SyntheticSource::wait_until_due(std::chrono::milliseconds patience) {
   const double period_us = 1e6 / simulator_.fps();
   const auto elapsed = static_cast<double>(clock_.steady_us() - start_us_);
   const double wait_us = static_cast<double>(next_) * period_us - elapsed;
-  if (wait_us <= 0) {  // late: continue with the newest frame that is due
+  if (wait_us <= 0) {  // the next frame is late, so continue with the newest frame that is due
     next_ = std::max(next_, static_cast<std::int64_t>(elapsed / period_us));
     return true;
   }

@@ -31,7 +31,7 @@ class SyntheticSource : public FrameSource {
   bool live() const override { return spec_.live; }
   std::string name() const override { return name_; }
 
-  /// No hand, one, or a right and a left one.
+  /// The simulated hands: none, one, or a right and a left one.
   const std::vector<SimulatedHand>& hands() const { return hands_; }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
@@ -50,7 +50,7 @@ class SyntheticSource : public FrameSource {
   std::string name_;
   const Clock& clock_;
   std::int64_t next_ = 0;
-  std::int64_t start_us_ = -1;    // steady clock at live frame 0; -1 before the first request
+  std::int64_t start_us_ = -1;    // time of live frame 0, steady clock; -1 before the first request
   std::int64_t start_utime_ = 0;  // time stamp of live frame 0 [us since the epoch]
   std::vector<SimulatedHand> hands_;
 };

@@ -14,7 +14,7 @@ namespace {
 int megabits(libusb_device* device) {
   switch (libusb_get_device_speed(device)) {
     case LIBUSB_SPEED_LOW:
-      return 2;  // 1.5, rounded up
+      return 2;  // 1.5 Mb/s, rounded up
     case LIBUSB_SPEED_FULL:
       return 12;
     case LIBUSB_SPEED_HIGH:
@@ -90,12 +90,12 @@ Result<void> LibUsbBus::reset(const UsbAddress& address) {
   const std::string where = formatted("USB device %04x:%04x on bus %d, number %d", address.vendor, address.product,
                                       address.bus, address.number);
 
-  // Reset it.
+  // Reset the device.
   if (device == devices.end()) return fail("is no longer plugged in", where, "plug it in");
   const auto handle = open_usb(*device);
   if (!handle) return tl::unexpected(handle.error());
   const int status = libusb_reset_device(handle->get());
-  if (status != LIBUSB_SUCCESS && status != LIBUSB_ERROR_NOT_FOUND)  // not found: it has come back under another number
+  if (status != LIBUSB_SUCCESS && status != LIBUSB_ERROR_NOT_FOUND)  // not found: the reset gave it another number
     return fail(std::string("cannot be reset: ") + libusb_strerror(status), where, "re-plug it");
   return {};
 }

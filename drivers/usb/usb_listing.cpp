@@ -13,7 +13,7 @@ Result<UsbListing> UsbListing::take() {
   listing.context_.reset(context);
   libusb_device** devices = nullptr;
 
-  // List the devices; the list must be freed on every path.
+  // List the devices; the list must be freed however this function ends.
   if (status == LIBUSB_SUCCESS) {
     const auto count = libusb_get_device_list(context, &devices);
     listing.devices_.reset(devices);
@@ -34,7 +34,7 @@ UsbAddress address_of(libusb_device* device) {
 }
 
 std::string port_of(libusb_device* device) {
-  std::array<std::uint8_t, 7> ports{};  // no USB tree is deeper
+  std::array<std::uint8_t, 7> ports{};  // the largest depth of a USB tree is 7
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   std::string text = std::to_string(libusb_get_bus_number(device));
   for (int i = 0; i < depth; ++i) text += formatted("%c%d", i == 0 ? '-' : '.', ports[static_cast<std::size_t>(i)]);

@@ -36,7 +36,7 @@ struct CloseUsb {
 };
 using UsbHandle = std::unique_ptr<libusb_device_handle, CloseUsb>;
 
-// Vendor, product, bus and number of a device, and its port such as "1-2.3".
+// The address of a device (vendor, product, bus and number), and its port, such as "1-2.3".
 UsbAddress address_of(libusb_device* device);
 std::string port_of(libusb_device* device);
 /// Opens a device without disturbing it. Errors: the permission is missing, the device was unplugged, there is no

@@ -9,7 +9,7 @@ constexpr auto kEvents = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EV
 
 int tell(libusb_context*, libusb_device*, libusb_hotplug_event, void* changed) {
   (*static_cast<const std::function<void()>*>(changed))();
-  return 0;  // 0: keep the callback registered
+  return 0;  // 0 keeps the callback registered
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ Result<std::unique_ptr<UsbWatch>> UsbWatch::start(std::function<void()> changed)
 
 void UsbWatch::run() {
   while (!stop_) {
-    timeval patience{1, 0};  // a bound, in case the interruption came just before the wait
+    timeval patience{1, 0};  // limits the wait, in case the interruption came just before it
     libusb_handle_events_timeout(context_, &patience);
   }
 }

@@ -27,12 +27,13 @@ class ColourPairing {
   /// it.
   explicit ColourPairing(std::int64_t period_us) : period_us_(period_us) {}
 
-  /// Adds a depth image. Returns a pair that is now complete, or else the previous depth image, which waits no longer.
+  /// Adds a depth image. Returns a pair that is now complete, or else the previous depth image, which does not wait any
+  /// longer.
   std::optional<Pair> add_depth(Stamped depth) {
     std::optional<Pair> before;
     if (waiting_) before = flush();
     waiting_ = std::move(depth);
-    if (before) return before;  // the new one waits for its colour or the next call of `due`
+    if (before) return before;  // the new depth image waits for its colour or the next call of due()
     return matched();
   }
   /// Adds a colour image. Returns the pair that it completes.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kWindow = 1e6;            // duration of a window [us]
 constexpr std::size_t kMostMarks = 60;     // 60 windows follow a drift that changes with temperature within a minute
-constexpr std::size_t kMarksForDrift = 5;  // fewer marks show jitter rather than drift
+constexpr std::size_t kMarksForDrift = 5;  // number of marks from which on the drift is fitted; fewer show jitter
 constexpr double kMaxDrift = 2e-3;         // largest drift that is fitted; quartz clocks are better
 constexpr double kEarly = 50e3;  // a frame that arrives this long [us] before its exposure shows that the clock was set
 constexpr double kLearning = 2e6;  // in the first part [us], 10 * kEarly is allowed: all arrivals may have been late
@@ -34,7 +34,7 @@ DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arriva
     }
   }
 
-  // The time must not be after the arrival, nor before that of the previous frame.
+  // Limit the time: not after the arrival, and later than that of the previous frame.
   mapped.host_us = std::max(std::min(mapped.host_us, arrival_us), last_host_ + 1);
   last_device_ = device_us;
   last_arrival_ = arrival_us;
@@ -68,7 +68,7 @@ void DeviceClock::take_in(const Mark& mark) {
   if (mark.x >= window_end_) {
     window_end_ = mark.x + kWindow;
     if (marks_.size() == kMostMarks) marks_.erase(marks_.begin());
-    fit();  // before the new window opens, as its first arrival may be late
+    fit();  // fit before the new window begins, because its first arrival may be late
     marks_.push_back(mark);
   } else if (mark.y - slope_ * mark.x < marks_.back().y - slope_ * marks_.back().x) {
     marks_.back() = mark;
@@ -77,7 +77,7 @@ void DeviceClock::take_in(const Mark& mark) {
 }
 
 void DeviceClock::fit() {
-  // With few marks only the offset is fitted.
+  // With few marks, fit only the offset.
   if (marks_.size() < kMarksForDrift) {
     slope_ = 0;
     intercept_ = std::ranges::min(marks_, {}, &Mark::y).y;

@@ -15,7 +15,7 @@ class DeviceClock {
  public:
   struct Mapped {
     std::int64_t host_us = 0;  ///< later than that of the previous frame, and otherwise not after the arrival
-    std::optional<std::int64_t> jumped_by = {};  ///< the sensor's clock was set forward (or back) by this
+    std::optional<std::int64_t> jumped_by = {};  ///< time by which the sensor's clock was set; negative: back
   };
 
   /// Maps the time stamp of one frame; call it for all frames in the order of their arrival.
@@ -41,7 +41,7 @@ class DeviceClock {
   std::vector<Mark> marks_;  ///< marks of the last windows; the newest window is still open
   double window_end_ = 0;
   double intercept_ = 0, slope_ = 0;  ///< offset and slope of the line y(x)
-  double late_since_ = -1;            ///< x since which all frames were late; negative: the last one was not late
+  double late_since_ = -1;            ///< x from which on all frames were late; negative: the last frame was not late
 };
 
 }  // namespace barehand

@@ -24,7 +24,7 @@ class FramePool {
       }
     }
 
-    // The store is shared with the frame, so the pool may be destroyed first.
+    // Share the store with the frame, so that the pool may be destroyed before the frame.
     if (!own) own = std::make_unique<RgbdFrame>();
     return {own.release(), [store = store_](RgbdFrame* used) {
               std::unique_ptr<RgbdFrame> back(used);

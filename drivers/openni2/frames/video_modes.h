@@ -15,11 +15,11 @@ std::optional<openni::VideoMode> choose_depth_mode(const openni::SensorInfo& sen
 /// A colour mode of exactly the depth image's size with the rate nearest to that of depth; none if there is none.
 std::optional<openni::VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, const openni::VideoMode& depth);
 
-/// Metres per count; 0 if this is not a depth format.
+/// The depth unit of a format [m]; 0 if it is not a depth format.
 double depth_unit(openni::PixelFormat format);
 /// Bytes per pixel of a colour format; 0 if the format is not known.
 int colour_bytes_per_pixel(openni::PixelFormat format);
-/// For log output, such as "640x480 at 30 Hz".
+/// Text for messages, such as "640x480 at 30 Hz".
 std::string to_text(const openni::VideoMode& mode);
 
 }  // namespace barehand

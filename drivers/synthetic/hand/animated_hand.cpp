@@ -37,7 +37,7 @@ SceneGeometry AnimatedHand::geometry(const HandState& state, const std::string& 
   skinner_.deform(pose, skin.vertices);
   vertex_normals(skin.vertices, skin.triangles, skin.normals);
 
-  // Each segment is a surface of its own, and so is the sleeve.
+  // Make one surface of each segment, and one of the sleeve.
   SceneGeometry geometry;
   geometry.add(skin, SE3{}, first_surface);
   for (std::size_t i = 0; i < geometry.surface.size(); ++i) geometry.surface[i] += triangle_segments()[i];

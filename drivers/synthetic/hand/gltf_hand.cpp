@@ -127,7 +127,7 @@ Result<HandMesh> load_hand_mesh(const std::string& path, Handedness handedness) 
   hand.handedness = handedness;
   for (int joint = 0; joint < kJointCount; ++joint) {
     if (!bones[joint]) return fail("joint " + std::string(joint_name(joint)) + " is missing", path, kRemedy);
-    aiMatrix4x4 bind = bones[joint]->mOffsetMatrix;  // maps mesh to joint, so its inverse is the joint at rest
+    aiMatrix4x4 bind = bones[joint]->mOffsetMatrix;  // maps mesh to joint; its inverse is the joint's rest pose
     hand.T_hand_joint[joint] = rigid(bind.Inverse());
   }
 

@@ -21,7 +21,7 @@ HandMesh reshaped(const HandMesh& mesh, const HandShape& shape) {
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SE3& T = mesh.T_hand_joint[joint];
     const int parent = parent_of_joint(joint);
-    if (parent >= 0) result.T_hand_joint[joint].t = deform[parent] * T.t;  // parents come first
+    if (parent >= 0) result.T_hand_joint[joint].t = deform[parent] * T.t;  // parents have smaller indices
     deform[joint] = Eigen::Translation3d(result.T_hand_joint[joint].t) *
                     Eigen::Affine3d(Eigen::Matrix3d(T.R * stretch(joint, shape).asDiagonal() * T.R.transpose())) *
                     Eigen::Translation3d(-T.t);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<const char*, kFingerCount> kFingers = {"thumb", "index", "middle", "ring", "little"};
 
 struct Range {
-  double lower, upper;  // degrees
+  double lower, upper;  // limits of the angle [degrees]
 };
 
 JointDof dof(int finger, const char* joint, const Eigen::Vector3d& axis, Range range) {

@@ -12,7 +12,7 @@ namespace {
 
 /// A sample of the skin.
 struct SkinSample {
-  Eigen::Vector3d point;  ///< in the segment's frame [m]
+  Eigen::Vector3d point;  ///< point on the skin in the segment's frame [m]
   double area;            ///< weight of the sample [m^2]
 };
 

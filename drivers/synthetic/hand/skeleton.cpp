@@ -20,7 +20,7 @@ HandPose pose_segments(const HandProfile& profile, const SkeletonPose& skeleton)
     for (int k = 0; k < 3; ++k) joints[segment_of(finger, k)].flexion = skeleton.angles[finger].flexion[k];
   for (int finger = 0; finger < kFingerCount; ++finger) {
     const int s = segment_of(finger, 0);
-    const Eigen::Vector3d axis = profile.segments[s].dofs.front().axis;  // abduction comes first
+    const Eigen::Vector3d axis = profile.segments[s].dofs.front().axis;  // abduction is the first of the dofs
     joints[s].abduction = axis.y() * skeleton.angles[finger].abduction;
   }
   return forward_kinematics(profile, skeleton.T_camera_palm, joints);

@@ -10,8 +10,8 @@ namespace barehand::synthetic {
 /// abduction is positive away from the middle finger (for the middle finger: towards the index; for the thumb: out of
 /// the palm's plane).
 struct FingerAngles {
-  double abduction = 0;             ///< of the knuckle (MCP); of the thumb: of the CMC joint
-  std::array<double, 3> flexion{};  ///< from palm to tip (thumb: CMC, MCP, IP; fingers: MCP, PIP, DIP)
+  double abduction = 0;             ///< abduction of the knuckle (MCP joint); for the thumb, of the CMC joint
+  std::array<double, 3> flexion{};  ///< flexion from palm to tip (thumb: CMC, MCP, IP; fingers: MCP, PIP, DIP)
 };
 using HandAngles = std::array<FingerAngles, kFingerCount>;
 

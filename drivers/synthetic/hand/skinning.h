@@ -21,7 +21,7 @@ class Skinner {
 
  private:
   std::vector<Eigen::Vector3f> rest_;
-  std::vector<SkinWeights> weights_;  // here, `joint` holds the indices of segments
+  std::vector<SkinWeights> weights_;  // weights of segments: `joint` contains indices of segments here
   std::array<SE3, kSegmentCount> T_segment_hand_;
   std::vector<std::uint8_t> triangle_segments_, vertex_segments_;
 };

@@ -29,7 +29,7 @@ std::array<SceneObject, kHeadParts> make_head(double size);
 
 /// A keyframe of a body: its posture at one time. The right arm is the first one.
 struct BodyKey {
-  double time = 0;  ///< [s]
+  double time = 0;  ///< time of the keyframe [s]
   /// Displacement [m] and rotation vector of the body relative to its place in the scene.
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
   Eigen::Vector3d head_turn = Eigen::Vector3d::Zero();  ///< rotation vector of the head relative to the body
@@ -46,7 +46,7 @@ class Body {
     SE3 T_world_body;
     std::vector<BodyKey> keys;
     bool head = true;
-    bool right_forearm = true;  ///< false: the right forearm is that of a simulated hand
+    bool right_forearm = true;  ///< whether it has a right forearm; false: a simulated hand brings its own
   };
   explicit Body(Setting setting);
 

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kThickness = 0.03;  // thickness of the desk's top [m]
 constexpr double kApart = 0.17;      // minimum distance between the middle of a tall object and a free line [m]
-constexpr int kTallThings = 6;       // tall objects that are tried; those too close to a free line are left out
+constexpr int kTallThings = 6;       // number of tall objects to place; those too close to a free line are left out
 
 SE3 standing_at(const Vector3d& place, double heading) { return {exp_so3({0, 0, heading}), place}; }
 

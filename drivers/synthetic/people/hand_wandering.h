@@ -9,7 +9,7 @@ namespace barehand::synthetic {
 
 /// A random motion of a hand: it moves within a box, turns, and bends its fingers.
 struct HandWandering {
-  double duration = 6;                                      ///< [s]
+  double duration = 6;                                      ///< duration of the motion [s]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();         ///< centre of the box in which the hand's middle moves [m]
   Eigen::Vector3d range = Eigen::Vector3d::Constant(0.08);  ///< half sides of this box [m]
   Eigen::Matrix3d base = Eigen::Matrix3d::Identity();       ///< mean orientation of the palm

@@ -63,7 +63,7 @@ void add_person(StagedSequence::Setting& s, const BodySize& size, const SE3& T_w
                          {left_wrist, left_wrist}});
   s.bodies.emplace_back(std::move(body));
 
-  // The fingers point in a direction between that of the forearm and the one in which they tend to point.
+  // Let the fingers point in a direction between that of the forearm and the one in which they tend to point.
   const Vector3d forearm = (centre - s.bodies.front().right_elbow(0, centre)).normalized();
   const double roll = random.uniform(-hand.roll, hand.roll);
   const Eigen::Matrix3d palm = palm_facing(forearm + 0.8 * hand.fingers, hand.palm);

@@ -17,7 +17,7 @@ struct PlacedObject {
 
 /// A keyframe of the camera: its displacement [m] and rotation vector relative to its initial pose. World frame.
 struct CameraKey {
-  double time = 0;  ///< [s]
+  double time = 0;  ///< time of the keyframe [s]
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
 

@@ -7,7 +7,7 @@
 namespace barehand::synthetic {
 namespace {
 
-constexpr float kEdge = 0.02f;  // a larger difference in depth between pixels counts as an edge [m]
+constexpr float kEdge = 0.02f;  // a larger difference of depth between neighbouring pixels is an edge [m]
 
 float luma(Rgb c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; }
 
@@ -28,7 +28,7 @@ void lit_by_projector(const Intrinsics& camera, double baseline, const float* de
       nearest[p] = std::min(nearest[p], std::max(depth[u], depth[u + 1]));
   }
 
-  // A pixel is lit if there is nothing nearer in its column.
+  // Mark the pixels as lit that have no nearer surface in their column of the projector.
   lit.assign(camera.width, true);
   for (int u = 0; u < camera.width; ++u) {
     if (depth[u] <= 0) continue;

@@ -142,7 +142,7 @@ Image<float> DepthNoise::tof(const RenderedView& view, const TofNoise& noise, st
       const Rgb c = view.colour.at(u, v);
       const float albedo = std::max(0.05f, static_cast<float>(c.r + c.g + c.b) / 765.0f);
       const float returned = albedo * view.cosine.at(u, v) / (4 * z * z);
-      if (returned < 0.004f) continue;  // too little light returns
+      if (returned < 0.004f) continue;  // too little light returns for a measurement
       spoilt.at(u, v) = z + static_cast<float>(noise.axial) / std::sqrt(returned) * normal(bits[0]);
     }
   return spoilt;

@@ -36,7 +36,7 @@ class DepthNoise {
   /// A standard normal number from 12 random bits.
   float normal(std::uint32_t bits) const { return quantiles_[bits & 0xfffu]; }
 
-  std::array<float, 4096> quantiles_;  // of the standard normal distribution, equally spaced in probability
+  std::array<float, 4096> quantiles_;  // quantiles of the standard normal distribution, equally spaced in probability
 };
 
 /// Standard deviation of the Kinect model along the line of sight at the distance z [m].

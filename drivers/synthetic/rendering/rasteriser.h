@@ -25,7 +25,7 @@ struct VisibilityBuffer {
 /// than kNearPlane are clipped.
 class Rasteriser {
  public:
-  static constexpr double kNearPlane = 0.02;  ///< [m]
+  static constexpr double kNearPlane = 0.02;  ///< distance of the near plane [m]
 
   explicit Rasteriser(const Intrinsics& camera);
   /// Empties the buffer.

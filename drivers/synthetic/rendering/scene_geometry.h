@@ -10,7 +10,7 @@ namespace barehand::synthetic {
 /// The appearance of a surface.
 struct Material {
   Rgb colour;
-  double gloss = 0;  ///< in [0, 1]; structured-light cameras lose pixels of glossy surfaces that face them
+  double gloss = 0;  ///< glossiness in [0, 1]; structured-light cameras lose pixels of glossy surfaces that face them
 };
 
 inline constexpr Rgb kSkinColour = {214, 162, 134}, kClothColour = {42, 66, 138};
@@ -19,7 +19,7 @@ inline constexpr Rgb kSkinColour = {214, 162, 134}, kClothColour = {42, 66, 138}
 struct SceneGeometry {
   std::vector<Eigen::Vector3f> vertices, normals;
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> surface;  ///< of every triangle: its surface, which is the index of its material
+  std::vector<std::uint8_t> surface;  ///< surface of every triangle, which is also the index of its material
 
   /// Appends a mesh, all of whose triangles get the surface `surface_index`.
   void add(const TriangleMesh& mesh, const SE3& T_camera_mesh, std::uint8_t surface_index);

@@ -36,7 +36,7 @@ class TriangleFrame {
     to_c_ = n.cross(ab) / square;
     facing_ = n.dot(a) <= 0 ? 1.0f : -1.0f;
   }
-  /// 1, or -1 if the camera sees the inner side.
+  /// 1 if the camera sees the outer side of the triangle, -1 if it sees the inner side.
   float facing() const { return facing_; }
   Linear interpolate(float at_a, float at_b, float at_c) const {
     Linear f;
@@ -92,7 +92,7 @@ RenderedView shade(const Intrinsics& camera, const VisibilityBuffer& visible, co
   shades.reserve(scene.triangles.size());
   for (const Triangle& t : scene.triangles) shades.push_back(shade_triangle(scene, t));
 
-  // Then look up every pixel.
+  // Compute every pixel from its triangle's shade.
   std::vector<std::uint8_t> grain(camera.width + 1);
   const auto inverse_fx = static_cast<float>(1 / camera.fx), inverse_fy = static_cast<float>(1 / camera.fy);
   for (int v = 0; v < camera.height; ++v) {

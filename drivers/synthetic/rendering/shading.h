@@ -13,7 +13,7 @@ inline constexpr std::uint8_t kNoSurface = 255;
 /// The image of an ideal camera.
 struct RenderedView {
   Image<float> depth;           ///< z of the front-most surface [m]; 0: there is none
-  Image<float> cosine;          ///< of the angle between line of sight and surface normal, in (0, 1]; 0: no surface
+  Image<float> cosine;          ///< cosine of the angle between line of sight and normal, in (0, 1]; 0: no surface
   Image<std::uint8_t> surface;  ///< SceneGeometry::surface of the visible triangle; kNoSurface: there is none
   Image<Rgb> colour;            ///< never pure black, which would mean "no colour"
 };

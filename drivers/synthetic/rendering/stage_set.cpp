@@ -7,7 +7,7 @@
 
 namespace barehand::synthetic {
 
-// What several simulated scenes share: the camera above a table, the table, and a hand that moves in the air.
+// Parts that several simulated scenes use: the camera above a table, the table, and a hand that moves in the air.
 
 SE3 camera_above_table(double tilt, double distance, double height) {
   SE3 T;
@@ -36,7 +36,7 @@ FreeSequence::FreeSequence(Setting setting) : setting_(std::move(setting)), trac
 
 SceneState FreeSequence::at(double time) const {
   const SkeletonPose skeleton = with_tremor(track_.at(time), time, setting_.seed);
-  // The elbow moves 0.9 times as far as the wrist.
+  // Move the elbow 0.9 times as far as the wrist.
   const Eigen::Vector3d start = setting_.keys.front().position;
   const Eigen::Vector3d elbow = start + setting_.wrist_to_elbow + 0.9 * (skeleton.T_camera_palm.t - start);
   return {{{skeleton, elbow}}, setting_.T_camera_object};

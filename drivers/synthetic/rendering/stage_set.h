@@ -23,7 +23,7 @@ class FreeSequence : public Sequence {
     double duration = 0;
     std::vector<HandKey> keys;
     Eigen::Matrix3d base = palm_to_camera();
-    Eigen::Vector3d wrist_to_elbow = Eigen::Vector3d(0.05, 0.25, 0.05);  ///< from wrist to elbow at the first key [m]
+    Eigen::Vector3d wrist_to_elbow = Eigen::Vector3d(0.05, 0.25, 0.05);  ///< vector at the first keyframe [m]
     std::vector<SceneObject> objects;
     std::vector<SE3> T_camera_object;
     std::uint64_t seed = 0;

@@ -23,7 +23,7 @@ class SmoothTrack {
 
 /// A keyframe of the hand.
 struct HandKey {
-  double time = 0;                                     ///< [s]
+  double time = 0;                                     ///< time of the keyframe [s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position of the wrist [m]
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< rotation vector, applied to the base orientation of the track
   HandAngles angles;

@@ -40,7 +40,7 @@ struct SceneState {
 class Sequence {
  public:
   virtual ~Sequence() = default;
-  virtual double duration() const = 0;  ///< [s]
+  virtual double duration() const = 0;  ///< duration of the sequence [s]
   virtual const std::vector<SceneObject>& objects() const = 0;
   virtual SceneState at(double time) const = 0;
 };
