@@ -18,7 +18,7 @@ namespace barehand {
 class ChildProcess {
  public:
   explicit ChildProcess(std::vector<std::string> arguments) {
-    // Connect its output to a pipe.
+    // Connect the program's output to a pipe.
     int pipe_ends[2];
     if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
     posix_spawn_file_actions_t actions;
@@ -79,7 +79,7 @@ class ChildProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
   const std::string& output() const { return output_; }
-  /// After finish(): the program's peak memory in RAM [bytes].
+  /// The program's peak memory in RAM [bytes]; call it after finish().
   long peak_memory() const { return peak_memory_; }
 
  private:

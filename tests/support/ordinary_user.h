@@ -7,7 +7,8 @@
 
 namespace barehand::test {
 
-/// While it exists, the process runs as an ordinary user if it was root, for whom file permissions have no effect.
+/// As long as this object exists, a process of root runs as an ordinary user, since file permissions do not affect
+/// root.
 class OrdinaryUser {
  public:
   OrdinaryUser() {

@@ -9,7 +9,7 @@ namespace barehand::test {
 
 /// The frame of an ideal colour and depth camera that sees a posed skin before a grey wall, which is 1 m away.
 inline std::shared_ptr<RgbdFrame> paint_frame(const Skin& skin, const HandPose& pose, const Intrinsics& camera) {
-  constexpr double kWall = 1.0;  // [m]
+  constexpr double kWall = 1.0;  // distance of the wall [m]
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = camera;
   frame->depth_unit = 1e-4;

@@ -52,7 +52,7 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
   return observation;
 }
 
-/// The same observation with another time stamp.
+/// A copy of an observation with another time stamp [us].
 inline std::shared_ptr<HandObservation> stamped(const HandObservation& observation, std::int64_t utime) {
   auto frame = observation.frame ? std::make_shared<RgbdFrame>(*observation.frame) : std::make_shared<RgbdFrame>();
   frame->utime = utime;

@@ -17,7 +17,7 @@ inline Intrinsics small_camera(int width = 96, int height = 96) {
 
 /// Depth and label of one pixel.
 struct ScenePixel {
-  float depth = 0;  ///< [m]; 0: no depth
+  float depth = 0;  ///< depth of the pixel [m]; 0: no depth
   PixelLabel label = PixelLabel::background;
 };
 

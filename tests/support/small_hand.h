@@ -18,7 +18,7 @@ inline HandProfile small_hand() {
     segment.flesh_offset_x = {0.001, -0.002};
     segment.flesh_offset_y = {-0.003, 0};
 
-    // All segments but the palm have a joint.
+    // Add a joint to every segment but the palm.
     if (s == kPalm) continue;
     const int joint = (s - 1) % 3;
     segment.T_hand_segment.t = {-0.03 + 0.015 * finger_of(s), 0, -0.08 - 0.03 * joint};
