@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Builds the documentation's site into build/site. Needs mkdocs with the material theme (Debian package mkdocs-material).
-# A page that is missing, or a link that leads nowhere, fails the build.
+# Builds the documentation's site into build/site. Needs mkdocs with the material theme (Debian package
+# mkdocs-material). A page that is missing, or a link that leads nowhere, fails the build.
 #   tools/docs/build_site.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-# mkdocs wants its pages in a folder of their own: the tree's pages, pictures, and files that pages link to.
+# Copy the pages, the images and the files that pages link to into one folder, as mkdocs requires.
 pages=build/site_pages
 rm -rf "$pages"
 mkdir -p "$pages"
@@ -15,5 +15,5 @@ grep -rhoE '\]\(\.\./[^)#]+' docs | sed 's|^](\.\./||' | sort -u | while read -r
   if [ -f "$linked" ]; then cp --parents "$linked" "$pages"; fi
 done
 
-mkdocs build --strict --quiet || mkdocs build --strict  # the second one says what is wrong
+mkdocs build --strict --quiet || mkdocs build --strict  # if it fails, run it again with its messages
 echo "build/site/index.html"

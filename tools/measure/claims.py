@@ -4,11 +4,11 @@ import json
 import os
 import tomllib
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))  # of the source tree
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))  # top folder of the source tree
 
 
 class ClaimError(Exception):
-    """A claim or a page is wrong. Says what is wrong, where, and what to do."""
+    """The error for a wrong claim or page. Its message states what is wrong, where, and what to do."""
 
 
 def read(path):
@@ -17,7 +17,7 @@ def read(path):
 
 
 def write(path, text):
-    """Writes a file so that no one sees it half-written: under another name first, which is then changed."""
+    """Writes a file under a temporary name and then renames it, so that nobody reads an incomplete file."""
     with open(path + ".unfinished", "w", encoding="utf-8") as file:
         file.write(text)
     os.replace(path + ".unfinished", path)

@@ -30,7 +30,7 @@ def read_depth(path):
             packed += chunk
         position += 12 + length
 
-    # Each row begins with the number of its PNG filter, which is reversed byte by byte.
+    # Undo the PNG filter of each row byte by byte; the row begins with the number of its filter.
     raw, stride, above, rows = zlib.decompress(packed), 2 * width, bytes(2 * width), []
     for v in range(height):
         kind, row = raw[v * (stride + 1)], bytearray(raw[v * (stride + 1) + 1:(v + 1) * (stride + 1)])

@@ -3,17 +3,17 @@
 import csv
 
 KNOWN = {
-    # from a result table: numbers of frames; errors in mm (fingertips: pixels); frames until a returning hand is
-    # tracked
+    # From a result table: numbers of frames; errors in mm (of fingertips: in pixels); frames until a returning hand is
+    # tracked.
     "frames", "tracked", "untracked", "lost", "off", "without_hand", "mean", "median", "p90", "max", "seen", "hidden",
     "percent", "delays", "labels", "missing",
-    # on the stated uncertainty: coverage in per cent, stated and actual error in mm
+    # On the stated uncertainty: coverage in per cent, stated and actual error in mm.
     *(f"{kind}_{what}" for kind in ("all", "seen", "inferred") for what in ("covered", "stated", "actual")),
-    # on the stated confidence, for each tenth of its range: stated and actual probability in per cent
+    # On the stated confidence, for each tenth of its range: stated and actual probability in per cent.
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
-    # from bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times
+    # From bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times.
     "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
-    # number of repetitions over which a range is taken
+    # The number of repetitions over which a range is taken.
     "runs",
 }
 

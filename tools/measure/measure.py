@@ -89,7 +89,7 @@ def main(words):
     arguments = arguments_of(words)
     tree = Tree(ROOT)
     if arguments.print:
-        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # the output may be read in part, by head
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # end quietly if the reader of the output, such as head, ends
     try:
         if os.path.basename(arguments.program) != "barehand" or not os.access(arguments.program, os.X_OK):
             raise ClaimError(f"{arguments.program} is not the program: build it, or give the path of barehand with --program")

@@ -93,7 +93,8 @@ def main():
     print("| fault, for 5 s | tracked frames meanwhile | said after [s] | tracked again after its end [s] |")
     print("|---|---|---|---|")
     for name, begin, end in marks:
-        # The sensor polls its control file, so frames that were already exposed still arrive.
+        # Count frames only from a little later on: the sensor polls its control file, so that frames which were already
+        # exposed still arrive.
         meanwhile = sum(begin + 0.1 <= t < end for t in tracked)
         words = first_after([t for t, line in said if line.startswith(("warning", "info: openni2"))], begin)
         words = f"{words:.1f}" if words is not None and words < FAULT_SECONDS else "-"

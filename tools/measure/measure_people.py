@@ -15,7 +15,8 @@ import sys
 
 WITH_HAND, WITHOUT_HAND = ["person", "desk", "egocentric"], ["empty_person", "empty_desk", "faces", "feet"]
 TRACKING, EARLY = 1, 5
-# Scenes without a hand: frames per second (low, since they change slowly), and noise models: for even seeds, for odd ones.
+# Settings of scenes without a hand: frames per second (few, since they change slowly), and the noise models for even
+# and for odd seeds.
 RATE, NOISE = 2.5, ("tof", "kinect")
 SEGMENT, CONFIDENCE = 64 * 8 + 1, 62 * 8  # size of a segment_state_t, and offset of its confidence [bytes]
 
@@ -32,7 +33,7 @@ def states(path):
             continue
         frame, sensor_size = struct.unpack(">qi", body[16:28])
         side, status = struct.unpack(">bb", body[32 + sensor_size:34 + sensor_size])
-        first = 59 + sensor_size  # after has_pose, pose_utime, score and joint_gap
+        first = 59 + sensor_size  # offset of the segments, after has_pose, pose_utime, score and joint_gap [bytes]
         sure = [struct.unpack(">d", body[first + k * SEGMENT + CONFIDENCE:first + k * SEGMENT + CONFIDENCE + 8])[0]
                 for k in range(16)]
         yield frame, side == 1, status, max(sure)

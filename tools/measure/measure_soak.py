@@ -78,7 +78,7 @@ def judge(program, samples):
     found = [re.match(r"(\d+) frames in .*: (\d+) published, (\d+) dropped, (\d+) failed", line) for _, line in program.said]
     captured, published, dropped, failed = map(int, next(m for m in reversed(found) if m).groups())
     unaccounted = captured - published - dropped - failed
-    settled = samples[len(samples) // 4:]  # buffers grow to their final size in the first quarter
+    settled = samples[len(samples) // 4:]  # without the first quarter, in which buffers grow to their final size
     growth = settled[-1][0] - settled[0][0]
     print(f"\n{captured} frames captured = {published} published + {dropped} dropped + {failed} failed"
           f"{'' if unaccounted == 0 else f', {unaccounted} UNACCOUNTED FOR'}; exit code {program.process.returncode}; peak "

@@ -18,7 +18,7 @@ class Runner:
         self.tree, self.printing = tree, printing
         self.program, self.out = os.path.abspath(program), os.path.abspath(out)
         self.rules = read_toml(tree.prepared)
-        self.ready = set()  # names that were prepared
+        self.ready = set()  # names of the files that were prepared
         self.tracked = {}  # (command without its output, kind of output): path of the output without its ending
         folder = os.path.dirname(self.program)
         self.environment = {**os.environ, "OUT": self.out, "RECORDINGS": os.path.abspath(recordings),
@@ -83,7 +83,7 @@ class Runner:
         # Track each recording, and collect the arguments for its comparison.
         pairs = []
         for number, recording in enumerate(recordings):
-            if "hands" in how:  # one for each recording
+            if "hands" in how:  # one hand profile for each recording
                 how = {**how, "hand": how["hands"][number]}
             if how.get("states"):
                 result = self.track(f"{base}.{number}", recording, how, ("--states-log", ".lcmlog"))
@@ -100,7 +100,7 @@ class Runner:
 
     def repetition(self, base, how, plots):
         """The figures of one repetition of a run."""
-        # Run it.
+        # Run the command of the repetition.
         report, result = how.get("json", base + ".json"), None
         if "command" in how:
             self.run(how["command"].replace("$JSON", report), base + ".log")

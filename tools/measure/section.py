@@ -6,7 +6,7 @@ from figures import KNOWN
 
 CELL = re.compile(r"\{([^{}:]+)(?::([^{}]+))?\}")  # matches {FIELD} and {RUN.FIGURE:FORM}
 MEASURE = "tools/measure/measure.py RECORDINGS OUT"
-NONE = "–"  # not measured; also between the ends of a range
+NONE = "–"  # stands for a value that was not measured; also separates the ends of a range
 
 
 def shown(value, form):

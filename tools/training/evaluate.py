@@ -19,9 +19,9 @@ from network import LABELS
 from scenes.scene import Generator
 from scenes.sensors import KINDS
 
-UNSEEN_SEED = 1_000_004  # gives other people and scenes than any batch of the training
+UNSEEN_SEED = 1_000_004  # seed whose people and scenes are in no batch of the training
 _LEAST_PALM = 0.2  # the program ignores palms with a smaller value in the map (its default configuration)
-_APART = 60.0  # mm; a peak that is farther than this from every palm is a false one
+_APART = 60.0  # a peak farther than this from every palm is a false one [mm]
 
 
 def evaluate(network: Callable[[Tensor], tuple], name: str, generator: Generator, batches: int,
@@ -79,7 +79,7 @@ def _palms(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
 
 
 def _joints(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
-    """Errors of the joints of right hands, which windows have the right side, and hands seen where there are none."""
+    """Errors of the joints of right hands, whether the side is correct in each window, and false hands."""
     usable = truth.seen[:, 0] & truth.right
     errors = joint_errors_mm(output[0], truth)[usable]
     sensor, grasp = truth.scenes.sensor[usable], truth.scenes.grasp[usable]

@@ -9,8 +9,8 @@ from scenes.chance import Chance
 from scenes.scene import Generator, Scenes
 
 MAP_STEP, MAP_OFFSET = 4, 1.5  # the centre of cell i of a map is pixel i * MAP_STEP + MAP_OFFSET
-CROP_DEPTH = 0.15  # m; a window shows depths up to this far before and behind the palm
-_LEAST_PIXELS = {"full": 25, "crop": 150}  # a hand with fewer pixels does not count as seen
+CROP_DEPTH = 0.15  # a window shows depths up to this far in front of and behind the palm [m]
+_LEAST_PIXELS = {"full": 25, "crop": 150}  # smallest number of pixels of a hand that counts as seen
 
 
 @dataclass
@@ -59,7 +59,7 @@ def _full(generator: Generator, count: int) -> Examples:
 
 def _crop(generator: Generator, count: int) -> Examples:
     """Windows in which the hand looks like a right one: windows of left hands are mirrored. 15 % show a left hand
-    instead, so that the network learns to tell the side."""
+    instead, so that the network learns to distinguish the sides."""
     scenes, chance = generator.windows(count), generator.chance
     mirror = torch.where(chance.flag(0.15, count), scenes.right[:, 0], ~scenes.right[:, 0])
     image = crop_input(scenes.depth, scenes.middle[:, 2])

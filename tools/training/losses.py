@@ -5,8 +5,8 @@ from torch.nn import functional
 
 from examples import CROP_DEPTH, MAP_OFFSET, MAP_STEP, Examples
 
-_LABEL_WEIGHTS = (1.0, 1.5, 1.5, 1.5)  # of background, hand, arm, object
-_PALM_RADIUS = 25.0  # mm; standard deviation of a palm's bell curve in the full network's map
+_LABEL_WEIGHTS = (1.0, 1.5, 1.5, 1.5)  # weights of background, hand, arm and object in the label loss
+_PALM_RADIUS = 25.0  # standard deviation of a palm's bell curve in the full network's map [mm]
 
 
 def soft_argmax(maps: Tensor) -> tuple[Tensor, Tensor]:
@@ -27,7 +27,7 @@ def _bumps(cells: Tensor, width: Tensor, like: Tensor) -> Tensor:
 
 
 def _label_loss(logits: Tensor, label: Tensor) -> Tensor:
-    """The cross entropy of the labels, which the network gives for every second row and column."""
+    """The cross entropy of the labels, which the network computes for every second row and column."""
     weights = torch.tensor(_LABEL_WEIGHTS, device=logits.device)
     return functional.cross_entropy(logits, label[:, ::2, ::2], weight=weights)
 
@@ -50,7 +50,7 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     cells, share = soft_argmax(logits)
     target = (truth.uv[:, 0] - MAP_OFFSET) / MAP_STEP
 
-    # Joints outside the window and hands that are not seen have no weight.
+    # Give no weight to joints outside the window and to hands that are not seen.
     inside = ((target > -1) & (target < logits.shape[3])).all(-1)
     weight = (inside & (truth.seen[:, 0] & truth.right)[:, None]).float()
     mean = lambda values: (values * weight).sum() / weight.sum().clamp_min(1)
@@ -60,7 +60,7 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     bumps = bumps / bumps.sum((2, 3), keepdim=True).clamp_min(1e-6)
     peaked = mean(-(bumps * (share + 1e-9).log()).sum((2, 3)))
 
-    # The side, with the rarer side weighted up.
+    # Compute the loss of the side; the rarer side gets a larger weight.
     seen = truth.seen[:, 0].float()
     rarer = torch.where(truth.right, 0.25, 1.0) * seen
     sides = functional.binary_cross_entropy_with_logits(side[:, 0], truth.right.float(), reduction="none")

@@ -50,7 +50,7 @@ class HandNetwork(nn.Module):
 
 
 def _beside(coarse: Tensor, fine: Tensor) -> Tensor:
-    """The channels of both, with the coarse ones enlarged to the size of the fine ones."""
+    """The channels of `coarse`, enlarged to the size of `fine`, followed by those of `fine`."""
     return torch.cat([functional.interpolate(coarse, size=fine.shape[2:], mode="nearest"), fine], 1)
 
 

@@ -23,7 +23,7 @@ from network import HandNetwork, make_network
 _SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
 _BATCH = {"full": 160, "crop": 256}
 _SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
-_VALIDATION_SEED = 1_000_003  # gives other people and scenes than any batch of the training
+_VALIDATION_SEED = 1_000_003  # seed whose people and scenes are in no batch of the training
 
 
 class Schedule:
@@ -56,7 +56,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 4 * batch if options.smoke else batch)
     before = _loss(network, name, unseen)
 
-    # Every step has its own, new examples.
+    # Train with new examples in every step.
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
@@ -76,7 +76,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
 
     after = _loss(network, name, unseen)
     print(f"{name}: loss on unseen scenes from {before:.3f} to {after:.3f}")
-    if not after < before:  # also true if the loss is not a number
+    if not after < before:  # this also catches a loss that is not a number
         raise SystemExit(f"{name}: the training did not converge; start it again with another --seed")
     return network
 

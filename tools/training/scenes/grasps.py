@@ -10,7 +10,7 @@ from .rotations import about, frame_along, unit
 from .shapes import BOX, CAPSULE, ELLIPSOID, distance_to_solid
 from .skeleton import KNUCKLES, TIPS, forward_kinematics, landmarks, limits
 
-_STEPS = 10  # number of steps of a finger's closing, which are all tried at once
+_STEPS = 10  # number of steps in which a finger closes; all of them are tested at once
 # The stages of closing, one after the other: whole fingers, then their outer joints, then the last joints. Of each
 # stage: (index of one of the 21 angles, its change [rad]) for the thumb (0) and for the index finger (1); the other
 # fingers are like the index finger.
@@ -52,19 +52,19 @@ def objects(chance: Chance, count: int) -> Solids:
 
 
 def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) -> Tensor:
-    """Places the objects against the palm or between thumb and fingertips. Returns [B] whether against the palm."""
+    """Places each object against the palm or between thumb and fingertips. Returns [B]: whether against the palm."""
     count = len(open_angles)
     joints = landmarks(hands.bones, forward_kinematics(hands.bones, open_angles))
     knuckles, thumb = joints[:, KNUCKLES], joints[:, 3]
     against_palm = chance.flag(0.65, count)
 
-    # The long axis lies across the palm, or in any direction.
+    # Choose the direction of the long axis: across the palm, or any direction.
     across = unit(knuckles[:, 3] - knuckles[:, 0])
     wobble = unit(across + chance.normal(0.35, count, 3))
     solids.rotation = frame_along(torch.where(chance.flag(0.8, count)[:, None], wobble, chance.direction(count)))
     solids.rotation = solids.rotation @ about("x", chance.uniform(0, 6.3, count))
 
-    # The position: below the knuckles, or where thumb and fingers meet.
+    # Choose the position: below the knuckles, or where thumb and fingers meet.
     share = chance.uniform(0.1, 0.75, count, 1)
     on_palm = knuckles[:, 1] * (1 - 0.5 * share) + 0.15 * (knuckles[:, 3] - knuckles[:, 0]) * chance.normal(1, count, 1)
     ahead = 0.5 * (thumb + joints[:, [7, 11]].mean(1)) + chance.normal(0.008, count, 3)
@@ -107,7 +107,7 @@ def _close(hands: Hands, angles: Tensor, solids: Solids, stage: dict[int, list[t
     tried = torch.minimum(tried, limits(device)[:, 1]).reshape(-1, 21)
     many = hands.bones.repeated(_STEPS)
     hit = _touching(many, hands.flesh.repeat_interleave(_STEPS, 0), tried, solids.repeated(_STEPS))
-    free = (torch.cumsum(hit.reshape(count, _STEPS, 5).int(), 1) == 0).sum(1)  # [B, 5] steps before the first touch
+    free = (torch.cumsum(hit.reshape(count, _STEPS, 5).int(), 1) == 0).sum(1)  # steps before the first touch [B, 5]
     moved = share[(free - 1).clamp_min(0)]
     return torch.minimum(angles + moved @ motion, torch.maximum(limits(device)[:, 1], angles))
 

@@ -34,7 +34,7 @@ class MeshRig:
         inverse = np.linalg.inv(frames)
         relative = [np.eye(4)] + [inverse[PARENT[s]] @ frames[s] for s in range(1, SEGMENTS)]
 
-        # At zero angles the fingers are straight, whatever the mesh's rest pose is; only the thumb's root keeps its
+        # Make the fingers straight at zero angles, whatever the mesh's rest pose is; only the thumb's root keeps its
         # rotation at rest. A knuckle's flexion is measured from its metacarpal, which is part of the palm here.
         turns = [frame[:3, :3] for frame in relative]
         for s in range(2, SEGMENTS):
@@ -45,7 +45,7 @@ class MeshRig:
             vertex_weights[:, segment] += mesh.weights[:, joint]
         places, weights = _spread(mesh, vertex_weights, points)
 
-        # Each point follows the two segments with the largest weights.
+        # Let each point follow the two segments with the largest weights.
         best = np.argsort(-weights, axis=1, kind="stable")[:, :2]
         share = np.take_along_axis(weights, best, 1)
         ahead = np.concatenate([places, np.ones((points, 1))], 1)
@@ -65,12 +65,12 @@ class MeshRig:
         thick = size * torch.exp(chance.normal(0.1, count, 1) + chance.normal(0.04, count, SEGMENTS))
         wide = thick * torch.exp(chance.normal(0.04, count, 1))
         wide[:, 0] = size[:, 0] * torch.exp(chance.normal(0.06, count))
-        scale = torch.stack([wide, thick, long], -1)  # [count, 16, 3] along x, y, z of each segment
+        scale = torch.stack([wide, thick, long], -1)  # factors along x, y, z of each segment [count, 16, 3]
 
         parent = scale[:, [max(p, 0) for p in PARENT]]
         tips = self.tip * scale[:, [3, 6, 9, 12, 15]]
         bones = Bones(self.turn.expand(count, -1, -1, -1), self.joint * parent, tips)
-        per_point = scale[:, self.segment]  # [count, P, 2, 3]
+        per_point = scale[:, self.segment]  # factors for both segments of each point [count, P, 2, 3]
         flesh = 0.0085 * torch.cat([1.5 * thick[:, :1], thick[:, [i for f in range(5) for i in
                                                                  (3 * f + 1, 3 * f + 2, 3 * f + 3, 3 * f + 3)]]], 1)
         return Hands(bones, self.segment.expand(count, -1, -1), self.weight.expand(count, -1, -1),

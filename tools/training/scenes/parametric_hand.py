@@ -18,7 +18,7 @@ DEVIATIONS = {"size": 0.08, "palm_width": 0.06, "palm_length": 0.06, "palm_thick
               "bone_length": 0.05, "fingers_thickness": 0.12, "flatness": 0.08, "finger_thickness": 0.06,
               "knuckle_thickness": 0.2, "thenar_thickness": 0.15, "tip_length": 0.2, "finger_flesh": 0.1,
               "palm_flesh": 0.1, "thumb_knuckle": 0.004, "knuckle": 0.002}
-_PALM_TUBES, _TUBES = 4, 20  # first 4 metacarpals, then the 15 bones of the digits, then the fold of the thumb
+_PALM_TUBES, _TUBES = 4, 20  # numbers of tubes: 4 metacarpals; in all, also 15 bones of the digits and the thumb's fold
 
 
 class ParametricRig:
@@ -33,11 +33,11 @@ class ParametricRig:
         self.turn, self.joint = self._tensor(relative[:, :3, :3]), self._tensor(relative[:, :3, 3])
         self.length = self._tensor([s["length"] for s in segments])
         self.tip_radius = self._tensor([segments[3 * f + 3]["distal_radius"] for f in range(5)])
-        self.half = self._tensor([[s["half_width"], s["half_thickness"]] for s in segments])  # [16, x or y, end]
+        self.half = self._tensor([[s["half_width"], s["half_thickness"]] for s in segments])  # [16, {x, y}, end]
         self.offset = self._tensor([[s["flesh_offset_x"], s["flesh_offset_y"]] for s in segments])
 
-        # The tube of each point, its position along the tube (0 to 1; beyond that on the caps), and its angle around
-        # it.
+        # Draw the tube of each point, its position along the tube (0 to 1; beyond that on the caps), and its angle
+        # around the tube.
         random = np.random.default_rng(0)
         area = np.array([26.0] * 4 + [14, 12, 9] + [14, 8, 6] * 4 + [8])
         self.tube = torch.tensor(random.choice(_TUBES, points, p=area / area.sum()), device=device)
@@ -88,7 +88,7 @@ class ParametricRig:
         count, points = len(length), len(self.tube)
         start, end, sections, cap = self._tubes(bones, length, half, offset, tip_radius)
 
-        # The section of the tube at each point; beyond the ends of the tube it is rounded off.
+        # Compute the section of the tube at each point; beyond its ends, the tube is rounded off.
         pick = lambda values: values[:, self.tube]
         inside = self.along.clamp(0, 1)
         bone = pick(end - start)
@@ -104,7 +104,7 @@ class ParametricRig:
         local = local + (reach * beyond)[..., None] * torch.nn.functional.normalize(bone, dim=-1)
         local = torch.cat([local[..., :2] + across, local[..., 2:]], -1)
 
-        # Each tube follows its segment; the fold follows the thumb and the palm.
+        # Let each tube follow its segment, and the fold both the thumb and the palm.
         own = (self.tube - _PALM_TUBES + 1).clamp_min(0)
         fold = self.tube == _TUBES - 1
         own = torch.where(fold, torch.zeros_like(own), own)
@@ -112,7 +112,7 @@ class ParametricRig:
         share = torch.where(fold, 1 - inside, torch.zeros_like(inside))
         in_thumb = torch.einsum("bji,bpj->bpi", bones.turn[:, 1], local - bones.joint[:, None, 1])
         local = torch.stack([local, torch.where(fold[:, None], in_thumb, local)], 2)
-        flesh = half.prod(2).sqrt()  # [count, 16, 2]
+        flesh = half.prod(2).sqrt()  # mean radius at both ends of each segment [count, 16, 2]
         around = torch.stack([0.6 * flesh[:, 0, 0]] + [r for f in range(5) for r in (
             flesh[:, 3 * f + 1, 0], flesh[:, 3 * f + 2, 0], flesh[:, 3 * f + 3, 0], tip_radius[:, f])], 1)
         return Hands(bones, segment.expand(count, -1, -1), torch.stack([1 - share, share], -1).expand(count, points, 2),
@@ -128,8 +128,8 @@ class ParametricRig:
         sections = torch.zeros(count, _TUBES, 2, 2, 3, device=self.device)
         cap = torch.full((count, _TUBES, 2), 0.004, device=self.device)
 
-        # Metacarpals: each leads from its part of the wrist's section to its knuckle, and is as wide as the gaps to its
-        # neighbours require.
+        # Make the metacarpals: each leads from its part of the wrist's section to its knuckle, and is as wide as the
+        # gaps to its neighbours require.
         knuckles = bones.joint[:, [4, 7, 10, 13]]
         across = torch.tensor([-1.0, -1 / 3, 1 / 3, 1.0], device=self.device)
         start[:, :4, 0] = (0.19 * across - 0.04) * half[:, :1, 0, 0]
@@ -147,7 +147,7 @@ class ParametricRig:
         sections[:, :4, 1, 1] = torch.stack([0.18 * low.expand(-1, 4), 0.75 * low.expand(-1, 4),
                                              0.86 * offset[:, [4, 7, 10, 13], 1, 0]], -1)
 
-        # The phalanges, and the thumb's metacarpal.
+        # Make the phalanges and the thumb's metacarpal.
         end[:, 4:19, 2] = -length[:, 1:]
         for k, values in enumerate((half, offset)):
             ends = values[:, 1:]
@@ -155,7 +155,7 @@ class ParametricRig:
         cap[:, 4:19] = half[:, 1:].amin(2)
         cap[:, 6:19:3, 1] = tip_radius
 
-        # The fold of skin from the thumb's metacarpal to the palm.
+        # Make the fold of skin from the thumb's metacarpal to the palm.
         thumb = torch.einsum("bij,bj->bi", bones.turn[:, 1], -0.8 * torch.nn.functional.pad(length[:, 1:2], (2, 0)))
         start[:, 19] = bones.joint[:, 1] + thumb
         end[:, 19] = 0.66 * knuckles[:, 0]

@@ -19,7 +19,7 @@ class Stance:
 
 
 def stances(chance: Chance, count: int) -> Stance:
-    """Hands of three kinds: before a camera, mostly with the fingers up; of the person who wears the camera; held in
+    """Hands of three kinds: in front of a camera, mostly with the fingers up; of the person who wears the camera; in
     any orientation."""
     device = chance.device
     upright = torch.tensor([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]], device=device)
@@ -27,7 +27,7 @@ def stances(chance: Chance, count: int) -> Stance:
     facing = about("z", chance.normal(1, count)) @ about("x", chance.normal(0.5, count))
     facing = facing @ about("y", turn + chance.normal(0.6, count)) @ upright
 
-    # Seen by the person: the forearm comes from below and from behind the camera.
+    # For a camera that the person wears, let the forearm come from below and from behind the camera.
     back = unit(torch.stack([chance.normal(0.4, count), 0.45 + chance.normal(0.25, count), -chance.uniform(0.3, 1, count)], 1))
     own = frame_along(back)[:, :, [1, 2, 0]] @ about("z", chance.uniform(0, 6.3, count)) @ about("x", chance.normal(0.35, count))
 
@@ -44,7 +44,7 @@ def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tens
     back = (stance.rotation @ bend)[:, :, 2]
     elbow = wrist + back * (size * chance.uniform(0.21, 0.29, count))[:, None]
 
-    # The shoulder is farther away than the elbow or, if the person wears the camera, nearer.
+    # Place the shoulder farther away than the elbow or, if the person wears the camera, nearer.
     away = unit(back + chance.normal(0.9, count, 3))
     depth = torch.where(stance.egocentric, -away[:, 2].abs(), away[:, 2].abs())
     shoulder = elbow + torch.stack([away[:, 0], away[:, 1], depth], 1) * (size * chance.uniform(0.2, 0.32, count))[:, None]
@@ -53,7 +53,7 @@ def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tens
     arm = hit_capsule(rays, wrist + 0.012 * back, elbow, thin, thick)
     arm = torch.minimum(arm, hit_capsule(rays, elbow, shoulder, 0.95 * thick, 0.055 * size * chance.uniform(0.9, 1.3, count)))
 
-    # A sleeve begins anywhere between the heel of the hand and the elbow; wide sleeves hang down.
+    # Let a sleeve begin anywhere between the heel of the hand and the elbow; wide sleeves hang down.
     begin = wrist + back * (chance.uniform(-0.03, 0.2, count) * size)[:, None]
     wide = chance.uniform(1.1, 1.9, count)
     hang = torch.stack([torch.zeros_like(wide), 0.02 * (wide - 1), torch.zeros_like(wide)], 1)
@@ -61,8 +61,8 @@ def arms(chance: Chance, rays: Tensor, stance: Stance, wrist: Tensor, size: Tens
     sleeve = torch.minimum(sleeve, hit_capsule(rays, elbow, shoulder, thick * wide, 0.065 * size * wide.clamp_max(1.4)))
     arm = torch.minimum(arm, only(chance.flag(0.5, count), sleeve))
 
-    # Arms that would pass through the camera are left out unless the person wears it. Some arms are not seen at all,
-    # like dark cloth.
+    # Leave out arms that would pass through the camera, unless the person wears it. Also leave out some other arms, as
+    # if they were in dark cloth, of which sensors measure no depth.
     through = (elbow[:, 2] < 0.12) & ~stance.egocentric
     return only(~through & ~chance.flag(0.05, count), arm), shoulder
 
@@ -84,7 +84,7 @@ def bodies(chance: Chance, rays: Tensor, shoulder: Tensor) -> Tensor:
     body = hit_ellipsoid(rays, at(centre, 0.22, 0.02), tilt, half)
     body = torch.minimum(body, hit_capsule(rays, shoulder, other, *[chance.uniform(0.06, 0.09, count)] * 2))
 
-    # The neck, and a head with skull, chin and nose.
+    # Add the neck, and a head with skull, chin and nose.
     face = tilt @ about("y", chance.normal(0.5, count)) @ about("x", chance.normal(0.25, count))
     skull = at(centre, -0.26, -0.02)
     on_face = lambda y, z: skull + apply(face, torch.tensor([0.0, y, z], device=device).expand(count, 3))

@@ -15,7 +15,7 @@ def _closure(chance: Chance, kind: Tensor) -> Tensor:
     """How far each of the four fingers is closed [B, 4]: 0 open, 1 closed."""
     count = len(kind)
 
-    # Neighbouring fingers move together: ring and little finger most, index and middle finger least.
+    # Let neighbouring fingers move together: ring and little finger most, index and middle finger least.
     step = chance.normal(1, count, 4) * torch.tensor([0.22, 0.15, 0.10, 0.10], device=chance.device)
     walk = torch.flip(torch.cumsum(torch.flip(step, [1]), 1), [1])
     synergy = chance.uniform(-0.1, 1.1, count, 1) + walk
@@ -63,12 +63,12 @@ def free_poses(chance: Chance, count: int) -> Tensor:
     closure = _closure(chance, kind)
     angles = torch.cat([_thumb(chance, closure), _fingers(chance, closure)], 1)
 
-    # In a pinch, the index finger and the thumb meet in front of the palm.
+    # For a pinch, let the index finger and the thumb meet in front of the palm.
     meeting = torch.tensor([0.45, 0.3, 0.25, 0.0, 0.35, 0.75, 0.0, 0.85, 0.45], device=chance.device)
     pinch = meeting + chance.normal(0.12, count, 9)
     angles[:, :9] = torch.where((kind == 4)[:, None], pinch, angles[:, :9])
 
-    # Free poses have independent, uniform angles.
+    # For free poses, draw independent, uniform angles.
     anything = low + (high - low) * chance.uniform(0, 1, count, ANGLES)
     return torch.minimum(torch.maximum(torch.where((kind == 0)[:, None], anything, angles), low), high)
 

@@ -40,7 +40,7 @@ class Scenes:
     right: Tensor
     grasp: Tensor
     sensor: Tensor
-    middle: Tensor  # [B, 3]: the point at the centre of a window; in a whole frame, the palm of hand 0
+    middle: Tensor  # the point at the centre of a window; in a whole frame, the palm of hand 0 [B, 3, m]
 
     def palms(self) -> Tensor:
         """Centres of the palms [B, 2, 3], midway between wrist and middle knuckle."""
@@ -86,7 +86,7 @@ class Generator:
         chance, count = self.chance, len(place)
         rays = view.rays()
 
-        # The hand in question, which holds an object in two of five scenes, and another hand near it.
+        # Make hand 0, which holds an object in two of five scenes, and another hand near it.
         hands, stance = self.people(count), stances(chance, count)
         holding, solids, _ = grasps(chance, hands)
         grasp = chance.flag(0.4, count)
@@ -101,7 +101,7 @@ class Generator:
         other_skin, other_joints, _ = _put(other_hands, free_poses(chance, count), other_right, other_stance, beside)
         both = present & chance.flag(0.3, count) & (beside[:, 2] > 0.15)
 
-        # The surfaces. A window is about one hand: the other hand counts as background there.
+        # Make the surfaces. In a window, the other hand counts as background.
         size = (joints[:, MIDDLE_KNUCKLE] - joints[:, WRIST]).norm(dim=1) / _MEAN_PALM
         arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
         other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)

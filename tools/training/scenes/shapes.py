@@ -9,7 +9,7 @@ from torch import Tensor
 from .rotations import apply
 
 FAR = 1e3  # depth of a ray that hits nothing [m]
-NEAR = 0.05  # surfaces that are nearer are not seen [m]
+NEAR = 0.05  # surfaces nearer to the camera than this are not seen [m]
 
 
 def _seen(hit: Tensor, t: Tensor) -> Tensor:
@@ -39,13 +39,13 @@ def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, 
         chord = (radius * radius - (centre * centre).sum(-1)) / rr + middle * middle
         return middle, chord, middle - torch.sqrt(chord.clamp_min(0))
 
-    # A ray hits if it hits the ball around the point of the axis that is nearest to the ray.
+    # Find the rays that hit: those that hit the ball around the point of the axis that is nearest to the ray.
     nearest = (ra * rs - rr * sa) / (rr * aa - ra * ra).clamp_min(1e-9)
     _, chord, t = ball(nearest.clamp(0, 1))
     hit = chord > 0
 
-    # A slanting ray enters earlier: through the lateral surface, or through the ball at an end. Two steps of a
-    # fixed-point iteration find where.
+    # Find where a slanting ray enters, which is earlier: through the lateral surface, or through the ball at an end.
+    # Two steps of a fixed-point iteration suffice.
     middle, chord, _ = ball(nearest)
     slant = (1 - ra * ra / (rr * aa)).clamp_min(1e-3)
     entry = middle - torch.sqrt(chord.clamp_min(0) / slant)
@@ -95,7 +95,7 @@ def hit_solid(rays: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half
 
 
 def distance_to_solid(points: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """Signed distances [B, N] of `points` [B, N, 3] from the same solids; the distance from an ellipsoid is a
+    """Signed distances [B, N] of `points` [B, N, 3] from the solids of hit_solid(); the distance from an ellipsoid is a
     first-order approximation."""
     local = torch.einsum("bji,bnj->bni", rotation, points - centre[:, None])
     half = half[:, None]

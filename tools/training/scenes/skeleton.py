@@ -12,14 +12,14 @@ from torch import Tensor
 from .rotations import about
 
 SEGMENTS = 16
-PARENT = [-1] + [0 if k == 0 else 3 * f + k for f in range(5) for k in range(3)]  # segment 1 + 3 f + k
+PARENT = [-1] + [0 if k == 0 else 3 * f + k for f in range(5) for k in range(3)]  # parent of segment 1 + 3 f + k
 DISTAL = [3, 6, 9, 12, 15]
 
 # For each segment, the indices of its flexion and its abduction among the 21 angles. Positive flexion bends towards the
 # palm, positive abduction turns towards the thumb's side.
 FLEXION: list[Optional[int]] = [None, 1, 2, 4] + [5 + 4 * f + i for f in range(4) for i in (0, 2, 3)]
 ABDUCTION: list[Optional[int]] = [None, 0, 3, None] + [i for f in range(4) for i in (6 + 4 * f, None, None)]
-FINGER_ANGLES = {finger: slice(5 + 4 * finger, 9 + 4 * finger) for finger in range(4)}  # index, ..., little
+FINGER_ANGLES = {finger: slice(5 + 4 * finger, 9 + 4 * finger) for finger in range(4)}  # 0 index to 3 little finger
 ANGLES = 21
 
 _FINGER_LIMITS = [(-20, 90), (-18, 18), (0, 108), (-5, 80)]

@@ -10,8 +10,8 @@ from .shapes import FAR
 # PyTorch 1.13 warns that scatter_reduce is in beta; it has not changed since.
 warnings.filterwarnings("ignore", message="scatter_reduce")
 
-FULL_SIZE = (120, 160)  # rows, columns
-FULL_FOCAL = 131.25  # pixels
+FULL_SIZE = (120, 160)  # rows and columns of whole frames
+FULL_FOCAL = 131.25  # focal length of whole frames [pixels]
 CROP_SIZE = (96, 96)
 CROP_ACROSS = 0.34  # width of a window at the palm's depth [m]
 
@@ -48,7 +48,7 @@ def draw_points(view: View, points: Tensor) -> Tensor:
     uv, z = view.project(points), points[..., 2]
     buffer = torch.full((count, rows * columns + 1), FAR, device=points.device)
 
-    # A near hand covers more pixels than it has points, so each of its points covers four pixels.
+    # Let each point of a near hand cover four pixels, because the hand covers more pixels than it has points.
     pitch = z.mean(1) / view.focal
     for shift_u, shift_v in ((0, 0), (1, 0), (0, 1), (1, 1)):
         if shift_u + shift_v == 0:
@@ -65,8 +65,8 @@ def draw_points(view: View, points: Tensor) -> Tensor:
 
 
 def _closed(depth: Tensor) -> Tensor:
-    """Fills pixels with hand in most of the neighbouring pixels, and hides the back of the hand where it shows through
-    between points."""
+    """Fills pixels most of whose neighbours show the hand, and removes pixels of the far side of the hand that show
+    through between points."""
     padded = torch.nn.functional.pad(depth[:, None], (1, 1, 1, 1), value=FAR)
     filled = (padded < FAR).float()
     pool = lambda image: 9 * torch.nn.functional.avg_pool2d(image, 3, 1)[:, 0]
