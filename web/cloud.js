@@ -3,7 +3,7 @@ import * as THREE from "/three/build/three.module.js";
 
 const kVertex = `
   attribute vec3 tint;
-  uniform float scale;  // size on the screen [px] of a cell at equal distances from the sensor and the eye
+  uniform float scale;  // size of a cell on the screen if the eye is as far from it as the sensor [px]
   varying vec3 vTint;
   void main() {
     vTint = tint;

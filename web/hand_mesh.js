@@ -4,9 +4,9 @@ import * as THREE from "/three/build/three.module.js";
 
 const kVertex = `
   uniform mat4 bones[16];
-  uniform vec2 states[16];  // confidence; 1 if seen, otherwise 0
+  uniform vec2 states[16];  // for each segment, its confidence, and 1 if it is seen, otherwise 0
   attribute vec3 inB, normalInA;
-  attribute vec3 binding;  // segments a and b, weight of b
+  attribute vec3 binding;  // the vertex's segments a and b, and the skinning weight of b
   varying vec3 vNormal;
   varying vec2 vState;
   const float kLift = 0.008;  // distance by which the skin is moved towards the eye [m]

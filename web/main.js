@@ -62,7 +62,7 @@ const connection = new Connection({
     if (!state.freeze) {
       plots.add(frame);
       await (decoding = decoding.then(() => picture.decode(frame)));  // so that hand and image show the same frame
-      if (latest) picture.release(latest);  // that frame was never shown
+      if (latest) picture.release(latest);  // the previous frame was never shown
       latest = frame;
     }
     ++unacknowledged;
@@ -164,7 +164,7 @@ async function saveScreenshot() {
 
 function onKey(event) {
   if (event.ctrlKey || event.altKey || event.metaKey || event.target.tagName === "SELECT") return;
-  if (event.key === " " && event.target.tagName === "BUTTON") return;  // the space bar presses the focused button
+  if (event.key === " " && event.target.tagName === "BUTTON") return;  // the browser presses the focused button
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
     c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),

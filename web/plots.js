@@ -26,7 +26,7 @@ const kPlots = {
 export class Plots {
   constructor(canvas) {
     this.canvas = canvas;
-    this.samples = [[], []];  // by side (0: left, 1: right)
+    this.samples = [[], []];  // samples of the left hand (0) and of the right hand (1)
     this.kind = "joints";
     this.side = 1;
   }

@@ -4,11 +4,11 @@ import * as THREE from "/three/build/three.module.js";
 
 const kFloor = 4, kCell = 0.1;  // size of the floor's grid and of its cells [m]
 const kSensor = 0.06;           // length of the sensor's pyramid [m]
-const kLineColours = {light: [0x8b97a1, 0xc4ccd3], dark: [0x56626c, 0x2b333a]};  // of the middle lines, of the others
+const kLineColours = {light: [0x8b97a1, 0xc4ccd3], dark: [0x56626c, 0x2b333a]};  // middle lines, other lines
 
-// Up is z in the world frame and y in three.js.
+// Rotation from the world frame, where up is z, to the frame of three.js, where up is y.
 const kThreeFromWorld = new THREE.Matrix4().set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-// Cameras of three.js look along -z with y up; the sensor looks along z with y down.
+// Rotation from a camera of three.js, which looks along -z with y up, to the sensor's frame (z forward, y down).
 const kSensorFromCamera = new THREE.Matrix4().makeScale(1, -1, -1);
 
 // The pose of the camera frame in the scene. `numbers`: T_world_camera, row-major; null: unknown.

@@ -28,7 +28,7 @@ function sentence(text) {
 
 const millimetres = (metres) => (metres * 1e3).toFixed(1);
 
-// What is to be seen of a segment, as a list of [name, fraction that was seen, text].
+// The views and the bending that a scan needs of a segment, as a list of [name, fraction that was seen, text].
 function partsOf(segment, scan) {
   const share = (value, enough) => Math.min(1, value / enough);
   const parts = [["palm side", share(segment.palm_side, scan.enough_frames), `${segment.palm_side} of ${scan.enough_frames} frames`],

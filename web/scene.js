@@ -11,7 +11,7 @@ import {Room, placeOf} from "./room.js";
 const kFieldOfView = 45;  // vertical field of view of the free views [degrees]
 const kBeside = 0.1, kAbove = 0.12, kBack = 0.38;  // initial offset of the eye from the hand [m]
 const kSlowMs = 40;  // if drawing takes longer than this, the resolution is reduced
-const kFewestPixels = 0.5;  // smallest pixel ratio
+const kFewestPixels = 0.5;  // smallest number of canvas pixels per CSS pixel in each direction
 
 function poseMatrix(segment, smoothed) {
   const p = smoothed ? segment.smoothed_position : segment.position;
@@ -87,7 +87,7 @@ export class Scene {
     const up = new THREE.Vector3(0, 1, 0);
     const level = (v) => v.applyQuaternion(this.sensor.quaternion).setY(0);
     let back = level(new THREE.Vector3(0, 0, 1));
-    if (back.length() < 0.2) back = level(new THREE.Vector3(0, -1, 0));  // the sensor looks down or up
+    if (back.length() < 0.2) back = level(new THREE.Vector3(0, -1, 0));  // for a sensor that looks down or up
     back.normalize();
     this.controls.target.set(0, 0, 0.6).applyMatrix4(this.place);
     this.free.position.copy(this.controls.target).addScaledVector(back, kBack).addScaledVector(up, kAbove)
@@ -215,7 +215,7 @@ export class Scene {
   // Reduces the resolution if drawing is slow, for example without a GPU. `ms`: time since the previous drawing, which
   // was in the refresh before this one.
   adapt(ms) {
-    if (ms > 500) return;  // the page was hidden
+    if (ms > 500) return;  // such a long time means that the page was hidden
     this.interval = this.interval ? 0.9 * this.interval + 0.1 * ms : kSlowMs / 2;
     if (this.interval < kSlowMs || this.pixelRatio <= kFewestPixels) return;
     this.pixelRatio = Math.max(kFewestPixels, this.pixelRatio * 0.8);

@@ -23,7 +23,7 @@ struct Printer {
     std::printf("frame %lld %s %s", static_cast<long long>(glove->frame_number), left ? "left" : "right",
                 known ? kStatus[glove->status] : "?");
 
-    // Without a pose, every angle is NaN and flagged as unobservable.
+    // Print the angles only if there is a pose: without one, every angle is NaN and flagged as unobservable.
     if (glove->channel_flag[glove_state_t::INDEX_MPJ] != glove_state_t::UNOBSERVABLE)
       for (const int channel : {glove_state_t::INDEX_MPJ, glove_state_t::INDEX_PIJ, glove_state_t::INDEX_DIJ})
         std::printf(" %.1f", glove->channel[channel] * kDegrees);

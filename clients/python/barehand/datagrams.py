@@ -10,11 +10,11 @@ import struct
 from collections import OrderedDict
 
 SHORT, FRAGMENT = 0x4C433032, 0x4C433033
-LONGEST_CHANNEL = 63        # bytes
-LARGEST_MESSAGE = 4 << 20   # bytes; above it LCM over UDP is unreliable, and Barehand sends nothing larger
+LONGEST_CHANNEL = 63        # longest name of a channel [bytes]
+LARGEST_MESSAGE = 4 << 20   # largest message that Barehand sends [bytes]; larger ones are unreliable over UDP
 _SHORT_HEADER = struct.Struct(">II")
 _FRAGMENT_HEADER = struct.Struct(">IIIIHH")
-_LARGEST_DATAGRAM = 65507   # payload of UDP over IPv4, bytes
+_LARGEST_DATAGRAM = 65507   # largest payload of UDP over IPv4 [bytes]
 _MOST_SENDERS = 64          # number of senders that are remembered
 
 
@@ -41,8 +41,8 @@ class _Sender:
     """The state of one sender, which is identified by its address and port."""
 
     def __init__(self):
-        self.last = None     # number of its newest message
-        self.partial = None  # _Partial
+        self.last = None     # number of the sender's newest message
+        self.partial = None  # its incomplete message (_Partial), if any
         self.whole = None    # number of its last complete large message
 
 
@@ -69,7 +69,8 @@ class Assembler:
         if len(self._senders) > _MOST_SENDERS:
             self._senders.popitem(last=False)
 
-        # A step back means that datagrams arrived out of order or the sender was restarted: nothing is lost.
+        # Count lost messages. If the number decreases, datagrams arrived out of order or the sender was restarted, so
+        # nothing is lost.
         step = (number - sender.last) & 0xFFFFFFFF if sender.last is not None else 1
         if 1 <= step < 1 << 31:
             self._counts.lost += step - 1
@@ -92,14 +93,14 @@ class Assembler:
         if sender.whole == number and not sender.partial:  # a duplicate of a fragment
             return None
 
-        # A fragment of another message ends an incomplete message, whose other fragments are lost.
+        # Give up an incomplete message when a fragment of another message arrives: its other fragments are lost.
         partial = sender.partial
         if not partial or (partial.number, len(partial.data), partial.count) != (number, size, count):
             self._counts.fragments += partial is not None
             believed = index < count and 0 < size <= LARGEST_MESSAGE
             partial = sender.partial = _Partial(number, size, count) if believed else None
 
-        # The first fragment begins with the channel.
+        # Read the channel, with which the first fragment begins.
         start, end = _FRAGMENT_HEADER.size, None
         if partial and index == 0:
             end = datagram.find(b"\0", start, start + LONGEST_CHANNEL + 1)
@@ -118,7 +119,7 @@ class Assembler:
         if len(partial.seen) < count:
             return None
         sender.partial, sender.whole = None, number
-        if partial.filled != size:  # the fragments do not cover all data
+        if partial.filled != size:  # all fragments have arrived, but they do not cover all data
             self._counts.damaged += 1
             return None
         return partial.channel, bytes(partial.data)

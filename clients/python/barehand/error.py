@@ -2,7 +2,7 @@
 
 
 class Error(Exception):
-    """A file, a network or an argument cannot be used. Says what is wrong, where, and what to do about it."""
+    """The error for a file, a network or an argument that cannot be used: what is wrong, where, and what to do."""
 
     def __init__(self, what, where="", remedy=""):
         super().__init__((f"{where}: " if where else "") + what + (f" ({remedy})" if remedy else ""))

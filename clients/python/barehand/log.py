@@ -18,7 +18,7 @@ def events(path, counts):
     """An iterator over all complete events of a log: (time [us], channel, data), the last two as bytes. Damaged or
     truncated parts are skipped up to the next event and counted in `counts.damaged`. Raises Error if the file is no
     log."""
-    return _scan(_map(path), path, counts)  # opened here, so that a missing file is reported at once
+    return _scan(_map(path), path, counts)  # _map() opens the file now, so that a missing file is reported at once
 
 
 def _scan(bytes_, path, counts):

@@ -14,11 +14,11 @@ __all__ = ["command_t", "glove_state_t", "hand_joints_t", "hand_state_t", "healt
 
 
 class Foreign(ValueError):
-    """The message is of another type, or of another version of the type."""
+    """The error for a message of another type, or of another version of the type."""
 
 
 class Damaged(ValueError):
-    """The message has the fingerprint of its type, but is too short or too long."""
+    """The error for a message that has the fingerprint of its type, but is too short or too long."""
 
 
 class _Bytes:

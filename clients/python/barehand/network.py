@@ -59,7 +59,7 @@ class Network:
 
     def _listen(self, group, port, buffer):
         self._receiver = receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # others listen on this port, too
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # other programs may listen on this port, too
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
         receiver.bind((group, port))  # to the group, so that messages of other groups on this port are not received
         receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,

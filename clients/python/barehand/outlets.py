@@ -1,5 +1,5 @@
-"""The conventions (OpenXR, WebXR, MANO, CyberGlove) in which a hand is available. docs/frames_and_units.md has a table
-of all of them, with a test vector."""
+"""The conventions (OpenXR, WebXR, MANO, CyberGlove) in which the values of a hand are available.
+docs/frames_and_units.md has a table of all of them, with a test vector."""
 import functools
 from typing import NamedTuple
 
@@ -95,7 +95,7 @@ def mano_rotation(landmarks, handedness):
     x from the middle knuckle to the wrist, y normal to the plane of the three points, and z on the side of the index
     finger."""
     wrist, index, middle = landmarks[0], landmarks[5], landmarks[9]
-    normal = np.cross(middle - wrist, index - wrist)  # of the plane of the three points, perpendicular to x
+    normal = np.cross(middle - wrist, index - wrist)  # normal of the plane of the three points, perpendicular to x
     normal /= np.linalg.norm(normal)
     x = wrist - middle
     x /= np.linalg.norm(x)

@@ -65,7 +65,7 @@ def _counts(depth, depth_unit):
         raise Error(f"depth has the shape {depth.shape}", _WHERE, "give (height, width)")
     if np.issubdtype(depth.dtype, np.floating):
         counts = np.round(depth / depth_unit)
-        return np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # NaN compares as false
+        return np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # comparisons with NaN are false
     if not np.issubdtype(depth.dtype, np.integer):
         raise Error(f"depth is of the type {depth.dtype}", _WHERE, "give integer counts or floating point metres")
     if depth.dtype != np.uint16 and (depth.min() < 0 or depth.max() > 65535):

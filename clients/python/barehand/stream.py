@@ -88,7 +88,7 @@ class HandStream:
                 done = newer[-1:] or done
             yield from done
             if done:
-                heard = time.monotonic()  # the time that the consumer took does not count as silence
+                heard = time.monotonic()  # reset, so that the time that the consumer took does not count as silence
 
     def _logged(self, events):
         for _, channel, data in events:
@@ -133,7 +133,7 @@ class _Frames:
     def __init__(self, prefix, counts):
         self.prefix, self._counts = prefix, counts
         self._types = {(prefix + name).encode(): (name, type_) for name, type_ in _PARTS.items()}
-        self._open, self._expected, self._last = {}, {}, {}  # by sensor
+        self._open, self._expected, self._last = {}, {}, {}  # by sensor: open frame, expected hands, last frame
 
     def carries_hands(self, channel):
         return channel in self._types

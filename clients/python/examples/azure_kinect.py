@@ -12,6 +12,6 @@ camera.start()
 
 while True:
     capture = camera.get_capture()
-    colour = capture.transformed_color  # registered to depth, BGRA
+    colour = capture.transformed_color  # the BGRA image, registered to depth
     if colour is not None:
         barehand.publish_rgbd(capture.depth, colour[:, :, 2::-1], (fx, fy, cx, cy))  # depth in millimetres

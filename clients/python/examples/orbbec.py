@@ -25,4 +25,4 @@ while True:
         depth, colour = frames.get_depth_frame(), frames.get_color_frame()
         barehand.publish_rgbd(image(depth, np.uint16), image(colour, np.uint8, 3),
                               (camera.fx, camera.fy, camera.cx, camera.cy),
-                              depth_unit=depth.get_depth_scale() / 1000)  # the scale is in millimetres per count
+                              depth_unit=depth.get_depth_scale() / 1000)  # the scale is in mm per unit of depth
