@@ -1,4 +1,4 @@
-# Every dependency is a Debian 12 package (deploy/packages.txt), found here and nowhere else.
+# Finds all dependencies of the program, which are Debian 12 packages (deploy/packages.txt).
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
@@ -15,16 +15,17 @@ find_package(fastcdr 1.0 REQUIRED)
 find_package(JPEG REQUIRED)  # libjpeg-turbo
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
-find_path(CIVETWEB_INCLUDE_DIR civetweb.h REQUIRED)  # its CMake package asks for a program that is not in libcivetweb-dev
+find_path(CIVETWEB_INCLUDE_DIR civetweb.h REQUIRED)  # its CMake package needs a program that libcivetweb-dev lacks
 find_library(CIVETWEB_LIBRARY civetweb REQUIRED)
-find_path(THREE_JS_DIR build/three.module.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)  # of the live page
+find_path(THREE_JS_DIR build/three.module.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)  # live page
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(OPENNI2 REQUIRED IMPORTED_TARGET libopenni2)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
-# Headers alone: the libraries are loaded at run time, so prototypes would only invite undefined symbols.
+# Only the headers of EGL and OpenGL ES are needed, because the libraries are loaded at run time. Prototypes are
+# disabled, since a call of one would be an undefined symbol.
 find_path(EGL_INCLUDE_DIR EGL/egl.h REQUIRED)
 find_path(GLES_INCLUDE_DIR GLES3/gl32.h REQUIRED)
 add_library(egl_headers INTERFACE)

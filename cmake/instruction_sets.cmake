@@ -1,4 +1,4 @@
-# Which processors the program is for.
+# Selects the instruction sets (processors) for which the program is built.
 set(default_arch "")
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   set(default_arch x86-64-v3)
@@ -6,10 +6,11 @@ endif()
 set(BAREHAND_ARCH "${default_arch}" CACHE STRING "Value of -march; empty leaves it to the compiler")
 set(BAREHAND_MORE_ARCHS "" CACHE STRING
     "Further values of -march (x86-64-v3, x86-64-v4) that the package carries the program for; the loader takes the best")
-set(BAREHAND_LIBRARIES lib/${CMAKE_LIBRARY_ARCHITECTURE}/barehand)  # the program's own; nobody else links them
+set(BAREHAND_LIBRARIES lib/${CMAKE_LIBRARY_ARCHITECTURE}/barehand)  # folder of libraries that only the program links
 
-# One instruction set for every translation unit: Eigen's alignment depends on it. On another processor the loader says
-# so and stops, instead of an illegal instruction somewhere.
+# Compiles a target for the instruction set BAREHAND_ARCH, which must be the same in every translation unit, since
+# Eigen's alignment depends on it. On a processor without it, the loader ends the program with a message, instead of an
+# illegal instruction later on.
 function(barehand_instruction_set target)
   if(BAREHAND_ARCH)
     target_compile_options(${target} INTERFACE -march=${BAREHAND_ARCH})
@@ -19,7 +20,7 @@ function(barehand_instruction_set target)
   endif()
 endfunction()
 
-# Builds the program once more for every one of BAREHAND_MORE_ARCHS and installs it where glibc's loader looks for it.
+# Builds the program's library again for each of BAREHAND_MORE_ARCHS, and installs it where glibc's loader looks for it.
 function(barehand_more_instruction_sets)
   include(ExternalProject)
   foreach(arch IN LISTS BAREHAND_MORE_ARCHS)

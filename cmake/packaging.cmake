@@ -1,8 +1,9 @@
-# What `cmake --install` puts where, and the Debian packages made of it: cpack --preset package. The component `video` is a
-# package of its own, barehand-video, because libav's hundred packages are for those alone who want videos, and so is the
-# component `python`, python3-barehand, which a machine without the tracker can have.
+# Defines which files `cmake --install` installs, and the Debian packages that `cpack --preset package` makes of them.
+# The component `video` is a separate package, barehand-video, because libav depends on a hundred packages that only
+# users of videos need. The component `python` is the separate package python3-barehand, for machines without the
+# tracker, too.
 include(GNUInstallDirs)
-set(data share/barehand)  # src/io/data_files.cpp looks beside the program
+set(data share/barehand)  # must agree with src/io/data_files.cpp, which searches relative to the program
 barehand_more_instruction_sets()
 install(DIRECTORY configs DESTINATION ${data} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.json" PATTERN "*.onnx")
 install(DIRECTORY web DESTINATION ${data})
@@ -20,9 +21,9 @@ install(FILES deploy/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}-video 
 set(python_docs ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-barehand)
 install(FILES deploy/debian/copyright DESTINATION ${python_docs} COMPONENT python)
 
-# Debian wants these two compressed.
+# Installs a file compressed by gzip, as Debian requires for man pages and changelogs.
 find_program(GZIP gzip REQUIRED)
-function(install_compressed file name destination)  # further arguments are those of install
+function(install_compressed file name destination)  # further arguments are passed to install()
   set(compressed ${PROJECT_BINARY_DIR}/packaging/${name}.gz)
   execute_process(COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/${file} OUTPUT_FILE ${compressed} COMMAND_ERROR_IS_FATAL ANY)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
@@ -42,14 +43,14 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the very versions that the program was linked with
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # CPack leaves out this one alone
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # adds the versions of the libraries that the program was linked with
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # CPack omits this default text
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME barehand)
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "libjs-three")  # of the live page; the libraries are added
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "libjs-three")  # for the live page; SHLIBDEPS adds the libraries
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS
-    "barehand-video, liblcm-bin, libegl1, npm, parallel, python3-barehand")  # npm and parallel for its scripts
+    "barehand-video, liblcm-bin, libegl1, npm, parallel, python3-barehand")  # scripts in deploy/ use npm and parallel
 set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "tracks a bare hand and publishes glove-like states on LCM
 Barehand is a daemon beside a depth sensor. It watches a bare hand that holds
 and moves things and says on LCM, frame by frame, what an instrumented glove

@@ -1,4 +1,4 @@
-# What every target of the project shares: language, warnings, sanitizers and the two target helpers.
+# Settings of all targets: language, warnings and sanitizers; and the functions that add libraries and tests.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -9,30 +9,33 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # Without these it caches nothing that is compiled with precompiled headers.
+  # Without these settings, ccache does not cache files that are compiled with precompiled headers.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 add_library(barehand_settings INTERFACE)
 target_include_directories(barehand_settings INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
-# Never -ffast-math: small SVDs returned NaN under it. These two alone let the compiler vectorise.
+# -ffast-math must not be used: with it, small SVDs returned NaN. -fno-math-errno and -fno-trapping-math are enough to
+# let the compiler vectorise.
 target_compile_options(barehand_settings INTERFACE -Wall -Wextra -Wpedantic -fno-math-errno -fno-trapping-math -pthread)
 if(BAREHAND_WERROR)
-  # GCC 12 imagines these four in libstdc++'s strings, in tl::expected and in Eigen's vectors of three: they stay warnings.
+  # These four stay warnings, because GCC 12 reports them wrongly in libstdc++'s strings, in tl::expected and in Eigen's
+  # vectors of three.
   target_compile_options(barehand_settings INTERFACE
     -Werror -Wno-error=restrict -Wno-error=stringop-overflow -Wno-error=array-bounds -Wno-error=maybe-uninitialized)
 endif()
 barehand_instruction_set(barehand_settings)
-set(BAREHAND_TEST_TIMEOUT 300)  # seconds
+set(BAREHAND_TEST_TIMEOUT 300)  # time limit of a test [s]
 if(BAREHAND_SANITIZE)
-  set(BAREHAND_TEST_TIMEOUT 1800)  # ten to thirty times as slow
-  # A finding ends the program: printed and passed over, it would leave the test green.
+  set(BAREHAND_TEST_TIMEOUT 1800)  # programs with sanitizers are ten to thirty times as slow
+  # Let a finding end the program; if it were only printed, the test would still pass.
   target_compile_options(barehand_settings INTERFACE
     -fsanitize=${BAREHAND_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(barehand_settings INTERFACE -fsanitize=${BAREHAND_SANITIZE})
 endif()
 
-# barehand_library(core SOURCES a.cpp ... DEPS lib ...): static library barehand_core, alias barehand::core.
+# barehand_library(core SOURCES a.cpp ... DEPS lib ...) adds the static library barehand_core with the alias
+# barehand::core.
 function(barehand_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
   add_library(barehand_${name} STATIC ${ARG_SOURCES})
@@ -41,8 +44,9 @@ function(barehand_library name)
   target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
 endfunction()
 
-# barehand_test(core SOURCES a_test.cpp ... DEPS lib ...): one test binary per area, each case known to ctest.
-# FOREIGN_LEAKS: loads plug-ins that leak and are unloaded, so that no suppression can name them; leaks go unchecked.
+# barehand_test(core SOURCES a_test.cpp ... DEPS lib ...) adds one test program, whose test cases ctest runs one by one.
+# FOREIGN_LEAKS: the test loads plug-ins that leak memory and are unloaded again, so that no suppression can name them;
+# leaks are then not checked.
 function(barehand_test area)
   cmake_parse_arguments(ARG "FOREIGN_LEAKS" "" "SOURCES;DEPS" ${ARGN})
   set(properties TIMEOUT ${BAREHAND_TEST_TIMEOUT})

@@ -9,7 +9,7 @@ left=bc67783144944ea1cda54d9247885825ea5fb9d4651469fe7d00be517a5c2b87
 right=291790c14f7f88a7f9bd35330c47392ed8e8d395ae6728f4bb7089f1bc1f2b96
 hands=${BAREHAND_HANDS:-${XDG_CACHE_HOME:-$HOME/.cache}/barehand/hands}
 
-intact() {  # FOLDER: both hands are there with the right checksums
+intact() {  # whether the folder $1 contains both hands with the right checksums
   printf '%s  %s\n%s  %s\n' "$left" "$1/left.glb" "$right" "$1/right.glb" | sha256sum --check --status 2>/dev/null
 }
 

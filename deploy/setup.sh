@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Everything Barehand needs on a fresh Debian 12: packages, the simulator's hand mesh, a release build.
-#   deploy/setup.sh            install, fetch, build
-#   deploy/setup.sh --tests    the same with the tests, then run them
+# Prepares a fresh Debian 12 for Barehand: installs packages, fetches the simulator's hand mesh and builds a release.
+#   deploy/setup.sh            installs, fetches and builds
+#   deploy/setup.sh --tests    also builds the tests and runs them
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,7 +12,8 @@ missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
 done
-# npm only fetches the hand mesh; a Node.js from elsewhere brings its own, which Debian's would conflict with.
+# npm is only needed to fetch the hand mesh. It is not installed if a Node.js from another source has brought its own
+# npm, with which Debian's would conflict.
 command -v npm >/dev/null || missing+=(npm)
 if [ ${#missing[@]} -gt 0 ]; then
   as_root apt-get update
@@ -23,7 +24,7 @@ deploy/fetch_hand_mesh.sh
 if [ "${1:-}" = --tests ]; then
   cmake --preset release -DBAREHAND_TESTS=ON -DBAREHAND_WERROR=ON
   cmake --build --preset release
-  # The tests of memory and parsing once more with sanitizers.
+  # Run the tests of memory and parsing again with sanitizers.
   cmake --preset asan-fast
   cmake --build --preset asan-fast
   ctest --preset asan-fast

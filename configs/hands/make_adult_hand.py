@@ -16,22 +16,25 @@ BONES = {
     "ring": {"phalanges": [41.4, 25.7, 17.3], "pulp": 4.0},
     "little": {"phalanges": [32.7, 18.1, 16.0], "pulp": 3.7},
 }
-# A joint turns about the centre of the rounded head of its proximal bone: this far inside that bone's end.
+# Distance of a joint's centre of rotation from the end of its proximal bone, inside the bone's rounded head.
 HEAD_DEPTH = {"metacarpal": 6.0, "thumb_metacarpal": 4.5, "proximal": 3.5, "intermediate": 2.5}
-CARTILAGE = 1.0  # between two bones
-# Wrist centre, between radius and carpus, to the base of the third metacarpal (carpal height ratio, Youm et al. 1978).
+CARTILAGE = 1.0  # thickness of the cartilage between two bones
+# Distance from the wrist's centre, between radius and carpus, to the base of the third metacarpal (carpal height ratio,
+# Youm et al. 1978).
 CARPUS = 0.54 * BONES["middle"]["metacarpal"]
 
-# Where the knuckles lie in the palm: (x, height below the middle one, shortfall along z against the middle one).
+# Positions of the knuckles in the palm: (x, height relative to the middle knuckle, distance behind it along z).
 KNUCKLES = {"index": (-21.5, -3.5, 1.5), "middle": (0.0, 0.0, 0.0), "ring": (18.0, -2.5, 6.5), "little": (34.0, -8.0, 14.0)}
-# Open flat hand: fan of the fingers (positive towards the little finger) and roll along the arch of the palm.
+# Angles of the fingers in the open flat hand: spread (positive towards the little finger), and roll along the arch of
+# the palm.
 SPLAY = {"index": -4.0, "middle": 2.0, "ring": 8.0, "little": 16.0}
 ROLL = {"index": 4.0, "middle": 0.0, "ring": -5.0, "little": -12.0}
-# Thumb: trapeziometacarpal joint, direction of the relaxed thumb (radial, palmar abduction) and its pronation.
+# Position of the thumb's trapeziometacarpal joint, direction of the relaxed thumb (radial and palmar abduction), and
+# its pronation.
 THUMB_BASE = (-21.0, -10.0, -34.0)
 THUMB_RADIAL, THUMB_PALMAR, THUMB_PRONATION = 37.0, 22.0, 78.0
 
-# Skin radii at the joints of one calibrated small hand (first joint, second, third, tip), enlarged to this hand.
+# Skin radii at the first, second and third joint and at the tip: measured on one small hand, enlarged to this hand.
 RADII = {
     "thumb": [15.7, 10.3, 7.3, 7.0],
     "index": [8.4, 7.6, 5.9, 5.2],
@@ -40,10 +43,12 @@ RADII = {
     "little": [7.9, 6.2, 4.8, 4.2],
 }
 ENLARGED = 1.08
-# Cross section: half width / radius at the first joint, second, third and the tip; half thickness is its inverse.
+# Half width of the cross-section relative to the radius, at the first, second and third joint and at the tip; the half
+# thickness is the radius divided by the same factor.
 WIDTH = {"thumb": [1.05, 1.04, 1.08, 1.12]}
 WIDTH_FINGER = [1.02, 1.04, 1.06, 1.08]
-# The bone lies nearer the back of the finger: offset of the skin's centre towards the palm at the same places.
+# Offset of the skin's centre from the bone towards the palm at these places, since the bone is nearer to the back of
+# the finger.
 PAD = {"thumb": [6.0, 3.0, 1.2, 1.0]}
 PAD_FINGER = [3.0, 1.0, 0.4, 0.3]
 
@@ -58,7 +63,7 @@ JOINTS = {
 
 
 def rotation(axis, degrees):
-    """About the coordinate axis 0, 1 or 2."""
+    """The rotation matrix about the coordinate axis 0, 1 or 2."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     i, j = (axis + 1) % 3, (axis + 2) % 3
     m = [[float(a == b) for b in range(3)] for a in range(3)]
@@ -79,7 +84,7 @@ def add(a, b):
 
 
 def lengths(finger):
-    """Joint centre to joint centre; the last to the skin in front of the tip."""
+    """Lengths of a finger's segments from joint centre to joint centre; the last one reaches the end of the skin."""
     bones = BONES[finger]
     heads = ["metacarpal", "proximal", "intermediate"]
     if finger == "thumb":
@@ -93,7 +98,7 @@ def lengths(finger):
 
 
 def frame(finger):
-    """Orientation of all segments of a straight finger at rest, and where it starts."""
+    """Orientation of all segments of a straight finger at rest, and the position of its first joint."""
     if finger == "thumb":
         turn = times(times(rotation(1, THUMB_RADIAL), rotation(0, -THUMB_PALMAR)), rotation(2, THUMB_PRONATION))
         return turn, list(THUMB_BASE)
@@ -108,14 +113,14 @@ def palm_length():
 def dof(finger, joint, kind, lo, hi, side):
     if kind == "flex":
         axis = [-1, 0, 0]
-    else:  # away from the middle finger; for the thumb away from the palm
+    else:  # abduction: away from the middle finger; for the thumb, away from the palm
         radial = finger in ("thumb", "index", "middle")
         axis = [0, side if radial else -side, 0]
     return {"name": f"{finger}_{joint}_{kind}", "axis": axis, "limits_deg": [lo, hi]}
 
 
 def segment(name, parent, turn, origin, length, skin, dofs, side):
-    """`side` +1: right; -1: the mirror image in x = 0."""
+    """One segment of the profile. `side`: +1 for a right hand; -1 for a left one, its mirror image in x = 0."""
     flip = [side, 1, 1]
     metres = lambda values: [round(v / 1000, 6) + 0.0 for v in values]
     rows = [[round(turn[r][c] * flip[r] * flip[c], 9) + 0.0 for c in range(3)] + metres([origin[r] * flip[r]]) for r in range(3)]
@@ -139,7 +144,7 @@ def finger_segments(finger, side):
     parent = "palm"
     for k, length in enumerate(lengths(finger)):
         if k == 2:
-            length -= radius[3]  # the distal end is the centre of the round tip
+            length -= radius[3]  # the distal end is the centre of the fingertip's round end
         skin = {
             "half_width": [radius[k] * width[k], radius[k + 1] * width[k + 1]],
             "half_thickness": [radius[k] / width[k], radius[k + 1] / width[k + 1]],
@@ -164,7 +169,7 @@ def hand(side):
 
 
 def text(profile):
-    """One key a line, so that differences read well."""
+    """The profile as JSON with one key per line, so that diffs are readable."""
     lines = []
     for s in profile["segments"]:
         lines.append("  {" + ",\n   ".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in s.items()) + "}")

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Tracks one log: an element of an array job. Run again, it leaves alone what is finished.
+# Tracks one log, as an element of an array job. If its results exist already, it does nothing.
 #   one_log.sh LOG OUT [TRACK OPTIONS]      makes OUT/NAME/ of NAME.lcmlog: states.lcmlog, result.csv, report.txt, command
-# The folder appears when all of it is complete and on disk. After a failure OUT/NAME.failed.txt says why.
-# Exit code: 0 finished, now or before; else that of barehand track: 1 failed while running, or none or less than half of
-# the frames could be read; 2 the log or the options cannot be used; 130 stopped before the end. One thread, unless
-# --threads says otherwise. BAREHAND names another program than the one on the PATH.
+# The folder gets its name when it is complete and on disk. After a failure, OUT/NAME.failed.txt contains the reason.
+# Exit code: 0 if the log is finished, now or before; otherwise that of barehand track: 1 failed while running, or none
+# or less than half of the frames could be read; 2 the log or the options cannot be used; 130 stopped before the end.
+# Uses one thread unless --threads is given. The environment variable BAREHAND may name another program than that on the
+# PATH.
 set -u
 
-[ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 log=$1 out=$2
 shift 2
-[[ " $* " == *" --threads"* ]] || set -- --threads 1 "$@"  # one core per log, or they get in each other's way
+[[ " $* " == *" --threads"* ]] || set -- --threads 1 "$@"  # one core per log, so that parallel runs do not compete
 name=$(basename "$log" .lcmlog)
 command=$(printf '%q ' "$(realpath -m "$log")" "$@")
 done_already() {
@@ -31,7 +32,7 @@ stopped=
 trap 'stopped=yes; kill -TERM $child 2>/dev/null' TERM INT
 code=0
 wait $child || code=$?
-while kill -0 $child 2>/dev/null; do  # the wait ended with the signal, and the program is still writing
+while kill -0 $child 2>/dev/null; do  # a signal ended the wait, but the program is still writing
   wait $child
   code=$?
 done

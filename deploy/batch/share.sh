@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Tracks one element's share of a list of logs: the lines INDEX, INDEX + COUNT, INDEX + 2 COUNT ..., one process each.
-#   share.sh INDEX COUNT LIST OUT [TRACK OPTIONS]      INDEX: 0 .. COUNT-1; LIST: a file with the path of a log a line
-# With COUNT = number of lines each element has one log. Exit code: 0 all finished, else the last failure's.
+# Tracks the logs of one element of an array job: those in the lines INDEX, INDEX + COUNT, INDEX + 2 COUNT ... of a list
+# (the first line is line 0), each in its own process.
+#   share.sh INDEX COUNT LIST OUT [TRACK OPTIONS]      INDEX: 0 to COUNT - 1; LIST: a file, one path of a log per line
+# If COUNT is the number of lines, each element has one log. Exit code: 0 if all are finished, otherwise that of the
+# last failure.
 set -u
 
-[ $# -ge 4 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 4 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 index=$1 count=$2 list=$3 out=$4
 shift 4
 here=$(dirname "$(realpath "$0")")

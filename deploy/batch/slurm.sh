@@ -4,13 +4,14 @@
 #SBATCH --mem=1G
 #SBATCH --requeue
 #SBATCH --signal=B:TERM@60
-# Tracks a list of logs as a Slurm array job; submitted again, it does what is not finished.
+# Tracks a list of logs as a Slurm array job. If it is submitted again, it tracks the logs that are not finished.
 #   sbatch --array=0-$(($(wc -l <LIST) - 1)) /usr/share/barehand/deploy/batch/slurm.sh LIST OUT [TRACK OPTIONS]
-# More logs than the cluster's MaxArraySize: fewer elements (--array=0-999) take several logs each, one after the other.
-# Elements begin at 0 and leave none out. BAREHAND_BATCH: where share.sh is, as Slurm runs a copy of this script.
+# If there are more logs than the cluster's MaxArraySize, use fewer elements (--array=0-999): each tracks several logs,
+# one after the other. The elements must be numbered from 0 without gaps. The environment variable BAREHAND_BATCH names
+# the folder of share.sh, because Slurm runs a copy of this script.
 set -u
 
-[ $# -ge 2 ] && [ -n "${SLURM_ARRAY_TASK_ID:-}" ] || { sed -n '7,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] && [ -n "${SLURM_ARRAY_TASK_ID:-}" ] || { sed -n '7,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 list=$1 out=$2
 shift 2
 exec "${BAREHAND_BATCH:-/usr/share/barehand/deploy/batch}/share.sh" "$SLURM_ARRAY_TASK_ID" "$SLURM_ARRAY_TASK_COUNT" \

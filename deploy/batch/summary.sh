@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Says how many logs of a list are finished, and which are not and why. Also while jobs run, and after them.
-#   summary.sh LIST OUT      LIST: a file with the path of a log a line; OUT: where one_log.sh put its folders
-# Exit code: 0 all finished, 1 some are not, 2 the list cannot be read.
+# Prints how many logs of a list are finished, and which are not and why. It may be run while jobs run, and after them.
+#   summary.sh LIST OUT      LIST: a file with the path of one log per line; OUT: the folder to which one_log.sh wrote
+# Exit code: 0 if all are finished, 1 if some are not, 2 if the list cannot be read.
 set -u
 
 [ $# = 2 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2; }
