@@ -28,14 +28,16 @@ template <class V>
 void visit(V& v, ShapeFitParams& p) {
   v.user("enabled", p.enabled,
          "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
-  v("every", p.every, 1, 1000, "at first every n-th frame contributes to the shape");
+  v("every", p.every, 1, 1000,
+    "every n-th frame contributes to the shape, until there are `eager_looks` contributions");
   v("every_later", p.every_later, 1, 100000,
-    "every n-th frame contributes after the first `eager_looks` contributions");
+    "every n-th frame contributes to the shape after the first `eager_looks` contributions");
   v("eager_looks", p.eager_looks, 0, 100000, "number of contributions at the interval `every`");
   v("weight", p.weight, 1e-6, 1.0,
-    "weight of one frame against the prior of how people differ: errors of the model repeat from frame to frame");
+    "weight of one frame relative to the prior, which is how people differ; it is small, as errors of the model repeat "
+    "in all frames");
   v("memory", p.memory, 0.01, 10.0,
-    "length of the memory, relative to the number of contributions so far: old ones were made with a less accurate "
+    "length of the memory relative to the number of contributions so far; old ones were made with a less accurate "
     "hand");
   v("memory_looks", p.memory_looks, 1.0, 1e6, "longest memory, in contributions");
   v("first_rebuild", p.first_rebuild, 1, 100000,

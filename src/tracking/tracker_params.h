@@ -67,7 +67,7 @@ void visit(V& v, TrackerParams& p) {
   v("size_check", p.size_check, "test whether a smaller or larger hand explains the data better");
   visit(v, p.choice);
   v("search_refined", p.search_refined, 1, 100, "number of start poses that a search refines");
-  v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each of these start poses");
+  v("search_iterations", p.search_iterations, 1, 100, "Gauss-Newton steps for each start pose that a search refines");
   v("full_search_every", p.full_search_every, 1, 10000,
     "every n-th frame without a hand is searched with full effort, the others quickly");
   v("search_attempts", p.search_attempts, 1, 100,

@@ -41,7 +41,8 @@ void visit(V& v, FusionParams& p) {
   v("sigma_prox_start", p.sigma_prox_start, 1e-4, 0.1,
     "m, standard deviation of the gap between adjacent ends at the first level (Eq. 5)");
   v("sigma_prox_end", p.sigma_prox_end, 1e-4, 0.1,
-    "m, the same at the last level; if it is too small, hardly any pair of samples is compatible");
+    "m, standard deviation of the gap between adjacent ends at the last level; if it is too small, hardly any pair of "
+    "samples is compatible");
   v("sigma_flexion_deg", p.sigma_flexion_deg, 0.1, 180.0,
     "degrees, standard deviation beyond the flexion limits (Eq. 6)");
   v("sigma_abduction_deg", p.sigma_abduction_deg, 0.1, 180.0,
@@ -59,7 +60,8 @@ void visit(V& v, FusionParams& p) {
   v("range_end", p.range_end, 0.001, 1.0, "half widths of the last level as a fraction of the first level's");
   v("read_out", p.read_out, {"mean", "max"}, "final pose: mean of the best mode, or the best sample");
   v("mode_radius", p.mode_radius, 1e-4, 0.1, "m, samples within this distance of the best one belong to its mode");
-  v("mode_angle_deg", p.mode_angle_deg, 0.1, 180.0, "degrees, and only if they are rotated by at most this against it");
+  v("mode_angle_deg", p.mode_angle_deg, 0.1, 180.0,
+    "degrees, samples of the mode are rotated by at most this relative to the best one");
 }
 
 }  // namespace barehand

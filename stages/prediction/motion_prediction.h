@@ -31,8 +31,10 @@ template <class V>
 void visit(V& v, PredictionParams& p) {
   v("velocity", p.velocity, "predict each segment with constant velocity relative to the global motion (Sec. 4.4)");
   v("damping", p.damping, 0.0, 1.0, "fraction of a seen segment's relative velocity that is kept");
-  v("unseen_damping", p.unseen_damping, 0.0, 1.0, "the same for unseen segments at sensor rate");
-  v("slow_unseen_damping", p.slow_unseen_damping, 0.0, 1.0, "the same for unseen segments below slow_rate");
+  v("unseen_damping", p.unseen_damping, 0.0, 1.0,
+    "fraction of an unseen segment's relative velocity that is kept at sensor rate");
+  v("slow_unseen_damping", p.slow_unseen_damping, 0.0, 1.0,
+    "fraction of an unseen segment's relative velocity that is kept below slow_rate");
   v("slow_rate", p.slow_rate, 0.0, 1000.0, "Hz, frame rate below which unseen segments keep some velocity");
   v("smoothing", p.smoothing, 0.0, 0.99,
     "weight of the previous velocity in the new one; 0: the last difference alone");

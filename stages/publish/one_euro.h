@@ -19,7 +19,8 @@ void visit(V& v, OneEuroParams& p) {
   v.user("enabled", p.enabled, "smooth the published pose; false: the smoothed pose is the raw one");
   v.user("min_cutoff", p.min_cutoff, 0.01, 1000.0, "Hz, cut-off frequency at rest (lower: smoother, more lag)");
   v.user("beta", p.beta, 0.0, 10000.0, "Hz per m/s, increase of the cut-off frequency with speed (higher: less lag)");
-  v("beta_rotation", p.beta_rotation, 0.0, 10000.0, "Hz per rad/s, the same for rotation");
+  v("beta_rotation", p.beta_rotation, 0.0, 10000.0,
+    "Hz per rad/s, increase of the rotation's cut-off frequency with angular speed (higher: less lag)");
   v("speed_cutoff", p.speed_cutoff, 0.01, 1000.0, "Hz, cut-off frequency of the low pass on the speed");
 }
 

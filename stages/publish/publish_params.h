@@ -14,11 +14,12 @@ struct PublishParams {
 };
 template <class V>
 void visit(V& v, PublishParams& p) {
-  v("smoothing", p.smoothing, "output filter; the raw pose is published beside the smoothed one");
+  v("smoothing", p.smoothing, "output filter; the raw pose is published as well as the smoothed one");
   v.retired("hold_time", "tracker.loss.hold_time");
   v("hold_growth", p.hold_growth, 0.0, 10.0,
     "m/s, growth of the standard deviation of the position while a pose is held");
-  v("hold_growth_rotation", p.hold_growth_rotation, 0.0, 100.0, "rad/s, the same for the orientation");
+  v("hold_growth_rotation", p.hold_growth_rotation, 0.0, 100.0,
+    "rad/s, growth of the standard deviation of the orientation while a pose is held");
 }
 
 }  // namespace barehand

@@ -23,18 +23,19 @@ void visit(V& v, UncertaintyParams& p) {
   v("skin_deviation", p.skin_deviation, 1e-5, 0.1,
     "m, standard deviation of the person's skin from the model's, common to a patch of skin");
   v("skin_patch", p.skin_patch, 1e-3, 0.1,
-    "m, side length of such a patch; further pixels within it add no information");
+    "m, side length of a patch of skin with a common deviation; further pixels within it add no information");
   v("joint_deviation", p.joint_deviation, 0.0, 0.1,
     "m, standard deviation per axis of a joint's position within the skin, which no image shows");
   v("mean_hand_factor", p.mean_hand_factor, 1.0, 100.0,
-    "factor on both deviations if the profile is a mean hand, fitted or not");
-  v("scanned_factor", p.scanned_factor, 0.01, 1.0, "factor on both deviations if the skin was scanned");
+    "factor on skin_deviation and joint_deviation if the profile is a mean hand, fitted or not");
+  v("scanned_factor", p.scanned_factor, 0.01, 1.0,
+    "factor on skin_deviation and joint_deviation if the skin was scanned");
   v("range_share", p.range_share, 0.01, 10.0,
     "standard deviation of a joint that has been hidden for long, relative to that of its whole range");
   v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0,
     "degrees, standard deviation of a joint that has just become hidden");
   v("growth_deg", p.growth_deg, 0.1, 3600.0,
-    "degrees, growth of that deviation in one second; it grows with the square root of the time");
+    "degrees, growth of a hidden joint's standard deviation in one second; it grows with the square root of the time");
 }
 
 /// Estimates the covariance of every segment of a refined pose, as marginals of a Gaussian on the hand's tree. The

@@ -32,12 +32,14 @@ void visit(V& v, SearchEffort& p) {
   v("pitches", p.pitches, 1, 90, "number of tilts of the fingers towards the camera and away from it");
   v("shapes", p.shapes, 1, 6, "number of shape templates, from open to fist");
   v("first_survivors", p.first_survivors, 1, 10000, "number of templates that are improved on the coarse grid");
-  v("first_evaluations", p.first_evaluations, 0, 100000, "trials for each of these templates");
+  v("first_evaluations", p.first_evaluations, 0, 100000,
+    "random trials for each template that is improved on the coarse grid");
   v("second_survivors", p.second_survivors, 1, 10000,
-    "number of these that are improved further, by ICP and on the fine grid");
-  v("second_evaluations", p.second_evaluations, 0, 100000, "further trials for each of them");
+    "number of poses that are improved further, by ICP and on the fine grid");
+  v("second_evaluations", p.second_evaluations, 0, 100000,
+    "random trials for each pose that is improved on the fine grid");
   v("elsewhere", p.elsewhere, 0.0, 1.0,
-    "fraction of the poses kept each time that must differ from the rest by `apart`");
+    "fraction of the poses kept in each round that must differ from the others by `apart`");
 }
 
 /// Parameters of the search for a start pose (Initialiser).
@@ -70,7 +72,7 @@ void visit(V& v, InitialiserParams& p) {
   v("apart", p.apart, 0.0, 1.0, "m, minimum distance between poses that count as being in different places");
   v("near_survivors", p.near_survivors, 1, 10000,
     "search near a followed pose: number of poses with changed fingers that are improved on the fine grid");
-  v("near_evaluations", p.near_evaluations, 0, 100000, "trials for each of these poses");
+  v("near_evaluations", p.near_evaluations, 0, 100000, "search near a followed pose: random trials for each pose");
   v("full", p.full, "effort of a full search");
   v("quick", p.quick, "effort of the search in every frame while the hand is lost");
   v("score", p.score, "coarse score of a whole pose");

@@ -32,7 +32,8 @@ void visit(V& v, SegmentTrackerParams& p) {
     "ms, time limit of a level with more samples than on the CPU: drawing, comparing and fusing them");
   v("sigma_obs_start", p.sigma_obs_start, 1e-5, 0.1, "m, standard deviation of the depth at the first level (Eq. 2)");
   v("sigma_obs_end", p.sigma_obs_end, 1e-5, 0.1,
-    "m, the same at the last level, with a geometric progression in between; the paper keeps it constant");
+    "m, standard deviation of the depth at the last level, with a geometric progression in between; the paper keeps it "
+    "constant");
   v("pixel_distance_cap", p.pixel_distance_cap, 0.0, 1.0,
     "m, upper limit of one pixel's distance (Eq. 1); 0: no limit (paper)");
   v("missing_depth", p.missing_depth, {"unknown", "background"},

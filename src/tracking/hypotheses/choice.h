@@ -40,11 +40,12 @@ void visit(V& v, ChoiceParams& p) {
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
   v("uncross", p.uncross, "also test the followed pose with crossing fingers put side by side");
   v("uncross_allowance", p.uncross_allowance, 0.0, 1.0,
-    "fraction by which the global score of that pose may be higher");
+    "the pose with uncrossed fingers may have a global score that is higher by up to this fraction");
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v("elsewhere_advantage", p.elsewhere_advantage, 0.0, 1.0,
-    "the same for a found pose whose palm is in another place than that of the followed one");
+    "a pose found by a search with the palm in another place replaces the followed one only if its score is lower by "
+    "this fraction");
   v("search_settled", p.search_settled, 0.0, 0.1,
     "m, a found pose with a lower global score ends the search of a frame");
   v("search_convincing", p.search_convincing, 0.0, 0.1,
@@ -59,7 +60,7 @@ void visit(V& v, ChoiceParams& p) {
     "a pose with a score above this multiple of the baseline score, and not confident, is not the hand that was lost; "
     "0: no limit");
   v("agreement", p.agreement, 0.0, 1.0,
-    "m, a detection confirms a pose if the mean distance of their joints is at most this");
+    "m, a detection confirms a pose if the mean distance between its joints and the pose's is at most this");
   v("confirmed", p.confirmed, 0.0, 1.0, "factor on the score of a pose that a detection confirms; 1: no effect");
 }
 
