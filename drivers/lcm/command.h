@@ -30,7 +30,7 @@ inline constexpr std::size_t kLongestProfile = 1u << 20;
 Result<Command> decode_command(WireBytes message);
 
 /// Collects the commands that arrive on a bus until they are taken. At most `kCapacity` of them wait; when more arrive,
-/// the oldest are dropped, since the newest state what is wanted now.
+/// the oldest are dropped, since the newest are the ones that still apply.
 class CommandInbox {
  public:
   static constexpr std::size_t kCapacity = 16;

@@ -28,7 +28,7 @@ class Feedback {
  private:
   std::mutex mutex_;
   std::condition_variable posted_;
-  std::map<std::int64_t, T> results_;  ///< at most one per frame in flight
+  std::map<std::int64_t, T> results_;  ///< results by frame, at most one for each frame in the pipeline
 };
 
 }  // namespace barehand

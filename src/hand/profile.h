@@ -50,11 +50,11 @@ struct HandProfile {
   double hand_length() const;
 };
 
-/// The same person's other hand: everything mirrored in the plane x = 0 of the hand frame. Joint limits keep their
-/// meaning (flexion towards the palm, abduction away from the middle finger).
+/// The profile of a person's other hand: everything mirrored in the plane x = 0 of the hand frame. Joint limits keep
+/// their meaning (flexion towards the palm, abduction away from the middle finger).
 HandProfile mirrored(const HandProfile& profile);
 
-/// The same hand with all lengths multiplied by `size`.
+/// The profile with all lengths multiplied by `size`.
 HandProfile scaled(const HandProfile& profile, double size);
 
 }  // namespace barehand

@@ -35,7 +35,7 @@ Skin make_skin(const HandProfile& profile, double cell);
 void compute_normals(const HandProfile& profile, Skin& skin);
 /// The skin of the other hand: mirrored in the plane x = 0 of every segment.
 Skin mirrored(const Skin& skin);
-/// The same skin with all lengths multiplied by `size`.
+/// The skin with all lengths multiplied by `size`.
 Skin scaled(const Skin& skin, double size);
 
 /// Positions of all vertices in the camera frame [m] at `pose`; `posed` keeps its allocation.

@@ -62,7 +62,7 @@ Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segmen
     if (const auto before = SkinSections::fit(start_model.skin, segment, bone.length, false))
       beside = bone.radius[1] - before->radius(1);
 
-  // radius = beside + now->radius(u) where u = (end - radius) / bone.length
+  // Solve radius = difference + now->radius(u) with u = (end - radius) / bone.length.
   const double slope = std::max((now->radius(1) - now->radius(0)) / bone.length, -0.5);
   const double radius = (beside + now->radius(0) + slope * end) / (1 + slope);
   bone.radius[1] = std::clamp(radius, 0.5 * bone.radius[1], 2 * bone.radius[1]);

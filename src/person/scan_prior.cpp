@@ -129,8 +129,8 @@ class Prior {
     add_mean_rows(unknowns, J, J * offset);
   }
 
-  // The root of a finger is in the middle of its skin from side to side. The prior must say so, because images hardly
-  // determine the root's position along the knuckle's axis.
+  // The root of a finger is in the middle of its skin from side to side. This must be a term of the prior, because
+  // images hardly determine the root's position along the knuckle's axis.
   void add_middle(int finger) {
     const int segment = segment_of(finger, 0);
     const auto sections = SkinSections::fit(start_.skin, segment, start_.profile.segments[segment].length, true);

@@ -79,7 +79,7 @@ void Pipeline::run_threaded() {
   // The calling thread serves the source.
   while (capture(options_.patience) != Capture::end) {
   }
-  queues_[kInput].close();  // the other queues are closed in turn, and the threads join
+  queues_[kInput].close();  // then each stage closes its output queue, and the threads end
 }
 
 void Pipeline::run_inline() {

@@ -40,7 +40,7 @@ struct PipelineStages {
 /// How the pipeline runs.
 struct PipelineOptions {
   bool threaded = true;                    ///< false: everything on the calling thread
-  int max_failures_in_a_row = 30;          ///< this many failures of one stage or sink end the run
+  int max_failures_in_a_row = 30;          ///< number of successive failures of one stage or sink that ends the run
   std::size_t replay_capacity = 4;         ///< frames waiting between two stages of a replay
   std::stop_token stop;                    ///< ends the run like request_stop(); can exist before the pipeline does
   std::chrono::milliseconds patience{50};  ///< longest wait of one call of a live source; bounds the time to stop

@@ -33,7 +33,7 @@ void ProgressSink::print(const HandEstimates& estimates, std::int64_t now_us) {
   const std::string line =
       formatted("%lld%s frames, %.1f frames/s, frame %lld: %s", static_cast<long long>(done_), total.c_str(), rate,
                 static_cast<long long>(estimates[0]->number), status_list(estimates).c_str());
-  out_.clear();  // an earlier write may have failed while nobody read the stream
+  out_.clear();  // forget that an earlier write failed, for example because the pipe had no reader
   out_ << (options_.terminal ? "\r\x1b[K" : "") << line << (options_.terminal ? "" : "\n") << std::flush;
   line_open_ = options_.terminal;
   last_us_ = now_us;

@@ -10,7 +10,7 @@
 namespace barehand {
 
 /// Where the camera stands in the room, as a user states it. The world frame is the user's: any origin and heading, in
-/// metres, right-handed, with z against gravity. docs/frames_and_units.md says how to find the numbers.
+/// metres, right-handed, with z against gravity. docs/frames_and_units.md explains how to find the numbers.
 struct CameraPlacement {
   /// Position x, y, z [m] and quaternion x, y, z, w of the camera in the world; or the 4x4 matrix, row by row. It maps
   /// camera coordinates to world coordinates. The default, the identity, means that the placement is not known.

@@ -34,8 +34,8 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   if (track_.motion.has_pose())
     followed = follower_.follow(observation, person_.hand(), track_.motion, frame_, choice_);
 
-  // Propose another pose. If the followed one is good: one near it, if it is ambiguous (Proposers::beside). If it is
-  // bad or missing: search the whole observation (Proposers::anywhere).
+  // Propose another pose. If the followed pose is good but ambiguous or tentative, propose an alternative to it
+  // (Proposers::beside). If it is bad or missing, search the whole observation (Proposers::anywhere).
   const ChoiceParams& rules = context_.params.choice;
   const double score = followed ? choice_.judged_score(observation, person_.profile(), followed->refined) : INFINITY;
   if (score < track_.state.bad_threshold(evidence) && !track_.unlike_before(score, rules)) {

@@ -37,7 +37,7 @@ void visit(V& v, LossParams& p) {
          "s after the loss during which the last pose is one of the starts of the search");
 }
 
-/// What one frame says about the tracked hand.
+/// The evidence of one frame about the tracked hand.
 struct TrackEvidence {
   double dt = 0;                 ///< time since the previous frame [s]
   int hand_pixels = 0;           ///< number of pixels that may belong to this hand

@@ -11,7 +11,7 @@
 
 namespace barehand {
 
-/// What the parts of one tracker share. The tracker owns it, and its parts only read it.
+/// Data that all parts of one tracker use. The tracker owns it, and its parts only read it.
 struct TrackerContext {
   TrackerParams params;
   std::uint64_t seed;                   ///< seeds all random numbers, together with the number of the frame

@@ -24,7 +24,7 @@ class DetectionStage {
 
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
   /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
-  /// says nothing about where hands are.
+  /// contains no information about where hands are.
   DetectionPtr process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
  private:

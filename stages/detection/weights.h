@@ -14,7 +14,7 @@ struct DetectionWeights {
 };
 
 /// Reads `folder`/nets.json and the files that it names. Errors: a file is missing or does not have the CRC-32 that
-/// nets.json states; the networks have an interface that this program does not know.
+/// nets.json states; the networks have an interface that this program does not support.
 Result<DetectionWeights> load_weights(const std::string& folder);
 
 }  // namespace barehand

@@ -11,7 +11,7 @@ namespace barehand {
 /// memory, so that a running stream allocates nothing. The pool may be destroyed before its observations.
 class ObservationPool {
  public:
-  /// Returns an observation with arbitrary content that nobody else owns.
+  /// Returns an observation with arbitrary content and no other owner.
   std::shared_ptr<HandObservation> take() {
     return {pool_->take().release(),
             [pool = pool_](HandObservation* used) {

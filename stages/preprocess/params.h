@@ -2,7 +2,7 @@
 
 namespace barehand {
 
-/// Settings of the preprocess stage. Metres and seconds unless a name says otherwise.
+/// Settings of the preprocess stage, in metres and seconds unless a name states another unit.
 struct PreprocessParams {
   double min_depth = 0.12;
   double max_depth = 1.5;

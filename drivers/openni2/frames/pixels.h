@@ -13,7 +13,7 @@ bool complete(const openni::VideoFrameRef& frame, const openni::VideoMode& mode,
 /// Copies a complete depth frame; `mirror` exchanges left and right.
 void copy_depth(const openni::VideoFrameRef& frame, bool mirror, Image<std::uint16_t>& depth);
 
-/// Converts a complete frame of any format that colour_bytes_per_pixel() knows; `mirror` exchanges left and right.
+/// Converts a complete frame of any format that colour_bytes_per_pixel() supports; `mirror` exchanges left and right.
 void copy_colour(const openni::VideoFrameRef& frame, bool mirror, Image<Rgb>& colour);
 
 /// Converts one row of `width` pixels.

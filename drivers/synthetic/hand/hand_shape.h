@@ -22,7 +22,7 @@ void visit(V& v, HandShape& p) {
   v("little", p.little, 0.7, 1.4, "factor on the little finger's length");
 }
 
-/// The same rig with another shape: the joints move along the bones, and the skin follows them by its weights.
+/// Changes the shape of a rigged hand: the joints move along the bones, and the skin follows them by its weights.
 HandMesh reshaped(const HandMesh& mesh, const HandShape& shape);
 
 }  // namespace barehand::synthetic

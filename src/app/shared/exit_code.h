@@ -4,7 +4,7 @@ namespace barehand {
 
 /// What the `barehand` command returns to the shell.
 enum ExitCode : int {
-  kExitOk = 0,       ///< done; also a daemon that was told to stop (SIGTERM)
+  kExitOk = 0,       ///< done; also for a daemon that was stopped by SIGTERM
   kExitFailure = 1,  ///< something went wrong while running, or too few frames could be read; what was written until
                      ///< then is kept
   kExitUsage = 2,    ///< wrong arguments, configuration, input or output file; nothing was started

@@ -20,8 +20,8 @@ struct NamedHand {
 };
 
 /// Loads the hands to track. An entry of `wanted` is the path of a profile, or right, left or both for the shipped mean
-/// adult hand. If it is empty, these are the hands that the source knows, or else the shipped right hand. Errors: a
-/// profile that cannot be read, two hands of the same side.
+/// adult hand. If it is empty, these are the hands of the source (OpenSource::hands), or else the shipped right hand.
+/// Errors: a profile that cannot be read, two hands of the same side.
 Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source);
 /// The profiles of these hands, in the same order.
 std::vector<std::shared_ptr<const HandProfile>> profiles_of(const std::vector<NamedHand>& hands);

@@ -30,7 +30,7 @@ struct SourceRequest {
   DepthLimits depth;                  ///< range in which a hand is searched; nothing measured there leads to a warning
 };
 
-/// A hand that a source knows.
+/// A hand whose profile comes with a source of frames.
 struct SourceHand {
   std::function<Result<HandProfile>()> load;  ///< reads the hand's profile
   std::string name;                           ///< where the profile comes from, for messages

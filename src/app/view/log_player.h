@@ -16,7 +16,7 @@ class LogPosition {
   LogPosition(std::vector<double> seconds, std::vector<LostFrames> lost);
 
   void follow(const PlayerCommand& command, std::int64_t now_us);
-  /// Call it while nobody watches: the position stays, and the current frame is due at `now_us`.
+  /// Call it while no client is connected: the position stays, and the current frame is due at `now_us`.
   void wait(std::int64_t now_us) { go_to(frame_, now_us); }
   /// Moves to the frame to be shown at `now_us` (steady clock). Returns whether it must be shown, since it changed or
   /// was not shown yet.

@@ -52,7 +52,7 @@ class LcmLogWriter : public MessageSink {
   std::unique_ptr<lcm::LogFile> log_;  ///< the open log; null when it is finished
   std::int64_t events_ = 0;
   std::int64_t good_ = 0;          ///< size of the file up to the last complete event
-  std::int64_t written_back_ = 0;  ///< position up to which the operating system was told to write to the disk
+  std::int64_t written_back_ = 0;  ///< position in the file up to which writing to the disk has been started
   bool failed_ = false, disk_full_ = false;
 };
 

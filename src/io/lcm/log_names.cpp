@@ -69,7 +69,7 @@ std::optional<Error> why_left_out(const fs::path& path) {
   return std::nullopt;
 }
 
-/// The files of a folder that are not empty and whose final names are wanted.
+/// The files of a folder that are not empty and for whose final names `wanted` is true.
 template <class Wanted>
 FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
   FoundLogs logs;

@@ -45,7 +45,7 @@ class McapReader {
   static Result<McapReader> open(const std::string& path, const Look& look);
 
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
-  /// Sentences that say what was left out.
+  /// Warnings for the user about chunks and messages that were left out.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
   /// Returns the data of a message, valid until the next call. Error: the file has changed or can no longer be read.

@@ -40,7 +40,7 @@ bool ViewClient::hear(std::string_view text) {
     under_way_ = 0;
     next_at_us_ = 0;
 
-    // Send the last frame again, so that the wish takes effect even if no frame follows (a paused log).
+    // Send the last frame again, so that the client gets what it has requested even if no frame follows (a paused log).
     frames_.repeat();
   } else if (std::holds_alternative<ViewAcknowledge>(*demand) && under_way_ > 0) {
     --under_way_;

@@ -18,7 +18,7 @@ struct ViewScanSegment {
 struct ViewScan {
   enum class Phase { showing, measuring, done } phase = Phase::showing;
   std::string how_to;                ///< instructions for the user
-  std::vector<std::string> missing;  ///< sentences that say what is still to be shown, most important first
+  std::vector<std::string> missing;  ///< views and motions that the user must still show, one sentence each
   std::string progress;              ///< a sentence on the progress of the measurement, or on its result
   int frames = 0;                    ///< number of frames tracked so far
   int enough_frames = 0;             ///< number of frames that suffice for a side of a segment

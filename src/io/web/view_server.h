@@ -21,7 +21,7 @@ class ViewServer {
  public:
   struct Options {
     WebAddress address;
-    std::vector<std::string> invited;  ///< other origins whose pages may connect
+    std::vector<std::string> invited;  ///< origins of other web pages that may connect
     /// Called with commands of clients, on threads of the server. Empty: there is nothing to play.
     std::function<void(const PlayerCommand&)> on_command;
     /// The recorder that clients start and stop; must outlive the server. Null: nothing can be recorded.

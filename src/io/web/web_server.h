@@ -57,7 +57,7 @@ class WebServer {
     std::string address = "127.0.0.1";     ///< address of the network interface; 0.0.0.0: all interfaces
     int port = 0;                          ///< TCP port; 0: any free port
     std::map<std::string, WebFile> files;  ///< by path, such as "/index.html", which is also served as "/"
-    std::vector<std::string> invited;      ///< other origins whose pages may connect
+    std::vector<std::string> invited;      ///< origins of other web pages that may connect
     std::string socket_path = "/live";
     /// Creates the peer of a client at `socket_path`; called on threads of the server.
     std::function<std::unique_ptr<WebPeer>(WebSocket)> connect;

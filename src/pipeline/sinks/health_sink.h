@@ -25,7 +25,7 @@ class HealthSink : public Sink {
   Result<void> idle() override {
     if (clock_.steady_us() < due_us_) return {};
     due_us_ = clock_.steady_us() + period_us_;
-    out_.clear();  // an earlier write may have failed while nobody read the stream
+    out_.clear();  // forget that an earlier write failed, for example because the pipe had no reader
     out_ << health_line(health_()) << std::endl;
     return {};
   }

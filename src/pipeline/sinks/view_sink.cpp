@@ -33,7 +33,8 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
   frame_us_ = clock_.steady_us();
   any_frame_ = true;
 
-  // Messages are made even if nobody wants them: what is shown later is smoothed with what was before, as on the bus.
+  // Make the messages even if no client is connected, so that later ones are smoothed with the same history as on the
+  // bus.
   const std::span<const HandMessages> hands = makers_.process(tracked.estimates);
   if (server_.has_clients()) server_.show(make_frame(tracked, hands));
   if (input_.recorder && input_.recorder->recording())

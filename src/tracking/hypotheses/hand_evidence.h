@@ -11,8 +11,8 @@ namespace barehand {
 // Decides whether what the networks detected is a hand at all, by evidence from the networks, from the refined pose and
 // from successive frames.
 
-/// Cues from the networks on whether a detected hand really is a hand. The networks also report palms on other things:
-/// on feet and faces, or at the end of an arm whose hand is hidden. There the cues contradict each other.
+/// Cues from the networks on whether a detected hand really is a hand. The networks also report palms on feet and
+/// faces, and at the end of an arm whose hand is hidden. There the cues contradict each other.
 struct HandCues {
   double palm = 0;    ///< probability that the network assigns to the palm (DetectedHand::palm)
   double side = 0;    ///< how clearly it is a left or a right hand: absolute value of DetectedHand::right_log_odds
@@ -22,16 +22,16 @@ struct HandCues {
 /// The cues of a detected hand. `profile` may be of either side: it is mirrored if necessary.
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile);
 
-/// Log odds of a hand against another thing that the networks mistake for a hand, with equal prior probabilities: a
-/// logistic model, fitted to scenes with and without hands (docs/method.md).
+/// Log odds that a detection is a hand and not something else that the networks confuse with one, with equal prior
+/// probabilities: a logistic model, fitted to scenes with and without hands (docs/method.md).
 double log_odds_of_hand(const HandCues& cues);
 /// Additional log odds from the pose that was refined from the detected joints. On a foot, that pose has a bad global
 /// score or is far from the detected joints. The distance counts less if little of the hand is visible, since detected
 /// joints that are hidden are uncertain.
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected);
 
-/// Accumulates over frames, separately for each place, the log odds that the thing detected there is a hand. Successive
-/// frames share most of their errors, so the earlier frames have a small weight.
+/// Accumulates over frames, separately for each place, the log odds that the detection there is a hand. Successive
+/// frames have most of their errors in common, so the earlier frames have a small weight.
 class HandEvidence {
  public:
   /// Adds the log odds of a frame for a detection at `centre`, camera frame [m], and returns the log odds from all
