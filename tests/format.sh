@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Holds that every source file is as clang-format writes it. First shows that it notices a file that is not.
+# Checks that every source file is formatted by clang-format. First checks that it finds a file that is not.
 #   format.sh SOURCE_TREE
 set -u
 

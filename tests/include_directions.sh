@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Holds who may include whom, from the top floor down:
+# Checks the directions of includes between folders. A folder may include those to its right:
 #   app -> pipeline -> tracking -> person -> stages, drivers -> evaluation -> io, observe -> hand, sensor -> math -> core
-# Stages and drivers never include another of their kind, io and observe never each other, and SDKs stay in their
-# folders. First shows that it notices violations.
+# A stage never includes another stage, a driver never another driver, io and observe never each other. Headers of an
+# SDK are included in one folder only. First checks that violations are found.
 #   include_directions.sh SOURCE_TREE
 set -u
 
@@ -12,7 +12,7 @@ violations() {  # ROOT: prints every forbidden include
     [ -d "$1" ] && grep -rnE --include='*.h' --include='*.cpp' "#include [\"<]($2)" "$1"
   }
 
-  # Every floor forbids all floors above it.
+  # A folder may not include those to its left.
   local above='app/|pipeline/|tracking/|person/'
   forbid src/pipeline 'app/'
   forbid src/tracking 'app/|pipeline/'
@@ -31,13 +31,13 @@ violations() {  # ROOT: prints every forbidden include
   forbid src/math "$above"
   forbid src/core "$above|math/"
 
-  # Neighbours on one floor keep apart.
+  # Folders between the same two arrows may not include each other.
   local folder
   for folder in stages/* drivers/*; do
     [ -d "$folder" ] && forbid "$folder" "${folder%%/*}/" | grep -v "#include \"$folder/"
   done
 
-  # What belongs to one folder alone.
+  # Libraries that only one folder may use.
   for folder in src/core src/math src/sensor src/hand src/observe src/person stages/segment_tracker stages/fusion \
                 stages/refinement stages/prediction stages/search stages/pose_prior; do
     forbid "$folder" 'opencv2/|lcm/|assimp/|yaml-cpp/|nlohmann/'
@@ -74,7 +74,7 @@ found=$(violations "$example" | wc -l)
 found=$(violations "$1")
 [ -z "$found" ] || { echo "forbidden includes:"; echo "$found"; exit 1; }
 
-# A folder that nobody can take in at a glance is two folders.
+# A folder with too many files to survey at a glance should be divided.
 for folder in $(cd "$1" && find src stages drivers -type d); do
   files=$(find "$1/$folder" -maxdepth 1 -type f | wc -l) most=30
   [ "$folder" = src/app ] && most=12

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Holds that clang-tidy finds nothing in the headers, all of which one file includes: the names are those of CONTRIBUTING.md.
-# First shows that it notices a wrong one.
+# Checks that clang-tidy reports nothing about the headers, mainly that names are as in CONTRIBUTING.md. One file
+# includes all headers. First checks that a wrong name is found.
 #   names.sh SOURCE_TREE BUILD_TREE FILE_OF_HEADERS
 set -u
 cd "$1" || exit 1
@@ -13,5 +13,5 @@ for name in member Get; do
   grep -q "'$name' \[readability-identifier-naming" <<<"$said" || { echo "the check itself is broken: $name passes"; exit 1; }
 done
 
-# GCC's warnings, some of which clang does not know, are not looked at here.
+# The build's options contain warnings of GCC that clang does not know; these are ignored here.
 clang-tidy --quiet --config-file=.clang-tidy --extra-arg=-Wno-error --extra-arg=-Wno-unknown-warning-option -p "$2" "$3"

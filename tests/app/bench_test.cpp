@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Frames of 4x2 pixels whose depth counts the pixels.
+/// Frames of 4x2 pixels whose depth values number the pixels.
 FrameStore stored(int frames) {
   FrameStore store;
   for (int k = 0; k < frames; ++k) {
@@ -52,7 +52,7 @@ TEST(MemorySource, AtARateAFrameComesWhenItIsDue) {
   const auto no_wait = std::chrono::milliseconds(0);
   ASSERT_TRUE(std::holds_alternative<FramePtr>(source.next(no_wait)));
   EXPECT_TRUE(std::holds_alternative<Timeout>(source.next(no_wait)));
-  clock.advance(130'000);  // 30 ms late
+  clock.advance(130'000);  // 30 ms after the frame is due
   const SourceEvent second = source.next(no_wait);
   ASSERT_TRUE(std::holds_alternative<FramePtr>(second));
   EXPECT_EQ(std::get<FramePtr>(second)->number, 1);
@@ -94,7 +94,7 @@ BenchReport small_report() {
   BenchReport report;
   report.conditions.frames = 100;
   for (const double value : {0.0, 10.0, 20.0, 40.0}) {
-    // The case, and figures that grow with its value.
+    // The name of the case, and figures that grow with the swept value.
     BenchRow row;
     row.sweep = value == 0 ? "" : "samples";
     row.value = value;
@@ -102,7 +102,7 @@ BenchReport small_report() {
     row.result.cpu_seconds_per_frame = 0.01 + value * 1e-4;
     row.result.resident_mb = {50, 51};
 
-    // Its times; the queue was not measured.
+    // The times of its stages; how full the queue was is missing.
     row.result.health.stages = {{"track", {100, 0.008, 0.007, 0.009, 0.010, 0.011}, 0}};
     row.result.health.queues = {{"input", 1, 0, 0, 0, 0, {0, kNaN, kNaN, kNaN, kNaN, kNaN}}};
     row.result.health.latency = {100, 0.012, 0.011, 0.013, 0.014, 0.015};

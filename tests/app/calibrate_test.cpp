@@ -57,7 +57,7 @@ TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
   EXPECT_GT(hand->scanned_skin->vertices.size(), 300u);
 }
 
-/// The scan in the next status that has one; null: the page is gone.
+/// The scan in the next status message that contains one; null if the connection was closed.
 nlohmann::json next_scan(test::SocketClient& client) {
   while (const auto text = client.text()) {
     const auto status = nlohmann::json::parse(*text);
@@ -67,7 +67,7 @@ nlohmann::json next_scan(test::SocketClient& client) {
 }
 
 TEST_F(Calibrate, CanBeFollowedOnThePage) {
-  // Look on.
+  // Follow the scan as the page does, by the status messages.
   auto arguments = calibrate("sim:scan,frames=60,width=320,height=240");
   arguments.push_back("--view=0");
   ChildProcess child(arguments);
@@ -82,7 +82,7 @@ TEST_F(Calibrate, CanBeFollowedOnThePage) {
   }
   ASSERT_EQ(child.finish(), 0) << child.output();
 
-  // The last status says what the profile says.
+  // The last status contains the lengths that the profile was saved with.
   ASSERT_FALSE(phases.empty());
   EXPECT_EQ(phases.front(), "showing");
   EXPECT_EQ(phases.back(), "done");

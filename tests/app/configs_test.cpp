@@ -22,8 +22,8 @@ TEST_P(ShippedConfig, IsInRange) {
   EXPECT_TRUE(config) << config.error().message();
 }
 
-/// A file holds what print_config says with its comments, in its order, and nothing else: the default configuration the
-/// keys for users, the other ones what differs from it.
+/// A file contains exactly what print_config prints: the default configuration all keys for users, the others those
+/// that differ from it; each with its help text, in the same order.
 TEST_P(ShippedConfig, HoldsWhatItMustAndNoMore) {
   const auto config = load_config<Config>(path_);
   ASSERT_TRUE(config);
@@ -41,7 +41,7 @@ TEST(DefaultConfig, IsWhatTheCodeSays) {
   EXPECT_EQ(config_values(*config), config_values(Config{}));
 }
 
-/// Whoever opens the default configuration reads all of its keys: they must stay few.
+/// Users who open the default configuration read all of its keys, so these must stay few.
 TEST(DefaultConfig, ShowsFewKeys) {
   const std::string text = print_config(Config{}, ConfigKeys::user);
   const auto lines = std::count(text.begin(), text.end(), '\n'), comments = std::count(text.begin(), text.end(), '#');

@@ -14,7 +14,7 @@
 namespace barehand {
 namespace {
 
-/// Plays what it is given.
+/// Delivers given events.
 class ListSource : public FrameSource {
  public:
   explicit ListSource(std::vector<SourceEvent> events, bool live = false) : events_(std::move(events)), live_(live) {}
@@ -44,7 +44,7 @@ class CopyFrames : public testing::Test {
   std::ostringstream report_;
 };
 
-/// Takes so many frames, then the disk is full.
+/// Writes a given number of frames, then reports a full disk.
 class FullDisk : public FrameWriter {
  public:
   explicit FullDisk(int frames) : left_(frames) {}
@@ -69,7 +69,7 @@ TEST_F(CopyFrames, FolderToLogToFolderKeepsEveryPixel) {
   auto last = FolderSource::open(folder_ / "c").value();
   for (int number = 0; number < 3; ++number) {
     RgbdFrame expected = test_frame(number);
-    expected.sensor = "";  // a folder has no place for it
+    expected.sensor = "";  // a recording folder does not store the sensor's name
     const SourceEvent event = last->next(std::chrono::milliseconds(0));
     expect_same_frame(*std::get<FramePtr>(event), expected);
   }

@@ -73,13 +73,13 @@ TEST_F(EvalCommand, ComparesSeveralRunsUnderTheirLabels) {
 }
 
 TEST_F(EvalCommand, ComparesFingertipsWithLabels) {
-  // A recording, for its camera.
+  // A recording, from which the camera's intrinsics are read.
   auto writer = RecordingWriter::create(folder_ / "recording");
   RgbdFrame frame;
   frame.camera = {320, 240, 250, 250, 160, 120};
   frame.depth.reset(320, 240);
   ASSERT_TRUE(writer->write(frame) && writer->finish());
-  // Tip of the truth: u = 160 - 250 * 0.038 / 0.5 = 141.
+  // The true fingertip projects to u = 160 - 250 * 0.038 / 0.5 = 141.
   test::write_text(folder_ / "tips.csv", "frame,finger,u,v,visible\n1,index,141,123,1\n");
 
   // The distance to the label is reported and drawn.
@@ -100,7 +100,7 @@ TEST_F(EvalCommand, JudgesTheUncertaintyOfStatesInALog) {
     hand_state_t state{};
     state.frame_number = i;
     state.has_pose = i < 2;
-    for (segment_state_t& s : state.segments) {  // 2 mm off along x, like the second table of the truth
+    for (segment_state_t& s : state.segments) {  // 2 mm off along x, like the poses of out.csv
       s.position[0] = 0.002, s.position[2] = s.distal[2] = 0.5, s.distal[0] = 0.002 - 0.03;
       for (int k = 0; k < 3; ++k) s.covariance[k][k] = 1e-6;
       s.covariance[4][4] = 0.01;  // a rotation about y moves the distal end, 30 mm along -x, in depth
@@ -142,7 +142,7 @@ TEST_F(EvalCommand, RefusesTheStatesOfTwoHandsAndOfTwoRuns) {
     auto log = LcmLogWriter::create(folder_ / "states.lcmlog", true);
     ASSERT_TRUE(log);
 
-    // Two states that contradict each other.
+    // Two states for one frame: of two hands, or of two runs.
     hand_state_t state{};
     state.has_pose = true;
     state.handedness = hand_state_t::RIGHT;

@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-/// Whoever runs the tests may have been started to ignore some signals.
+/// Restores the default action of the signals, since the tests may be run by a program that ignores some of them.
 class InterruptWatcherTest : public ::testing::Test {
  protected:
   InterruptWatcherTest() {
@@ -22,7 +22,7 @@ class InterruptWatcherTest : public ::testing::Test {
   }
 };
 
-/// As the kernel sends it for a terminal.
+/// Sends the signal with the code SI_KERNEL, as the kernel does for Ctrl+C in a terminal.
 void send_from_terminal(int number) {
   siginfo_t info{};
   info.si_signo = number;
@@ -68,7 +68,7 @@ TEST_F(InterruptWatcherTest, WithoutACallOfItsOwnHangupStops) {
   kill(getpid(), SIGHUP);
   called.wait();
   EXPECT_EQ(watcher.signal(), SIGHUP);
-  kill(getpid(), SIGHUP);  // a terminal that goes away sends it twice
+  kill(getpid(), SIGHUP);  // a terminal that is closed sends it twice
 }
 
 TEST_F(InterruptWatcherTest, HangupCanBeMadeToStop) {
@@ -87,7 +87,8 @@ TEST_F(InterruptWatcherTest, WhatWasIgnoredAtTheStartStaysIgnored) {
   InterruptWatcher watcher([&] { called.count_down(); }, [] { ADD_FAILURE() << "nohup"; });
   kill(getpid(), SIGHUP);
   send_from_terminal(SIGINT);
-  kill(getpid(), SIGTERM);  // the others have smaller numbers and would be taken before it
+  // Pending signals are delivered by ascending number, and the ignored ones have smaller numbers.
+  kill(getpid(), SIGTERM);
   called.wait();
   EXPECT_EQ(watcher.signal(), SIGTERM);
 }

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using Kind = Output::Kind;
 namespace fs = std::filesystem;
 
-/// A recording, beside it a set of two logs.
+/// Creates a recording and a set of two logs in the same folder.
 class Outputs : public ::testing::Test {
  protected:
   Outputs() {
@@ -27,7 +27,7 @@ class Outputs : public ::testing::Test {
       test::write_text(folder_ / log, "\xED\xA1\xDA\x01 and so on");
     test::write_text(folder_ / "set/notes.csv", "x");
   }
-  /// "" where it is allowed.
+  /// The error message for writing this output; "" if it is allowed.
   std::string complaint(const SourceFiles& source, const std::string& path, Kind kind = Kind::file,
                         bool overwrite = true) const {
     const auto checked = check_outputs(source, {}, {{"--out", path, kind}}, overwrite);

@@ -13,7 +13,7 @@ namespace {
 using ::testing::SizeIs;
 
 TEST(ScanPage, SaysWhatIsStillToBeShownAndHowTheLengthsChange) {
-  // A palm whose palm side was seen in some frames.
+  // A scan in which the palm side of the palm was seen in some frames.
   const auto start = test::adult_hand();
   HandEstimate estimate;
   estimate.status = TrackStatus::tracking;

@@ -41,7 +41,7 @@ class ScanReportTest : public ::testing::Test {
   void show(const HandEstimate& estimate, int frames = ScanReport::kEnoughFrames) {
     for (int i = 0; i < frames; ++i) report_.add(estimate);
   }
-  /// Shows a side from three directions, since the thumb shows its sides only when the hand is turned.
+  /// Adds frames that see a side from three directions, since the thumb's sides are seen only when the hand is turned.
   void show_from(Side side) {
     for (double turned : {-1.0, 0.0, 1.0}) show(hand(side, 0.1, 0, turned));
   }
@@ -66,7 +66,7 @@ TEST_F(ScanReportTest, AsksForWhatWasNotShownYet) {
 }
 
 TEST_F(ScanReportTest, CountsOnlyWhatWasSeenWhileTracking) {
-  // A held hand does not count.
+  // A hand with the status "held" does not count.
   HandEstimate held = hand(kPalmSide, 0.1);
   held.status = TrackStatus::holding;
   show(held);

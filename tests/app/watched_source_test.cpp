@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Plays given frames.
+/// Delivers given frames.
 class FrameList : public FrameSource {
  public:
   FrameList(std::vector<FramePtr> frames, bool live) : frames_(std::move(frames)), live_(live) {}
@@ -47,7 +47,7 @@ std::shared_ptr<RgbdFrame> wall(int number, double depth = 0.8) {
 class Watched : public testing::Test {
  protected:
   void add(std::shared_ptr<RgbdFrame> frame) { frames_.push_back(std::move(frame)); }
-  /// Numbers of the frames that are delivered; what is said and skipped is kept.
+  /// Numbers of the frames that are delivered. The notices and the skipped frames are kept in members.
   std::vector<std::int64_t> play(bool live = false) {
     WatchedSource source(std::make_unique<FrameList>(frames_, live), DepthLimits{0.12, 1.5}, clock_);
     std::vector<std::int64_t> numbers;

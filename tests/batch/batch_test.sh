@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Tracks a few simulated logs, one of them broken, the way deploy/batch does; then resumes, stops and shares.
+# Tests the scripts of deploy/batch on a few simulated logs, one of them broken: a whole run, a resumed run, a run that
+# is stopped, and runs that divide the logs among several machines.
 #   batch_test.sh BAREHAND SOURCE_TREE
 set -u
 

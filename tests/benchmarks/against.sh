@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Two builds of barehand against each other, in turn, so that other load on the machine meets both alike; prints the CPU
-# time per frame of every round and the ratio of the smallest ones. A build reads the configuration of its own tree.
+# Compares the CPU time per frame of two builds of barehand. They run alternately, so that other load on the machine
+# affects both. Prints the time of every round and the ratio of the smallest ones. Each build uses the configuration in
+# its own source tree.
 #   against.sh BAREHAND_BEFORE BAREHAND_AFTER [ARGUMENTS OF bench...]
 set -eu
 before=$1 after=$2

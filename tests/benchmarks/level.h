@@ -10,8 +10,8 @@
 
 namespace barehand::bench {
 
-/// The first level of the world's frame, with the samples of all segments, on one core. Samples per segment are the
-/// benchmark's first argument.
+/// The first level of the pyramid for the frame of world(), with samples of all segments, on one core. The benchmark's
+/// first argument is the number of samples per segment.
 struct Level {
   explicit Level(const benchmark::State& state) {
     SegmentTrackerParams params = w.tracker.segment_tracker;
@@ -22,7 +22,7 @@ struct Level {
     samples = draw();
   }
   const SegmentSamples& draw() { return tracker->sample(prepared, proposals, {1, 1, 0, 6}); }
-  /// Samples of all segments, in all iterations.
+  /// Number of samples of all segments in all iterations of the benchmark.
   static std::int64_t drawn(const benchmark::State& state) {
     return state.iterations() * state.range(0) * kSegmentCount;
   }

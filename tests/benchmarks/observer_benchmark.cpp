@@ -24,7 +24,8 @@ BENCHMARK(compare_on_cpu)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-/// A GPU where there is one, else software: the label says which. A new map comes with every frame.
+/// By OpenGL ES, on a GPU if there is one, else in software: the benchmark's label names the renderer. Every iteration
+/// uploads a new observation map, as every frame does.
 void compare_by_egl(benchmark::State& state) {
   const Level level(state);
   const float cap = distance_cap(level.w.tracker.segment_tracker);

@@ -9,7 +9,7 @@
 namespace barehand::bench {
 namespace {
 
-/// ICP and the candidates that follow from it.
+/// ICP, and the candidates that the prediction stage makes from its result.
 void prediction(benchmark::State& state) {
   const World& w = world();
   MotionModel motion(w.tracker.prediction, w.tracker.icp);
@@ -18,7 +18,7 @@ void prediction(benchmark::State& state) {
 }
 BENCHMARK(prediction)->Unit(benchmark::kMicrosecond);
 
-/// One trial of a search from templates.
+/// Scores one pose of a search from templates.
 void coarse_score(benchmark::State& state) {
   const World& w = world();
   const CoarseSkin skin =

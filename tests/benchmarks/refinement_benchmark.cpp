@@ -45,7 +45,7 @@ void data_terms(benchmark::State& state) {
 }
 BENCHMARK(data_terms)->Unit(benchmark::kMicrosecond);
 
-/// From start to end with n Gauss-Newton steps; the difference between two n is the price of a step.
+/// The whole refinement with n Gauss-Newton steps; the difference between two n is the time of a step.
 void gauss_newton(benchmark::State& state) {
   const World& w = world();
   Refinement refinement(w.tracker.refinement, w.profile, w.skin);

@@ -4,7 +4,7 @@
 namespace barehand::bench {
 namespace {
 
-/// Pairs of samples of two neighbouring segments.
+/// Number of pairs of samples of neighbouring segments.
 std::int64_t pairs(const Level& level) {
   const auto n = static_cast<std::int64_t>(level.samples.poses[0].size());
   return n * n;
@@ -51,7 +51,7 @@ void psi_matrix(benchmark::State& state) {
 }
 BENCHMARK(psi_matrix)->Arg(20)->Arg(60)->Arg(180)->Unit(benchmark::kMicrosecond);
 
-/// All messages of the tree and the psi matrices before them.
+/// Belief propagation as a whole: the psi matrices and all messages of the tree.
 void fusing(benchmark::State& state) {
   Level level(state);
   for (auto _ : state) benchmark::DoNotOptimize(&level.fusion.fuse(level.samples, 0));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs what measures times, briefly, and checks that its figures make sense. How large they are is not looked at. First
-shows, on planted figures, that nonsense is noticed.
+"""Runs `barehand bench` or the benchmarks briefly and checks that their figures are plausible, whatever their size.
+First changes good figures to bad ones and checks that each change is found.
   smoke.py bench BAREHAND
   smoke.py functions BENCHMARKS"""
 import copy

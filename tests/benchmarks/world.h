@@ -9,25 +9,25 @@
 
 namespace barehand::bench {
 
-/// What the stages see in an ordinary frame, with the default parameters: a hand with bent fingers 0.5 m before a
-/// 640x480 camera, an arm's length before a grey wall.
+/// Input of the stages for an ordinary frame, with the default parameters: a hand with bent fingers 0.5 m in front of a
+/// 640x480 camera, and a grey wall an arm's length behind it.
 struct World {
   TrackerParams tracker;
   PreprocessParams preprocess;
   std::shared_ptr<const HandProfile> profile;
   std::shared_ptr<const Skin> skin;
   std::shared_ptr<const HandSurface> surface;
-  HandPose pose, predicted;  ///< the truth, and 3 mm and 3 degrees beside it
+  HandPose pose, predicted;  ///< the true pose, and one that is off by 3 mm and 3 degrees
   FramePtr frame;
   HandObservationPtr observation;
 };
 
-/// Made once per program.
+/// The same object for all benchmarks, made in the first call.
 const World& world();
 
-/// The estimate of the frame before.
+/// The estimate of the previous frame.
 HandEstimate earlier_estimate(const World& world);
-/// The same as the preprocess stage gets it.
+/// The estimate of the previous frame, in the form in which the preprocess stage gets it.
 HandEstimates feedback(const World& world);
 
 }  // namespace barehand::bench

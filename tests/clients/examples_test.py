@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The example in each language prints the angles that C++ computed; started by with_multicast.sh.
+"""Tests that the example in each language prints the angles that C++ computed. To be started by with_multicast.sh.
   examples_test.py WRITE_CLIENT_GOLDEN NODE"""
 import itertools
 import math
@@ -26,8 +26,8 @@ class Examples(Folder):
         self.log, self.golden = self.golden_states(GOLDEN)
 
     def heard(self, *command):
-        """The lines of a program that listens, while the log is sent again and again until it has enough. Between the frames
-        come messages that are damaged and of another type."""
+        """The lines that a receiving program prints. The log is sent repeatedly until it has printed enough of them.
+        Between the frames, damaged messages and messages of another type are sent."""
         program = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    env={**os.environ, "LCM_DEFAULT_URL": URL})
         network, events = Network(URL), list(log.events(self.log, Counts()))
@@ -44,12 +44,12 @@ class Examples(Folder):
                     pass
         network.close()
         with program.stdout, program.stderr:
-            self.assertRegex(program.stderr.read(), "(?i)left out|decoding")  # each says that it noticed
+            self.assertRegex(program.stderr.read(), "(?i)left out|decoding")  # each example reports damaged messages
             self.assertEqual(program.returncode, 0)
             return program.stdout.read().splitlines()
 
     def check(self, lines, outlet):
-        """A program that starts may miss some; what it prints is right."""
+        """A program may miss the first messages while it starts; all lines that it prints must be right."""
         sides, statuses = set(), set()
         for _, frame, side, status, *angles in map(str.split, lines):
             sides.add(side)

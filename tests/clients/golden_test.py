@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The outlets against what C++ computes, and against the table of the documentation.
+"""Compares the outlets (conversions for other consumers) with what C++ computes and with the documentation's table.
   golden_test.py WRITE_CLIENT_GOLDEN"""
 import re
 import sys
@@ -52,7 +52,8 @@ class Golden(Folder):
             back = hand.mano21() @ T[:3, :3].T + T[:3, 3]
             np.testing.assert_allclose(back, np.array(hand.joints.position)[list(outlets.LANDMARKS_21)], atol=1e-12)
 
-            # z along the hand, x out of the palm; y to the thumb of a right hand, away from it of a left one.
+            # The z axis points along the hand, x out of the palm, y towards a right hand's thumb and away from a left
+            # hand's.
             wrist = outlets.rotation_of(hand.joints.orientation[1])
             self.assertGreater(min(T[:3, 2] @ -wrist[:, 2], T[:3, 0] @ -wrist[:, 1], T[:3, 1] @ -wrist[:, 0]), 0.9)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""From messages to hands: decoding, frames with one and two hands, and lost hands."""
+"""Tests how messages become hands: decoding, frames with one and two hands, and lost hands."""
 import unittest
 
 import numpy as np
@@ -14,7 +14,7 @@ TYPES = ("command_t", "glove_state_t", "hand_joints_t", "hand_state_t", "health_
 
 
 def places(data):
-    """About 500 places in a message, so that the tests take a second."""
+    """About 500 byte positions in a message: few enough for the tests to take only a second."""
     return range(0, len(data), 1 + len(data) // 500)
 
 
@@ -55,7 +55,7 @@ class Frames(unittest.TestCase):
                 for channel, data in messages for hands in self.frames.add(channel, data)]
 
     def test_a_frame_is_complete_with_its_last_message(self):
-        self.assertEqual(self.add(messages_of(0)), [])  # how many hands there are shows the next frame
+        self.assertEqual(self.add(messages_of(0)), [])  # the number of hands is known only when the next frame starts
         first, *rest = messages_of(1)
         self.assertEqual(self.add([first]), [(0, ["right"])])
         self.assertEqual(self.add(rest), [(1, ["right"])])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Logs that are whole, cut short, damaged, or no logs."""
+"""Tests the reading of whole, truncated and damaged logs, and of files that are no logs."""
 import unittest
 import warnings
 
@@ -23,7 +23,7 @@ class Logs(Folder):
                     self.ends.append(file.tell())
 
     def read(self):
-        """The frames and the counts; warnings are expected where something is damaged."""
+        """The frames of the log and the counts of messages. A damaged log must cause warnings."""
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             stream = barehand.hands(str(self.path))

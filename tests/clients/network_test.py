@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Real UDP on the loopback interface, against the program and liblcm; started by with_multicast.sh.
+"""Tests the clients with the program and with liblcm over UDP on the loopback interface. To be started by
+with_multicast.sh.
   network_test.py BAREHAND"""
 import socket
 import subprocess
@@ -21,13 +22,13 @@ from barehand.network import Network, parse_url
 from support import URL, Folder, messages_of
 
 BAREHAND = sys.argv.pop(1)
-LONG = 250  # seconds; never waited for when all is well
+LONG = 250  # seconds: a timeout that is reached only by failing tests
 START = 1_700_000_000_000_000  # microseconds
 CAMERA = (260.0, 260.0, 159.5, 119.5)
 
 
 def image(number):
-    """Depth and colour that no other number has, so large that LCM cuts them into fragments: a slanted wall."""
+    """Depth and colour of a slanted wall. They differ for every number, and LCM must split them into fragments."""
     chance = np.random.default_rng(number)
     depth = 500 + np.add.outer(np.arange(240), np.arange(320)) // 4 + chance.integers(0, 2, (240, 320))
     return depth.astype(np.uint16), chance.integers(0, 255, (240, 320, 3), np.uint8)
@@ -55,7 +56,7 @@ class Live(Folder):
                                    "--depth", "zlib", "--colour", "raw"], stdout=subprocess.DEVNULL)
         self.addCleanup(record.kill)
         number = 0
-        while record.poll() is None and number < 1000:  # it may have to start yet
+        while record.poll() is None and number < 1000:  # the first images may be lost while the program starts
             barehand.publish_rgbd(*image(number), CAMERA, utime=START + 33_333 * number, url=URL, sensor="test")
             number += 1
             try:

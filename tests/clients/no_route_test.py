@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Started by without_multicast.sh, in a network without any route."""
+"""Tests the error message in a network without any route. To be started by without_multicast.sh."""
 import unittest
 
 import numpy as np

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""LCM's datagrams: messages come out as they went in, and what is missing or damaged is counted and never invented."""
+"""Tests LCM's datagrams: messages are decoded as they were encoded; missing and damaged ones are counted, and no wrong
+message is delivered."""
 import random
 import unittest
 
@@ -59,7 +60,7 @@ class Protocol(unittest.TestCase):
             self.assertEqual((self.counts.fragments, self.counts.damaged), (1, 0))
 
     def test_lost_messages_are_counted_by_their_numbers(self):
-        for number in [5, 6, 9, 0xFFFFFFFF, 0, 1]:  # 7 and 8 are lost; the far jump is a sender that began anew
+        for number in [5, 6, 9, 0xFFFFFFFF, 0, 1]:  # 7 and 8 are lost; after the large jump, a sender was restarted
             self.add(encode(b"A", b"", number))
         self.assertEqual(self.counts.lost, 2)
         self.add(encode(b"A", b"", 3), OTHER)

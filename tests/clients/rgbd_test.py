@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What publish_rgbd() puts into a message, what it refuses, and that the examples for cameras go through."""
+"""Tests which message publish_rgbd() sends, which arguments it refuses, and that the examples for cameras run."""
 import runpy
 import sys
 import unittest
@@ -20,7 +20,7 @@ COLOUR = np.arange(36, dtype=np.uint8).reshape(3, 4, 3)
 
 
 class Sent:
-    """Stands for the network."""
+    """Replaces the network: keeps the messages that are sent."""
 
     def __init__(self, url):
         self.url, self.messages = url, []
@@ -85,12 +85,12 @@ class LargeFrames(unittest.TestCase):
 
 
 class Done(Exception):
-    """Ends the endless loop of an example."""
+    """Is raised to end the endless loop of an example."""
 
 
 class Cameras(unittest.TestCase):
-    """The examples with stand-ins for the SDKs: they show that images, intrinsics and unit arrive as they should, not that
-    the SDKs are as the stand-ins."""
+    """Runs the examples with replacements for the cameras' SDKs. This tests that images, intrinsics and unit are sent
+    correctly, but not that the real SDKs behave like the replacements."""
 
     def run_example(self, name, modules):
         published = mock.Mock(side_effect=[None, Done])

@@ -1,4 +1,4 @@
-"""What several tests of the clients share."""
+"""Functions that several tests of the clients use."""
 import csv
 import math
 import os
@@ -11,17 +11,17 @@ from collections import defaultdict
 import barehand
 
 SOURCE = pathlib.Path(os.environ["BAREHAND_SOURCE"])
-#: A port of its own for each process, so that tests that run side by side do not hear each other.
+#: Every process uses another port, so that tests that run at the same time do not receive each other's messages.
 URL = f"udpm://239.255.76.67:{20000 + os.getpid() % 40000}?ttl=0"
 
 
 def golden_bytes(name):
-    """The message of this type that tests/golden keeps."""
+    """The message of this type that is stored in tests/golden."""
     return (SOURCE / "tests/golden/lcm" / f"{name}.bin").read_bytes()
 
 
 class Folder(unittest.TestCase):
-    """Tests with a folder of their own."""
+    """Base of tests that need a temporary folder."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -40,7 +40,8 @@ class Folder(unittest.TestCase):
 
 
 def messages_of(frame=0, side=1, status=1, hand_id=1, sensor=""):
-    """The three messages of a hand, (channel, bytes) each; numbers are NaN without a pose."""
+    """The three messages of a hand as pairs (channel, bytes). All numbers are NaN if the status means that there is no
+    pose."""
     known = status in (1, 2)
     number = 0.5 if known else math.nan
     state, glove, joints = barehand.hand_state_t(), barehand.glove_state_t(), barehand.hand_joints_t()

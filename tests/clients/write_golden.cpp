@@ -1,5 +1,5 @@
-// Writes what the clients' tests compare with: FOLDER/states.lcmlog, hand states as the tracker publishes them, and
-// FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here with Eigen.
+// Writes the expected results of the clients' tests: FOLDER/states.lcmlog, hand states as the tracker publishes them,
+// and FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here with Eigen.
 //   write_client_golden FOLDER
 #include <Eigen/SVD>
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kStart = 1'700'000'000'000'000, kFrameInterval = 16'667;  // microseconds
 
-/// Rows "frame,outlet,index,value,...", every digit of each value.
+/// Writes rows "frame,outlet,index,value,...", each value with all of its digits.
 class Table {
  public:
   explicit Table(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {}
@@ -33,7 +33,7 @@ class Table {
   std::FILE* file_;
 };
 
-/// Every joint bent, differently in each frame.
+/// Angles that bend every joint, by other amounts in each frame [rad].
 Angles bent(int frame) {
   Angles angles{};
   for (int s = 1; s < kSegmentCount; ++s) {
@@ -121,7 +121,7 @@ int write(const std::string& folder) {
       for (int s = 0; s < kSegmentCount; ++s) estimate.segments[s].T_camera_segment = pose[s];
       if (lost) estimate.segments = {};
 
-      // A maker of its own for each frame, so that the smoothed pose is the raw one.
+      // Every frame gets a new message maker, so that its smoothed pose equals the raw one.
       if (auto sent = publisher.send(HandMessageMaker({}).process(estimate)); !sent) {
         std::cerr << sent.error().message() << "\n";
         return 1;

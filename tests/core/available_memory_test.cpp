@@ -8,13 +8,13 @@ namespace barehand {
 namespace {
 
 TEST(AvailableMemory, IsTheKernelsFigureWithinTheGroupsLimit) {
-  // The files in which the kernel reports.
+  // Stand-ins for /proc/meminfo, /proc/self/cgroup and the files of the control groups.
   const test::TempFolder folder;
   const std::string info = folder / "meminfo", own = folder / "cgroup";
   const std::string service = folder / "system.slice/barehand.service";
   std::filesystem::create_directories(service);
 
-  // Without a control group the kernel's figure counts.
+  // Without a control group, MemAvailable counts.
   test::write_text(info, "MemTotal:  8000 kB\nMemFree:  1000 kB\nMemAvailable:  3000 kB\n");
   EXPECT_EQ(available_memory(info, "/nonexistent", "/nonexistent"), 3000 * 1024);
 
@@ -29,7 +29,7 @@ TEST(AvailableMemory, IsTheKernelsFigureWithinTheGroupsLimit) {
   test::write_text(folder / "memory.max", "524288\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
 
-  // In a namespace of its own, the process's group is the root.
+  // In a control-group namespace, the process's group appears as the root.
   test::write_text(own, "0::/\n");
   EXPECT_EQ(available_memory(info, own, folder.path()), 524288);
 }

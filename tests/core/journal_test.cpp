@@ -1,4 +1,5 @@
-// Started by with_own_run.sh. It plays the journal that listens at /run/systemd/journal/socket.
+// Tests the messages to systemd's journal: receives them at /run/systemd/journal/socket in the journal's place. To be
+// started by with_own_run.sh.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -31,7 +32,7 @@ class Journal : public ::testing::Test {
     close(socket_);
     unsetenv("JOURNAL_STREAM");
   }
-  /// The message that has arrived, "" if there is none; sending is synchronous.
+  /// The next message that was received, "" if there is none. Nothing to wait for: sending is synchronous.
   std::string received() const {
     char buffer[4096];
     const ssize_t count = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);

@@ -70,7 +70,7 @@ TEST(Workers, DoAsideBeforeTheyReturnWhereNothingIsLive) {
       return 7;
     });
 
-    // It ran on this thread with all cores, and is done.
+    // The task ran on this thread, with all cores, and is finished.
     EXPECT_EQ(where, std::this_thread::get_id());
     EXPECT_EQ(cores, threads);
     ASSERT_EQ(result.wait_for(std::chrono::seconds(0)), std::future_status::ready);

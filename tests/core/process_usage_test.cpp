@@ -15,7 +15,7 @@ TEST(ProcessUsage, ComputingTakesCpuSeconds) {
   EXPECT_GT(cpu_seconds() - before, 0.019);  // the sum is rounded
 }
 
-/// Uses this much memory and returns it to the kernel at once, which an allocator might delay.
+/// Uses this much memory and unmaps it at once. An allocator might keep it for later.
 void fill_and_release(std::size_t bytes) {
   void* const block = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(block, MAP_FAILED);

@@ -1,4 +1,4 @@
 #!/bin/sh
-# Runs a command that may fill /run, which nobody else sees. Exit code 77 (skipped) where such a view may not be made.
+# Runs a command with a private, empty /run (in a mount namespace). Exits with 77 (test skipped) if this is not allowed.
 unshare -rm true 2>/dev/null || exit 77
 exec unshare -rm sh -c 'mount -t tmpfs tmpfs /run && exec "$@"' sh "$@"

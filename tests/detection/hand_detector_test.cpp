@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-/// The shipped networks; a person's open hand at 0.6 m before the body, the arm towards it.
+/// Tests the shipped networks on a person's open hand. The hand is 0.6 m from the camera, in front of the body.
 class HandDetectorTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -16,7 +16,7 @@ class HandDetectorTest : public ::testing::Test {
     detector_ = std::make_unique<HandDetector>(std::move(*detector));
   }
 
-  /// Fingers up, palm to the camera.
+  /// Pose with the fingers up and the palm towards the camera, at `x` and `distance` [m].
   static HandPose open_hand(const HandProfile& profile, double x = 0, double distance = 0.6) {
     HandPose pose = test::facing_pose(profile, distance);
     for (SE3& T : pose) T.t.x() += x;
@@ -123,8 +123,8 @@ TEST_F(HandDetectorTest, TwoHandsAreTwo) {
   }
 }
 
-/// Other cameras: low resolution with a wide angle, one that needs two views, a long focal length, pixels that are no
-/// squares.
+/// Cameras with a low resolution and a wide angle, with a view so wide that two crops are needed, with a long focal
+/// length, and with pixels that are not square.
 class OtherCamera : public HandDetectorTest, public ::testing::WithParamInterface<Intrinsics> {};
 INSTANTIATE_TEST_SUITE_P(Cameras, OtherCamera,
                          ::testing::Values(Intrinsics{224, 172, 210, 210, 111.5, 85.5},

@@ -10,7 +10,7 @@ namespace {
 TEST(FindPeaks, GivesEveryHighestCellOnceMostProbableFirst) {
   std::vector<float> logits(8 * 5, -5.f);
   logits[1 * 8 + 2] = 1.f;
-  logits[1 * 8 + 3] = 0.5f;  // beside it
+  logits[1 * 8 + 3] = 0.5f;  // next to the maximum
   logits[3 * 8 + 7] = 2.f;   // at the border
   logits[4 * 8 + 0] = -3.f;  // improbable
   const auto peaks = find_peaks({logits.data(), 8, 5}, 0.2);

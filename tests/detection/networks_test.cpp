@@ -1,4 +1,4 @@
-// Networks that are missing, damaged, of another kind, or gone mad.
+// Tests networks whose files are missing, damaged or made for other inputs, and networks whose output is not finite.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -30,7 +30,7 @@ class NetworksTest : public ::testing::Test {
     const auto detector = HandDetector::load(folder_.path(), DetectionParams{});
     return detector ? "" : detector.error().message();
   }
-  /// Gives nets.json the checksum that the error message names.
+  /// Writes the checksum that the error message names into nets.json.
   void accept(const std::string& key, const std::string& message) const {
     const auto found = message.find("has checksum ");
     ASSERT_NE(found, std::string::npos) << message;
@@ -80,7 +80,8 @@ TEST_F(NetworksTest, AnotherInterfaceIsSaid) {
 }
 
 TEST_F(NetworksTest, WeightsThatAreNotFiniteAreSaid) {
-  // Nearly all bytes of the file are float weights: at one of four alignments 64 of them in a row become NaN.
+  // Nearly all bytes of the file are float weights, but their alignment in the file is unknown: of the four possible
+  // ones, one turns 64 weights in a row into NaN.
   const std::string bytes = bytes_of(folder_ / "crop.onnx"), nan("\x00\x00\xc0\x7f", 4);
   bool said = false;
   for (std::size_t alignment = 0; alignment < 4; ++alignment) {

@@ -7,9 +7,10 @@
 namespace barehand {
 namespace {
 
-constexpr double kDeviation = 0.003;  // m, of every axis
+constexpr double kDeviation = 0.003;  // m, standard deviation of the error along each axis
 
-/// A truth, and statements that are off by kDeviation and state the deviation `stated`.
+/// A true sequence, and estimates of it. Their errors have the standard deviation kDeviation, but their covariances
+/// state `stated` [m].
 std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, double confidence = 0.5) {
   KeyedRandom random(7, key);
   const auto off = [&]() -> Eigen::Vector3d {

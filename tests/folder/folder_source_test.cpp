@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class Folder : public testing::Test {
  protected:
-  /// Seven frames of which two share a stamp (4 repeats 3) where asked for.
+  /// Records seven frames. With `repeat`, frame 4 has the time stamp of frame 3.
   void record(bool repeat = false) {
     auto writer = RecordingWriter::create(path_);
     ASSERT_TRUE(writer);

@@ -95,7 +95,7 @@ TEST(Fusion, NextProposalsAreTheBestSamplesInShrinkingBoxes) {
   params.kernel_separation = 0;
   Fusion fusion = make_fusion(workers, params);
 
-  // Beliefs whose order is known.
+  // Set beliefs with a given order.
   const SegmentSamples samples = flat_samples(flexed_hand(0.2), 6);
   HandBelief belief;
   for (auto& b : belief.log_belief) b = {-5, -1, -9, -2, -3, -4};
@@ -140,7 +140,7 @@ TEST(Fusion, ReadOutAveragesTheBestModeOnly) {
 TEST(Fusion, CovarianceIsThatOfTheBeliefInTheCameraFrame) {
   Workers workers(1);
   FusionParams params;
-  params.range_end = 0.001;  // leaves hardly anything to the resolution term
+  params.range_end = 0.001;  // makes the resolution term of the covariance negligible
   Fusion fusion = make_fusion(workers, params);
 
   // Two samples on the camera's y axis.

@@ -15,7 +15,7 @@ namespace {
 /// Eq. 4-6 literally, in double precision.
 double reference_energy(const HandProfile& profile, const FusionParams& params, double sigma_prox, const HandPose& pose,
                         int s) {
-  // The distance of an angle from its range, the short way round.
+  // The distance of an angle from its range, by the shorter way around the circle [rad].
   const JointLimits l = widened_limits(profile, params.limit_widening_deg * kDegree)[s];
   const JointAngles a = joint_angles(profile, pose, s);
   const auto error = [](double angle, double lo, double hi) {
@@ -58,7 +58,7 @@ TEST(JointEnergy, AgreesWithTheEquationsInDoublePrecision) {
   const JointModels models = make_joint_models(profile, params);
   KeyedRandom random(1, 2);
 
-  // All pairs of random samples; the last child has angles beyond the wrap.
+  // All pairs of random samples; the last child has angles beyond +-180 degrees, where they wrap around.
   for (const int s : {1, 4, 5}) {
     std::vector<SE3> parents, children;
     for (int i = 0; i < 9; ++i) {

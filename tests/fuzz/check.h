@@ -3,6 +3,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// What must hold for every input; holds in release builds, too.
+/// Aborts if a condition that every input must fulfil is false. Unlike assert(), it is active in release builds.
 #define CHECK(condition) \
   ((condition) ? void() : (std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition), std::abort()))

@@ -2,7 +2,7 @@
 #include "fuzz/message.h"
 #include "io/hand/hand_json.h"
 
-/// A command up to where the tracker would follow it.
+/// Input: a command message. It is decoded and checked, but not executed by a tracker.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   fuzz::decode<command_t>(data, size);

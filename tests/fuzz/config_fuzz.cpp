@@ -9,8 +9,8 @@
 
 namespace {
 
-/// Five groups of the configuration, which hold every kind of value: all of them would be read alike, but ten times as
-/// slowly.
+/// Five groups of the configuration, which contain every type of value. The others would be read in the same way, but
+/// reading all takes ten times as long.
 struct Groups {
   barehand::RunParams run;
   barehand::PublishParams publish;
@@ -29,7 +29,8 @@ void visit(V& v, Groups& p) {
 
 }  // namespace
 
-/// A configuration: what is accepted prints as a file that says the same, and a room is a rigid motion.
+/// Input: a configuration file. An accepted one must be the same after printing and reading it, and its camera pose in
+/// the room must be a rigid motion.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);

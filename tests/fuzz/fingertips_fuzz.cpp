@@ -1,14 +1,14 @@
 #include "evaluation/fingertips.h"
 #include "fuzz/memory_file.h"
 
-/// Labelled fingertips.
+/// Input: a file of labelled fingertips, which is read and evaluated.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);
   const auto labels = read_fingertip_labels(file.path());
   if (!labels) return 0;
   for (const FingertipLabel& label : *labels) CHECK(label.finger >= 0 && label.finger < kFingerCount);
-  ResultTable hand;  // one in every frame that has labels
+  ResultTable hand;  // has a hand in every frame that has labels
   for (const FingertipLabel& label : *labels) {
     hand.frames.push_back({label.frame, 0, {}});
     for (TableRow& row : hand.frames.back().rows) row = {{0, 0, 0.5}, {-0.03, 0, 0.5}, 1};

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder in memory for the whole run.
+/// A folder in memory (/dev/shm), which is used for all inputs.
 const std::string& folder() {
   static const std::string path = [] {
     std::string pattern = "/dev/shm/barehand_fuzz_XXXXXX";
@@ -25,7 +25,7 @@ const std::string& folder() {
   return path;
 }
 
-/// Input: files one after the other, each after a line "@NAME"; other names than a recording's are not written.
+/// Writes the files that the input contains, each after a line "@NAME", if the name is one of a recording's files.
 void write_files(std::string_view input) {
   for (const char* name : {"camera.json", "depth.txt", "rgb.txt", "0.png", "1.png", "0.jpg"}) {
     std::error_code ignored;
@@ -41,7 +41,7 @@ void write_files(std::string_view input) {
 
 }  // namespace
 
-/// A recording folder, played to its end.
+/// Input: the files of a recording folder, which is played to its end.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   write_files({reinterpret_cast<const char*>(data), size});

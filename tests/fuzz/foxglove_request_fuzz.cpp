@@ -1,7 +1,7 @@
 #include "fuzz/check.h"
 #include "io/web/foxglove_request.h"
 
-/// What a viewer such as Foxglove sends.
+/// Input: a message that a viewer such as Foxglove sends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const auto request = parse_foxglove_request({reinterpret_cast<const char*>(data), size});

@@ -7,7 +7,8 @@
 
 namespace barehand::fuzz {
 
-/// The frame in the input as a message of this type. Its images have the size that it states; its depth can be sent on.
+/// Decodes the input as a frame message of this type. The images of an accepted frame must have the size that the frame
+/// states, and its depth must survive encoding and decoding.
 template <class Message>
 void frame_from(const std::uint8_t* data, std::size_t size) {
   const GivenIntrinsics camera{500, 500, 3, 2};
@@ -18,7 +19,7 @@ void frame_from(const std::uint8_t* data, std::size_t size) {
   CHECK(f.depth.width() == f.camera.width && f.depth.height() == f.camera.height);
   CHECK(f.colour.empty() || (f.colour.width() == f.camera.width && f.colour.height() == f.camera.height));
   CHECK(f.depth.size() == static_cast<std::size_t>(f.camera.width) * f.camera.height);
-  if (f.depth.size() > 4096) return;  // many pixels say no more, and take long
+  if (f.depth.size() > 4096) return;  // more pixels take long and test nothing else
   const auto sent = encode_frame(f, {DepthEncoding::rvl_zstd, ColourEncoding::raw_rgb});
   CHECK(sent.has_value());
   const auto received = decode_frame(*sent);

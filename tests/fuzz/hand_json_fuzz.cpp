@@ -5,7 +5,7 @@
 #include "fuzz/memory_file.h"
 #include "io/hand/hand_json.h"
 
-/// hand.json: what is accepted is a hand, and can be written and read again.
+/// Input: a file hand.json. An accepted one must be a valid hand profile, which can be written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const auto profile = parse_profile({reinterpret_cast<const char*>(data), size}, "input");

@@ -11,7 +11,7 @@ void put(std::vector<std::uint8_t>& bytes, std::uint64_t value, int count) {
   for (int shift = 8 * (count - 1); shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-/// A log of this one message.
+/// A log that contains only this message.
 std::vector<std::uint8_t> log_of(const std::vector<std::uint8_t>& message) {
   std::vector<std::uint8_t> bytes;
   put(bytes, 0xEDA1DA01, 4);
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> log_of(const std::vector<std::uint8_t>& message) {
 
 }  // namespace
 
-/// A hand state, and what `barehand eval` reads in a log of it.
+/// Input: a hand state message. It is decoded, and a log that contains it is read as `barehand eval` reads it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   fuzz::decode<hand_state_t>(data, size);

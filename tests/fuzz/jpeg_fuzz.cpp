@@ -1,7 +1,8 @@
 #include "fuzz/check.h"
 #include "io/recording/image_codec.h"
 
-/// A colour image. The largest ones cost a second under the sanitizers and show nothing more, so a megapixel is enough.
+/// Input: a colour image of at most a megapixel. Decoding the largest ones takes a second with the sanitizers and tests
+/// nothing else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const std::span bytes(data, size);

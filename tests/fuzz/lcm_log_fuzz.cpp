@@ -1,7 +1,7 @@
 #include "drivers/lcm/lcm_log_source.h"
 #include "fuzz/memory_file.h"
 
-/// A log: every event is read, and whatever are frames is played.
+/// Input: an LCM log. Every event is read, and the frames in it are played.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CHECK(message && message->size() == static_cast<std::size_t>(entry.size));
     bytes += 28 + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
   }
-  CHECK(bytes == static_cast<std::int64_t>(size));  // every byte belongs to an event or is damage
+  CHECK(bytes == static_cast<std::int64_t>(size));  // every byte belongs to an event or is counted as damaged
 
   LcmLogOptions options;
   options.foreign = {500, 500, 3, 2};

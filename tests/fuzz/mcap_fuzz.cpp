@@ -2,7 +2,7 @@
 #include "fuzz/memory_file.h"
 #include "sensor/camera_limits.h"
 
-/// An MCAP file: every message is read, and whatever is depth is played.
+/// Input: an MCAP file. Every message is read, and the depth images in it are played.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);

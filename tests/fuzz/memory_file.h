@@ -10,7 +10,7 @@
 
 namespace barehand::fuzz {
 
-/// Bytes under a path, without a disk.
+/// A file in memory, for functions that read from a path.
 class MemoryFile {
  public:
   MemoryFile(const void* data, std::size_t size) : file_(memfd_create("input", 0)) {

@@ -9,7 +9,7 @@
 
 namespace barehand::fuzz {
 
-/// The input as a message of this type, whatever its fingerprint says.
+/// The input as a message of this type: its first bytes are replaced by the type's fingerprint.
 template <class Message>
 std::vector<std::uint8_t> message_of(const std::uint8_t* data, std::size_t size) {
   std::vector<std::uint8_t> bytes(data, data + size);
@@ -19,7 +19,7 @@ std::vector<std::uint8_t> message_of(const std::uint8_t* data, std::size_t size)
   return bytes;
 }
 
-/// Decodes the input. What is accepted must be exactly what its sender would write.
+/// Decodes the input as a message. Encoding an accepted message must give the same bytes.
 template <class Message>
 void decode(const std::uint8_t* data, std::size_t size) {
   const auto bytes = message_of<Message>(data, size);

@@ -12,7 +12,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
   return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 | bytes[3];
 }
 
-/// Makes the check sums of a PNG right, or the decoder would throw away almost every mutation at once.
+/// Corrects the checksums of a PNG, since the decoder would reject almost every mutation otherwise.
 void mend_checksums(std::uint8_t* data, std::size_t size) {
   for (std::size_t at = 8; at + 12 <= size;) {
     const std::size_t length = big_endian(data + at);
@@ -25,7 +25,7 @@ void mend_checksums(std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
-// libFuzzer's; replay.cpp has none, and calls no mutator.
+// libFuzzer's own mutator. It is missing (null) in programs with replay.cpp, which never call a mutator.
 extern "C" [[gnu::weak]] std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned) {
   size = LLVMFuzzerMutate(data, size, max_size);
@@ -33,7 +33,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return size;
 }
 
-/// A depth or a colour image. What is decoded is encoded without loss.
+/// Input: a depth or colour image. An accepted one must be the same after encoding and decoding it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const std::span bytes(data, size);

@@ -2,7 +2,7 @@
 #include "io/hand/hand_json.h"
 #include "io/hand/pose_json.h"
 
-/// pose.json, as given to --init, for the shipped hand.
+/// Input: a file pose.json, as given to --init, for the shipped hand.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   static const auto profile = load_profile(BAREHAND_CONFIGS "/hands/adult_right.json");

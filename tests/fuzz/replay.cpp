@@ -1,4 +1,5 @@
-// Stands in for libFuzzer where the compiler has none: runs every file of a corpus, and mutations of it, once.
+// Replaces libFuzzer for compilers without it: runs the fuzz target once with every file of a corpus and with mutations
+// of it.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -21,7 +22,7 @@ constexpr int kMutations = 100;  // of each file
 
 std::size_t below(std::size_t end, Random& random) { return random() % std::max<std::size_t>(end, 1); }
 
-/// A few bytes changed; now and then cut off or said twice.
+/// Changes a few bytes; sometimes also truncates the input or repeats a part of it.
 Bytes mutated(Bytes bytes, Random& random) {
   for (auto changes = 1 + below(4, random); changes > 0 && !bytes.empty(); --changes)
     bytes[below(bytes.size(), random)] = static_cast<std::uint8_t>(random());
@@ -30,7 +31,7 @@ Bytes mutated(Bytes bytes, Random& random) {
   return bytes;
 }
 
-/// A copy of exactly its size, so that a sanitizer sees what reads past its end.
+/// Runs the target with a buffer of exactly the input's size, so that a sanitizer detects reads beyond its end.
 void run(Bytes bytes) {
   bytes.shrink_to_fit();
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
@@ -44,7 +45,7 @@ int main(int argc, char** argv) {
   std::sort(files.begin(), files.end());
   Random random(1);
   for (const fs::path& path : files) {
-    std::printf("%s\n", path.c_str());  // the last one named is the one that crashed
+    std::printf("%s\n", path.c_str());  // after a crash, the last printed name is that of the input
     std::fflush(stdout);
     std::ifstream file(path, std::ios::binary);
     const Bytes bytes(std::istreambuf_iterator<char>(file), {});

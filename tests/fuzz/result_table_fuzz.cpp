@@ -1,7 +1,7 @@
 #include "evaluation/evaluation.h"
 #include "fuzz/memory_file.h"
 
-/// A truth or result table, judged against itself.
+/// Input: a truth or result table, which is compared with itself.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);

@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# Fuzzes on from the corpus: run.sh BUILD [EXECUTIONS [TARGET ..]], by default a million inputs for every target.
+# Runs the fuzz targets, starting from the corpus, by default with a million inputs each.
+#   run.sh BUILD [EXECUTIONS [TARGET ..]]
+# First build them:
 #   cmake --preset fuzz && cmake --build --preset fuzz && tests/fuzz/run.sh build/fuzz
-# Stops at the first finding; the input lies in BUILD/fuzz/TARGET. Prints one line a target: executions, speed.
+# Stops at the first failure, whose input is stored in BUILD/fuzz/TARGET. Prints a line for each target: the number of
+# executions and the speed.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -15,7 +18,7 @@ for target in "${targets[@]}"; do
   mkdir -p "$work/found"
   cd "$work"
   largest=$(find "$here/corpus/$target" -type f -printf '%s\n' | sort -n | tail -n 1)
-  # Limits are findings, too: 10 s for one input, 512 MiB in one piece. What decoders say goes nowhere.
+  # An input also fails if it takes 10 s or allocates 512 MiB at once. The decoders' messages are discarded.
   if ! "$build/tests/fuzz/${target}_fuzz" -runs="$executions" -max_len=$((2 * largest)) -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=512 -close_fd_mask=3 \
       -print_final_stats=1 -seed=1 found "$here/corpus/$target" >log 2>&1; then
     sed -n '/ERROR\|runtime error/,$p' log | head -n 40

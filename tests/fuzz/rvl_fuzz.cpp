@@ -2,7 +2,7 @@
 
 #include "fuzz/check.h"
 
-/// Depth code as it lies in zstd: the first two bytes say how many pixels are expected.
+/// Input: depth in the RVL code, as it is before compression by zstd. The first two bytes are the number of pixels.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   if (size < 2) return 0;

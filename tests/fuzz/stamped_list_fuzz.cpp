@@ -13,14 +13,14 @@ std::optional<std::vector<barehand::StampedFile>> list_of(const std::string& tex
   return list ? std::optional(*list) : std::nullopt;
 }
 
-/// As an editor under Windows writes it.
+/// The text as an editor under Windows writes it, with a byte order mark and carriage returns.
 std::string with_mark_and_carriage_returns(const std::string& text) {
   std::string windows = "\xef\xbb\xbf";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   return windows;
 }
 
-/// The same list with every name in quotes and nothing else.
+/// The list as a text without comments, with every name in quotes.
 std::string plain(const std::vector<barehand::StampedFile>& list) {
   std::string text;
   for (const auto& [utime, file, line] : list)
@@ -30,7 +30,7 @@ std::string plain(const std::vector<barehand::StampedFile>& list) {
 
 }  // namespace
 
-/// depth.txt or rgb.txt: says the same with the marks of another system, and when it is written out plainly.
+/// Input: a file depth.txt or rgb.txt. It must give the same list when written as under Windows and as by plain().
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const auto list = list_of(text);

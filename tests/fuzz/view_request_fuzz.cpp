@@ -1,7 +1,7 @@
 #include "fuzz/check.h"
 #include "io/web/view_request.h"
 
-/// What a client of the live page sends.
+/// Input: a message that the live page sends to the program.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const auto demand = parse_view_demand({reinterpret_cast<const char*>(data), size});

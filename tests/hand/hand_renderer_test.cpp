@@ -17,7 +17,7 @@ double ray_cast(const Skin& skin, const std::vector<Eigen::Vector3f>& posed, con
                           ac = posed[t[2]].cast<double>() - a;
     const Eigen::Vector3d p = ray.cross(ac);
     const double det = ab.dot(p);
-    if (det < 1e-14) continue;  // seen from behind
+    if (det < 1e-14) continue;  // the triangle faces away
 
     const double u = -a.dot(p) / det;
     const Eigen::Vector3d q = (-a).cross(ab);
@@ -35,7 +35,7 @@ TEST(RenderHand, AgreesWithRayCasting) {
   RenderedHand rendered;
   render_hand(skin, pose, kCamera, {7, 3, 3, 100, 75}, rendered);
 
-  // Compare every other cell with a ray.
+  // Compare every second cell with a ray through its centre.
   int covered = 0, differ = 0;
   for (int j = 0; j < 75; j += 2)
     for (int i = 0; i < 100; i += 2) {

@@ -62,7 +62,7 @@ TEST_F(SkinTest, ThicknessFollowsTheProfile) {
   EXPECT_NEAR(widest, 0.5 * (segment.half_width[0] + segment.half_width[1]), 0.001);
 }
 
-/// Counts the edges that are not passed once in each direction: those of a rim.
+/// Counts the edges that do not belong to one triangle in each direction: those at the border of an open surface.
 int open_edges(const Skin& skin) {
   std::map<std::pair<int, int>, int> balance;
   for (const auto& t : skin.triangles)

@@ -31,7 +31,7 @@ TEST(ExtractSurface, SphereHasItsVolumeAndOutwardTriangles) {
 TEST(ExtractSurface, IsClosed) {
   const auto distance = [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() - 0.02; };
   const TriangleMesh mesh = extract_surface(distance, Vector3d::Constant(-0.033), Vector3d::Constant(0.033), 0.005);
-  Vector3d area = Vector3d::Zero();  // the directed areas of a closed surface cancel
+  Vector3d area = Vector3d::Zero();  // the area vectors of a closed surface add up to zero
   double total = 0;
   for (const auto& t : mesh.triangles) {
     const Vector3d& a = mesh.vertices[t[0]];

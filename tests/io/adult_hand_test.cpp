@@ -23,20 +23,21 @@ class AdultHand : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(AdultHand, HasTheSizeOfAnAdult) {
-  // Hands are measured from the crease of the wrist, over the head of the capitate: 16 mm in front of the joint.
+  // The length of a hand is measured from the crease of the wrist, which lies over the head of the capitate bone, 16 mm
+  // distal to the wrist joint.
   const double from_crease = hand_.hand_length() - 0.016;
   EXPECT_GT(from_crease, 0.166);
   EXPECT_LT(from_crease, 0.183);
   const double knuckles = (rest_[segment_of(1, 0)].t - rest_[segment_of(4, 0)].t).norm();
   const double breadth = knuckles + 0.010 + hand_.segments[segment_of(1, 0)].radius[0] +
-                         hand_.segments[segment_of(4, 0)].radius[0];  // 5 mm of flesh on both sides
+                         hand_.segments[segment_of(4, 0)].radius[0];  // 5 mm of soft tissue on both sides
   EXPECT_GT(breadth, 0.075);
   EXPECT_LT(breadth, 0.086);
 }
 
 TEST_P(AdultHand, SegmentsMeetAtTheirJoints) {
   for (int s = 1; s < kSegmentCount; ++s) {
-    const bool on_bone = (s - 1) % 3 != 0 || s == segment_of(2, 0);  // of the palm's children only the middle finger
+    const bool on_bone = (s - 1) % 3 != 0 || s == segment_of(2, 0);  // of the palm's children only the middle finger's
     if (on_bone) {
       EXPECT_LT((distal_end(hand_, rest_, parent_of(s)) - rest_[s].t).norm(), 2e-6) << kSegmentNames[s];
     }

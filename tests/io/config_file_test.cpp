@@ -125,7 +125,7 @@ TEST_F(ConfigFile, UserKeysArePrintedAndWhatElseWasChanged) {
   EXPECT_EQ(load(print_config(config, ConfigKeys::user))->inner.sigma_obs, 0.01);
 }
 
-/// Files from before a key was replaced name both.
+/// Files written before a key was replaced contain the old key and the new one.
 TEST_F(ConfigFile, ARetiredKeyIsReadWhereItAgreesWithItsSuccessor) {
   EXPECT_TRUE(load(good_ + "depth: 10\n")) << "levels is 10, too";
   EXPECT_EQ(error_of(good_ + "depth: 9\n"),
@@ -171,7 +171,7 @@ TEST_F(ConfigFile, UnreadableFilesAreErrors) {
   EXPECT_THAT(error_of("just text"), HasSubstr("no keys"));
 }
 
-/// What comes of a configuration file of these bytes: its levels, or what is wrong.
+/// Reads a configuration file of these bytes. Returns the value of its key "levels", or the error message.
 std::string levels_of(const std::string& bytes) {
   const test::TempFolder folder;
   test::write_text(folder / "config.yaml", bytes);

@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 namespace fs = std::filesystem;
 
-/// Pictures of every kind that the decoders accept, beside them in BAREHAND_PIXELS what they show: NAME.ppm. The pixels
-/// of the PNGs are those that they were made of, those of the JPEGs what OpenCV 4.6 decoded.
+/// An encoded image. There is one of every format that the decoders accept, and a file NAME.ppm with its pixels in
+/// BAREHAND_PIXELS. The pixels of the PNGs are those that were encoded, those of the JPEGs were decoded by OpenCV 4.6.
 Bytes picture(const std::string& name) {
   const std::string text = test::read_text(BAREHAND_PICTURES "/" + name.substr(0, name.find('_')) + "/" + name);
   return {text.begin(), text.end()};
@@ -129,7 +129,7 @@ TEST(ImageCodec, AJpegOfEndlessScansIsAnError) {
   EXPECT_THAT(decode(many).error().message(), HasSubstr("damaged JPEG"));
 }
 
-/// What the pictures jpeg_* were made of.
+/// The image that was encoded as jpeg_*.
 Image<Rgb> source_of_jpegs() {
   Image<Rgb> image(17, 13);
   for (int v = 0; v < image.height(); ++v)

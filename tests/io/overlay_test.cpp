@@ -60,14 +60,14 @@ Image<Rgb> draw(const HandEstimate& estimate, const RgbdFrame& frame = grey_fram
   return draw_overlay(frame, {&hand, 1}, names);
 }
 
-/// The frame with a surface at the depth of `counts` [mm] everywhere.
+/// A frame whose depth is `counts` [mm] everywhere.
 RgbdFrame frame_with_depth(std::uint16_t counts) {
   RgbdFrame frame = grey_frame();
   frame.depth.reset(frame.depth.width(), frame.depth.height(), counts);
   return frame;
 }
 
-/// Pixel of the left picture at a point in the camera frame.
+/// The pixel of the left image at the projection of a point in the camera frame [m].
 Rgb pixel_at(const Image<Rgb>& sheet, const Eigen::Vector3d& p) {
   const Eigen::Vector2d pixel = grey_frame().camera.project(p) * 2;
   return sheet.at(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
@@ -123,7 +123,7 @@ TEST(Overlay, SkinBehindTheMeasuredSurfaceIsFainter) {
 }
 
 TEST(Overlay, TheSkinOfTheNearerFingerHidesThatOfTheOther) {
-  // The ring finger (blue) is put before or behind the middle finger (green).
+  // Move the ring finger (blue) in front of the middle finger (green) or behind it.
   const auto colour_with_ring_at = [](double dz) {
     HandEstimate estimate = open_hand();
     const Eigen::Vector3d point = beside_middle_bone(estimate);
@@ -140,7 +140,7 @@ TEST(Overlay, TheSkinOfTheNearerFingerHidesThatOfTheOther) {
 }
 
 TEST(Overlay, InferredSegmentsAreHatched) {
-  // How much neighbouring pixels differ in a piece of skin of one segment.
+  // The mean difference of neighbouring pixels in a part of the skin of one segment.
   const auto contrast = [](bool seen) {
     HandEstimate estimate = open_hand();
     estimate.segments[segment_of(2, 0)].seen = seen;
@@ -164,7 +164,7 @@ TEST(Overlay, NamesAppearOnlyOnRequestAndOverTheColourImage) {
   for (int v = 0; v < with.height(); ++v)
     for (int u = 0; u < with.width(); ++u)
       if (with.at(u, v) != without.at(u, v)) ++(u < with.width() / 2 ? on_colour : on_depth);
-  EXPECT_GT(on_colour, 16 * 100);  // some hundred pixels a name
+  EXPECT_GT(on_colour, 16 * 100);  // each name takes some hundred pixels
   EXPECT_EQ(on_depth, 0);
 }
 
@@ -190,7 +190,7 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
 class OverlayFiles : public testing::Test {
  protected:
   test::TempFolder folder_;
-  const HandEstimates hand_ = shared(open_hand());  // one profile, so that its skin is made once a writer
+  const HandEstimates hand_ = shared(open_hand());  // share a profile, so that every writer makes its skin once
 };
 
 TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {

@@ -16,15 +16,15 @@ extern "C" {
 
 namespace barehand::test {
 
-/// What a player shows of a video.
+/// The images of a video as a player shows them, and its duration.
 struct ReadVideo {
   std::string codec;
-  double seconds = 0;  ///< as the file states them; negative: it does not
+  double seconds = 0;  ///< duration that the file states; negative if it states none
   std::vector<Image<Rgb>> pictures;
 };
 
 inline Image<Rgb> to_rgb(const AVFrame& frame) {
-  // libswscale may write a little behind its rows, so they are libav's.
+  // libswscale may write a little beyond the ends of rows, so libav allocates them with padding.
   AVFrame* rgb = av_frame_alloc();
   rgb->format = AV_PIX_FMT_RGB24;
   rgb->width = frame.width;
@@ -42,7 +42,7 @@ inline Image<Rgb> to_rgb(const AVFrame& frame) {
   return picture;
 }
 
-/// Nothing at all where the file is no video.
+/// Reads a video. The result is empty if the file is no video.
 inline ReadVideo read_video(const std::string& path) {
   av_log_set_level(AV_LOG_QUIET);
   ReadVideo video;
@@ -55,7 +55,7 @@ inline ReadVideo read_video(const std::string& path) {
   video.codec = codec->name;
   video.seconds = file->duration == AV_NOPTS_VALUE ? -1 : static_cast<double>(file->duration) / AV_TIME_BASE;
 
-  // One picture after the other; a packet that was cut is none.
+  // Decode one image after the other; skip a truncated packet.
   AVCodecContext* decoder = avcodec_alloc_context3(codec);
   avcodec_parameters_to_context(decoder, &stream);
   avcodec_open2(decoder, codec, nullptr);

@@ -29,7 +29,7 @@ RgbdFrame frame_at(std::int64_t utime, std::uint16_t depth, bool with_colour = t
 
 class RecordingFolder : public testing::Test {
  protected:
-  /// Three frames a tenth of a second apart.
+  /// Records three frames at intervals of 0.1 s.
   void record(bool with_colour = true) {
     auto writer = RecordingWriter::create(path_, {.fps = 10, .colour_ending = "png"});
     ASSERT_TRUE(writer) << writer.error().message();
@@ -139,7 +139,7 @@ TEST_F(RecordingFolder, ARecorderThatWasStartedAgainIsWrittenAndReadWithItsOwnCo
   auto writer = RecordingWriter::create(path_);
   for (int part = 0; part < 2; ++part) {
     for (int i = 0; i < 3; ++i) {
-      RgbdFrame frame = frame_at(1'000'000 * i - 500'000, 1);  // both from before 0 on
+      RgbdFrame frame = frame_at(1'000'000 * i - 500'000, 1);  // in both cases the first time is negative
       frame.colour.at(0, 0) = {static_cast<std::uint8_t>(part), static_cast<std::uint8_t>(i), 0};
       ASSERT_TRUE(writer->write(frame));
     }
@@ -235,7 +235,7 @@ TEST_F(RecordingFolder, EmptyFolderIsAnError) {
 TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
   record();
   fs::remove(path_ + "/rgb.txt");
-  fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // to itself
+  fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // a link to itself
   EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("rgb.txt: cannot be read")));
   fs::remove(path_ + "/camera.json");
   fs::create_symlink("camera.json", path_ + "/camera.json");

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class StampedList : public ::testing::Test {
  protected:
-  /// "100000=depth/0.png ..." with the paths below the list's folder, or what is wrong.
+  /// The list as "100000=depth/0.png ..." (time [us] and path relative to the list's folder), or the error message.
   std::string read(const std::string& text) const {
     test::write_text(list_, text);
     const auto files = read_stamped_list(list_);

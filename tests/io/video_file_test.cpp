@@ -32,7 +32,7 @@ Image<Rgb> picture(int number, int width = 96, int height = 64) {
   return image;
 }
 
-/// Compression, and colour at half the resolution, change it a little.
+/// Expects almost the same colour: compression and the halved resolution of colour change it a little.
 void expect_near(const Rgb& a, const Rgb& b) {
   EXPECT_NEAR(a.r, b.r, 16);
   EXPECT_NEAR(a.g, b.g, 16);

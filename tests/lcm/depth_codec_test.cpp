@@ -68,8 +68,8 @@ TEST(DepthCodec, AnUnknownEncodingIsAnError) {
   EXPECT_FALSE(decode_depth(std::vector<std::uint8_t>(24), static_cast<DepthEncoding>(9), 4, 3));
 }
 
-// Worked by hand: 2 zeros, 1 measured, difference 5 -> zigzag 10 = 010 001 -> nibbles 1010 0001; then 1 zero, 0
-// measured.
+// The expected code was derived by hand: 2 zeros, 1 measured pixel, difference 5 -> zigzag 10 = 010 001 -> nibbles 1010
+// 0001; then 1 zero and 0 measured pixels.
 TEST(Rvl, CodeIsAsWritten) {
   const std::vector<std::uint16_t> counts = {0, 0, 5, 0};
   EXPECT_EQ(rvl_encode(counts), (std::vector<std::uint8_t>{0x21, 0xA1, 0x10}));

@@ -40,7 +40,7 @@ TEST_F(FileLockTest, NothingIsLeftOfIt) {
 TEST_F(FileLockTest, WhatAKilledProcessLeftIsNoObstacle) {
   if (const pid_t child = fork(); child == 0) {
     const auto lock = FileLock::take(path_, 0ms);
-    _exit(lock ? 0 : 1);  // without its end, as when killed
+    _exit(lock ? 0 : 1);  // ends without destructors, as if killed
   } else {
     int status = -1;
     waitpid(child, &status, 0);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr GivenIntrinsics kCamera{50.5, 51.25, 19.5, 14.5};
 
-/// The test frame as a foreign message carries it: in millimetres, without a sensor name.
+/// The test frame as another program's message can represent it: in millimetres, without a sensor name.
 RgbdFrame expected_frame() {
   RgbdFrame frame = test_frame(3);
   frame.depth_unit = 0.001;
@@ -41,7 +41,7 @@ TEST(Kinect, ColourOfAnotherSizeIsLeftOut) {
   EXPECT_EQ((*frame)->colour_fault.substr(0, 29), "is 80x30, depth is 40x30 (reg");
 }
 
-/// Whether the frame has its depth, no colour, and says why.
+/// Whether the frame has its depth and no colour, and a notice that gives the reason.
 bool depth_alone(const Result<std::shared_ptr<RgbdFrame>>& frame) {
   return frame && (*frame)->depth.at(5, 5) == test_frame(3).depth.at(5, 5) && (*frame)->colour.empty() &&
          !(*frame)->colour_fault.empty();

@@ -76,7 +76,7 @@ TEST(FrameCodec, LyingSizesAreErrors) {
   }
 }
 
-/// The message gives the depth of the test frame, no colour, and says why.
+/// Expects that the message is decoded to the test frame's depth without colour, with a notice that gives the reason.
 void expect_depth_alone(const rgbd_frame_t& message) {
   const auto decoded = decode_frame(message);
   ASSERT_TRUE(decoded) << decoded.error().message();
@@ -110,7 +110,7 @@ TEST(FrameCodec, DamagedColourCostsNoDepth) {
   rgbd_frame_t message = message_of();
   message.colour_encoding = 77;
   expect_depth_alone(message);
-  message.colour_encoding = rgbd_frame_t::COLOUR_NONE;  // and yet there is some
+  message.colour_encoding = rgbd_frame_t::COLOUR_NONE;  // although the message contains colour
   expect_depth_alone(message);
 }
 
@@ -137,7 +137,7 @@ TEST(FrameCodec, AnUnknownEncodingOfDepthIsAnError) {
   EXPECT_FALSE(decode_frame(message));
 }
 
-// The generated decoder would allocate what these claim.
+// The decoder that lcm-gen generates would allocate the sizes that these messages state.
 TEST(FrameCodec, LyingArrayLengthsInTheBytesAreErrors) {
   const rgbd_frame_t message = message_of();
   auto bytes = encode_message(message);

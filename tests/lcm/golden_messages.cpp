@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kTime = 1'234'567'890'123'456;
 
-/// Gives numbers that are all different, so that two swapped fields change the bytes.
+/// Returns another number in every call, so that two swapped fields change the bytes.
 class Counter {
  public:
   template <class T>

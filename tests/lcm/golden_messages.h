@@ -9,7 +9,8 @@
 
 namespace barehand::golden {
 
-/// A message of each type with a different value in every field; tests/golden/lcm/TYPE.bin holds its bytes.
+/// A message of each type with a different value in every field. Its encoded bytes are stored in
+/// tests/golden/lcm/TYPE.bin.
 rgbd_frame_t rgbd_frame();
 hand_state_t hand_state();
 glove_state_t glove_state();

@@ -18,7 +18,7 @@ Bytes golden_bytes(const std::string& type) {
   return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 
-/// The golden bytes hold a type if they encode from the fixed message and decode to it.
+/// Whether the message is encoded to the golden bytes, and these are decoded to the message.
 template <class Message>
 bool holds(const Bytes& golden, const Message& message) {
   if (encode_message(message) != golden) return false;
@@ -93,7 +93,7 @@ TYPED_TEST(GoldenMessage, NoDamagedByteCrashesTheDecoder) {
   EXPECT_GE(refused, 4 * 7) << "at least every damage to the fingerprint is refused";
 }
 
-// Fingerprints as the original projects' code states them: with these their logs replay.
+// The fingerprints in the code of the original projects. Their logs can be played only if ours are the same.
 TEST(ForeignTypes, FingerprintsMatchTheOriginals) {
   const auto rotated = [](std::uint64_t sum) { return static_cast<std::int64_t>((sum << 1) + (sum >> 63)); };
   const auto image = static_cast<std::uint64_t>(rotated(0x01fc0e88fea09363));

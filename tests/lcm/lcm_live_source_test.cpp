@@ -14,14 +14,14 @@ namespace barehand {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-constexpr std::chrono::milliseconds kLong(10'000);  // never waited for when all is well
+constexpr std::chrono::milliseconds kLong(10'000);  // a timeout that is reached only by failing tests
 
 Bytes frame_bytes(std::int64_t number) { return encode_message(encode_frame(test_frame(number), {}).value()); }
 
 class LcmLive : public testing::Test {
  protected:
   void send(const std::string& channel, const Bytes& message) { ASSERT_TRUE(bus_->send(channel, message, 0)); }
-  /// Blocks until the receiving thread has seen so many messages.
+  /// Blocks until the receiving thread has received `count` messages.
   void wait_received(std::int64_t count) {
     while (source_.counts().received < count) std::this_thread::yield();
   }

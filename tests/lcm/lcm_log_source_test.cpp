@@ -24,7 +24,7 @@ Bytes frame_bytes(std::int64_t number) { return encode_message(encode_frame(test
 
 class LcmLog : public testing::Test {
  protected:
-  /// To a log that can be read while it grows.
+  /// Appends an event to the log file, which can be read at the same time.
   void append(const std::string& channel, const Bytes& message) {
     if (!writer_) writer_ = std::make_unique<lcm::LogFile>(path_, "w");
     lcm::LogEvent event;
@@ -38,7 +38,7 @@ class LcmLog : public testing::Test {
   void append_frames(int count, const std::string& channel = "RGBD_FRAME") {
     for (int i = 0; i < count; ++i) append(channel, frame_bytes(100 + i));
   }
-  /// "100 101 skip end" for what the source delivers.
+  /// The events that the source delivers, such as "100 101 skip end".
   std::string play(const LcmLogOptions& options = {}) {
     auto source = LcmLogSource::open(path_, options);
     if (!source) return source.error().message();
@@ -216,7 +216,7 @@ TEST_F(LcmLog, ATornEventDoesNotTakeThoseBehindItAlong) {
     EXPECT_EQ(LcmLogReader::open(path_)->entries().size(), 3u);
   }
   Bytes bytes = whole;
-  bytes[static_cast<std::size_t>(third)] ^= 0xFF;  // the second frame is followed by damage, but whole
+  bytes[static_cast<std::size_t>(third)] ^= 0xFF;  // the damage follows the second frame, which is complete
   replace_file(bytes);
   EXPECT_EQ(play(), "100 101 end");
 }
@@ -252,7 +252,7 @@ TEST_F(LcmLog, AFolderPlaysItsLogsInTheOrderOfTheirNames) {
     const auto log = LcmLogWriter::create(folder_ / name, false).value();
     for (int i = 0; i < 2; ++i) ASSERT_TRUE(log->send("RGBD_FRAME", frame_bytes(number + i), 42));
   }
-  std::ofstream(folder_ / "c.lcmlog");  // killed before its first event
+  std::ofstream(folder_ / "c.lcmlog");  // a log whose recorder was killed before the first event
   std::ofstream(folder_ / "notes.txt") << "no log";
   path_ = folder_.path();
   EXPECT_EQ(play(), "1 2 3 4 end");
@@ -281,7 +281,7 @@ TEST_F(LcmLog, AFolderPlaysWhatAKilledRecorderLeft) {
   ASSERT_EQ(source->doubts().size(), 1u);
   EXPECT_NE(source->doubts().front().find("2.lcmlog.unfinished: was left by a killed recorder"), std::string::npos);
 
-  // The recorder is started again and gives it its name.
+  // When the recorder is started again, it gives the unfinished log its final name.
   std::filesystem::rename(folder_ / "2.lcmlog.unfinished", folder_ / "2.lcmlog");
   for (int i = 0; i < 3; ++i)
     EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(std::chrono::milliseconds(0)))) << i;

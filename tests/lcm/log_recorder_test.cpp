@@ -167,7 +167,7 @@ TEST_F(LogRecorderTest, EndsWhereTheDiskIsFullAndKeepsWhatWasWritten) {
   EXPECT_EQ(r->state().frames, 1);
   EXPECT_THAT(times(kName + ".lcmlog"), ElementsAre(1));
 
-  // There may be room again.
+  // The recorder can be started again, since there may be space on the disk by then.
   ASSERT_TRUE(r->start(kUser));
   EXPECT_FALSE(r->state().failed);
   post(*r, 3);
@@ -176,7 +176,7 @@ TEST_F(LogRecorderTest, EndsWhereTheDiskIsFullAndKeepsWhatWasWritten) {
 }
 
 TEST_F(LogRecorderTest, SaysThatTheFolderIsGone) {
-  // While it records.
+  // The folder is removed while the recorder records.
   const auto r = recorder();
   ASSERT_TRUE(r->start(kUser));
   fs::remove_all(folder_ / "takes");
@@ -186,7 +186,7 @@ TEST_F(LogRecorderTest, SaysThatTheFolderIsGone) {
   EXPECT_TRUE(r->state().failed);
   EXPECT_THAT(r->state().note, HasSubstr("the folder is gone"));
 
-  // Before it starts.
+  // The folder is missing when the recorder is started.
   const auto started = r->start(kUser);
   ASSERT_FALSE(started);
   EXPECT_THAT(started.error().message(), HasSubstr(folder_ / "takes"));

@@ -1,4 +1,4 @@
-// Started by without_multicast.sh, in a network without any route.
+// Tests the error message in a network without any route. To be started by without_multicast.sh.
 #include <gtest/gtest.h>
 
 #include "io/lcm/lcm_bus.h"

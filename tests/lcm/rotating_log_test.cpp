@@ -22,7 +22,7 @@ class Rotating : public ::testing::Test {
   std::unique_ptr<RotatingLog> open(const LogRotation& rotation) {
     return RotatingLog::create(folder_ / "set/take.lcmlog", rotation, clock_).value();
   }
-  /// An event of 1000 bytes in the file.
+  /// Writes an event that takes 1000 bytes in the file.
   void send(RotatingLog& log, std::int64_t utime) {
     const std::vector<std::uint8_t> message(1000 - 28 - 1, 7);
     const auto sent = log.send("A", message, utime);
@@ -34,7 +34,7 @@ class Rotating : public ::testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-  /// Stamps of the events in all files, in their order.
+  /// Time stamps of the events in all files, in their order [us].
   std::vector<std::int64_t> stamps() const {
     std::vector<std::int64_t> stamps;
     for (const std::string& name : names()) {
@@ -123,11 +123,11 @@ TEST_F(Rotating, AFileThatSomebodyRemovedIsNoTrouble) {
   EXPECT_EQ(stamps().back(), 10);
 }
 
-/// Puts a device that is full in the place of a file that this process has open: nothing can be written, nor cut off.
+/// Replaces a file that this process has open by a full device, which can neither be written nor truncated.
 void break_open_file(const fs::path& path) {
   bool broken = false;
   for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
-    std::error_code gone;  // the descriptor that lists the folder
+    std::error_code gone;  // the descriptor that reads this folder has no target any more
     if (fs::read_symlink(entry.path(), gone) != path) continue;
     const int full = ::open("/dev/full", O_WRONLY);
     ::dup2(full, std::stoi(entry.path().filename()));

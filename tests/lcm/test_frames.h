@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// A small frame with measured and unmeasured pixels, steep steps and colours with black ones among them.
+/// A small frame with measured and unmeasured pixels, large steps of depth, and colours including black.
 inline RgbdFrame test_frame(std::int64_t number, int width = 40, int height = 30) {
   RgbdFrame frame;
   frame.number = number;

@@ -1,4 +1,4 @@
-// Real UDP on the loopback interface; started by with_multicast.sh.
+// Tests LCM over UDP on the loopback interface. To be started by with_multicast.sh.
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
@@ -12,9 +12,9 @@
 namespace barehand {
 namespace {
 
-constexpr std::chrono::milliseconds kLong(20'000);  // never waited for when all is well
+constexpr std::chrono::milliseconds kLong(20'000);  // a timeout that is reached only by failing tests
 
-/// A port of its own for each process, so that tests that run side by side do not hear each other.
+/// Every process uses another port, so that tests that run at the same time do not receive each other's messages.
 std::string url() { return "udpm://239.255.76.67:" + std::to_string(20'000 + ::getpid() % 40'000) + "?ttl=0"; }
 
 std::unique_ptr<LcmBus> connect() {
@@ -59,7 +59,7 @@ TEST(Udp, AForeignMessageIsSkippedAndTheNextFrameArrives) {
   EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(kLong)));
 }
 
-/// Subscribes and never handles a message: its queue and its socket fill up and stay full.
+/// A receiver that subscribes but never handles a message, so that its queue and its socket become full.
 class DeafSubscriber {
  public:
   DeafSubscriber() : bus_(connect()) { lcm_subscribe(bus_->lcm().getUnderlyingLCM(), "HAND_STATE", ignore, nullptr); }
@@ -74,7 +74,7 @@ TEST(Udp, ASubscriberThatNeverReadsDoesNotStallThePublisher) {
   auto sender = connect();
   auto source = LcmLiveSource::open(url(), {.channel = "HAND_STATE"}).value();
   const std::vector<std::uint8_t> state(60'000, 1);
-  // Far more than every buffer of the deaf one holds; a sender that waited for it would never get here.
+  // Send far more than all buffers of this receiver hold. A sender that waited for it would block here.
   for (int i = 0; i < 2000; ++i) ASSERT_TRUE(sender->send("HAND_STATE", state, 0));
   while (source->counts().received == 0) std::this_thread::yield();
 }

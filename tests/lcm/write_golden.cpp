@@ -1,4 +1,4 @@
-// Writes tests/golden/lcm/*.bin. Run it only for a new type: a changed file means that old logs cannot be read.
+// Writes tests/golden/lcm/*.bin. Run it only for a new type: if a file changes, old logs cannot be read any more.
 #include <fstream>
 #include <iostream>
 #include <string>

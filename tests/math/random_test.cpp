@@ -5,7 +5,7 @@
 namespace barehand {
 namespace {
 
-// Known answers from the Random123 distribution (kat_vectors: philox 4x32 10).
+// The expected numbers are from the Random123 distribution (file kat_vectors, philox 4x32 10).
 TEST(Philox, MatchesReferenceVectors) {
   EXPECT_EQ(Philox::block(0, {0, 0, 0, 0}),
             (std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));

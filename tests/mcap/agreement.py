@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What `track --mcap` writes is what the program publishes on LCM and what the camera saw: joint states, transforms, depth,
-colour and intrinsics, read by programs that share no code with it. First shows, on a changed value, that it notices.
+"""Checks that the file of `track --mcap` agrees with the messages on LCM (joint states, transforms) and with the frames
+(depth, colour, intrinsics). It is read by code that is independent of the program. First checks that a changed value is
+found.
   agreement.py BAREHAND LCMTYPES CONFIG"""
 import glob
 import json
@@ -39,7 +40,7 @@ def close(a, b):
 
 
 def disagreements(mcap, states, gloves):
-    """Sentences. `states`, `gloves`: LCM messages by their time and side."""
+    """Descriptions of all differences. `states`, `gloves`: LCM messages by time and side."""
     joints = {(time, side): message for side in ["right", "left"]
               for time, _, message in mcap.of_topic(f"/{side}_hand/joint_states")}
     transforms = {time: {t["child_frame_id"]: t for t in message["transforms"]} for time, _, message in mcap.of_topic("/tf")}
@@ -62,7 +63,7 @@ def disagreements(mcap, states, gloves):
 
 
 def image_disagreements(mcap, folder):
-    """`folder`: the recording that was tracked."""
+    """Descriptions of all differences to the images in `folder`, the recording that was tracked."""
     with open(folder + "/depth.txt") as file:
         lines = [line.split() for line in file if not line.startswith("#")]
     depth = {round(float(time) * 1e6) * 1000: name for time, name in lines}

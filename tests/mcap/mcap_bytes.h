@@ -21,7 +21,7 @@ inline void write_bytes(const std::string& path, const Bytes& bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Composes MCAP files that McapWriter would never write: of other programs, and with lies in them.
+/// Composes MCAP files that McapWriter would never write: those of other programs, and files with wrong values.
 class ForeignMcap {
  public:
   ForeignMcap() : writer_(bytes_) {
@@ -31,7 +31,7 @@ class ForeignMcap {
     writer_.put_text("another program");
     writer_.end();
   }
-  /// Outside of chunks, as the format allows. The schema gets the channel's number.
+  /// Adds a channel and its schema, which gets the same number, outside of chunks, as the format allows.
   ForeignMcap& channel(std::uint16_t id, const std::string& topic, const std::string& type,
                        const std::string& encoding = "cdr") {
     writer_.begin(mcap::Kind::schema);
@@ -71,7 +71,7 @@ class ForeignMcap {
     writer_.end();
     return *this;
   }
-  /// With its end, but without a summary.
+  /// Writes the file with the records that end it, but without a summary.
   void write(const std::string& path) {
     writer_.begin(mcap::Kind::data_end);
     writer_.put<std::uint32_t>(0);

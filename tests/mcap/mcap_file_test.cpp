@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Bytes that no compression makes smaller, so that chunks have the size they seem to have.
+/// Random bytes, which compression does not make smaller, so that the sizes of chunks can be predicted.
 Bytes noise(std::size_t size, std::uint32_t seed) {
   Bytes bytes(size);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>((seed = seed * 1664525 + 1013904223) >> 24);
@@ -28,7 +28,7 @@ class McapFile : public testing::Test {
   static NewMessage message(int number, std::size_t size = 500'000) {
     return {"/depth", "sensor_msgs/msg/Image", "uint32 width\n", {{"depth_unit", "0.001"}}, noise(size, number)};
   }
-  /// So many messages, three of which make a chunk.
+  /// Writes `count` messages. Three of them fill a chunk.
   void write(int count) {
     auto writer = McapWriter::create(path_, true).value();
     for (int i = 0; i < count; ++i) add(*writer, i);
@@ -38,7 +38,7 @@ class McapFile : public testing::Test {
     const NewMessage one = message(number);
     ASSERT_TRUE(writer.write({&one, 1}, 1000 + static_cast<std::uint64_t>(number), static_cast<std::uint32_t>(number)));
   }
-  /// The sequence numbers of the messages whose bytes are as they were written, in the order of the file.
+  /// The sequence numbers of the messages that are read as they were written, in the order of the file.
   std::vector<int> read() {
     std::vector<Message> found;
     auto reader = McapReader::open(path_, [&](const Message& message, const Channel& channel, auto) {

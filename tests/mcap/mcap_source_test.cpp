@@ -59,7 +59,7 @@ class McapReplay : public testing::Test {
   double fps_ = 0;
 };
 
-/// A bag of another program: depth in millimetres, colour, and what else is asked for.
+/// A ROS bag as another program writes it, with depth in millimetres and colour; the arguments change it.
 class Bag {
  public:
   Bag() {

@@ -1,5 +1,6 @@
-"""Reads MCAP files of ROS 2 messages by the text of the specifications alone (https://mcap.dev/spec, OMG's CDR), knowing
-nothing of the program that wrote them: the schemas in the file say what the messages hold."""
+"""Reads MCAP files of ROS 2 messages. It is implemented from the specifications alone (https://mcap.dev/spec, OMG's
+CDR) and takes the fields of messages from the schemas in the file, so it is independent of the program that wrote
+them."""
 import ctypes
 import struct
 import zlib
@@ -20,7 +21,7 @@ def unzstd(packed, size):
 
 
 class Fields:
-    """Takes fields out of the content of a record."""
+    """Reads the fields of a record one after the other."""
 
     def __init__(self, data):
         self.data, self.at = data, 0
@@ -98,7 +99,7 @@ class Schema:
 
 
 class McapFile:
-    """All messages of a finished file, after a check of its index, counts and check sums."""
+    """All messages of a finished file. Its index, counts and checksums are checked when it is opened."""
 
     def __init__(self, path):
         with open(path, "rb") as file:

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A hand whose segment s lies at (s, 0, 1) cm, turned about z.
+/// A hand whose segment s is at (s, 0, 1) cm and is rotated about z.
 HandState hand(bool has_pose, std::int8_t side = hand_state_t::RIGHT) {
   HandState hand{};
   hand.state.utime = 1'700'000'000'123'456;
@@ -65,13 +65,13 @@ TEST(Cdr, NumbersAreAlignedFromTheHeaderOnAndGapsAreZero) {
   message.position = {1.0};
   const Bytes expected = {0, 1, 0, 0,                        // little endian
                           1, 0, 0, 0, 2,   0,   0,    0,     // stamp
-                          3, 0, 0, 0, 'a', 'b', 0,    0,     // frame, and a gap
+                          3, 0, 0, 0, 'a', 'b', 0,    0,     // frame, and padding
                           0, 0, 0, 0,                        // no name
                           1, 0, 0, 0,                        // a position, which lies at a multiple of 8
                           0, 0, 0, 0, 0,   0,   0xf0, 0x3f,  //
                           0, 0, 0, 0, 0,   0,   0,    0};    // no velocity, no effort
   for (int again = 0; again < 20; ++again) {
-    const Bytes dirt(64 + 16 * static_cast<std::size_t>(again), 0xaa);  // in the memory that is used next
+    const Bytes dirt(64 + 16 * static_cast<std::size_t>(again), 0xaa);  // stays in the memory that is allocated next
     EXPECT_EQ(encode(message), expected) << dirt.size();
   }
 }

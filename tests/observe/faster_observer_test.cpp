@@ -21,7 +21,7 @@ class Faster : public ::testing::Test {
         std::make_unique<TimedDevice>(Stopwatch(clock_, std::move(device_us)), failing), "Card 9",
         std::make_unique<TimedCpu>(Stopwatch(clock_, std::move(cpu_us))), test::text_logger(log_), clock_);
   }
-  /// Who compared the next batch.
+  /// Compares a batch; returns which observer did it (kByCpu or kByDevice).
   float who(FasterObserver& observer) {
     PatchDistances distances;
     observer.compare(batch_.batch(), distances);
@@ -79,7 +79,7 @@ TEST_F(Faster, DeviceThatFailsLaterLeavesItsBatchToTheCpu) {
 
 TEST_F(Faster, DeviceThatTurnsSlowLeavesItsBatchToTheCpu) {
   std::deque<std::int64_t> calls(20, 400);
-  calls.push_back(102'000);  // loses 101 ms a call
+  calls.push_back(102'000);  // loses 101 ms in each call
   const auto observer = this->observer({1'000}, std::move(calls));
   who(*observer);
   for (int i = 0; i < 16; ++i) EXPECT_EQ(who(*observer), kByDevice) << i;

@@ -44,7 +44,7 @@ TEST_F(CompareTest, DepthShiftCostsItsLength) {
 }
 
 TEST_F(CompareTest, UnexplainedDataCosts) {
-  // The tracker's fingers are curled while the visible ones are straight: the data in their place must count.
+  // The tracker's fingers are curled while the visible ones are straight. The data of the straight ones must count.
   const ModelComparison curled = compare_at(*observation_, test::facing_pose(*profile_, 0.45, 1.3));
   int unexplained = 0;
   for (const Correspondence& c : curled.correspondences) unexplained += c.kind == Correspondence::Kind::unexplained;
@@ -127,12 +127,13 @@ TEST_F(HidingPlaceTest, NothingHidesBehindWhatIsFartherAway) {
   EXPECT_EQ(pulled_behind_object(compare_beside_object(0.6f)), 0);
 }
 
-// Skin a little in front of something that is not hand is best explained by lying behind it. The cost is the distance
-// by which it stands out.
+// Skin slightly in front of data that is not hand is probably behind it in reality. The cost is the distance by which
+// it is in front.
 TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
-  // The number of points that should go back if the fingers are something else and stand out `by` [m].
+  // The number of points that should move back if the data at the fingers has this label and is `by` [m] behind the
+  // skin.
   const auto standing_out = [&](PixelLabel label, float by) {
-    const auto other = std::make_shared<HandObservation>(*observation_);  // the fingers are something else
+    const auto other = std::make_shared<HandObservation>(*observation_);  // gets the label at the fingers
     for (int v = 0; v < 100; ++v)
       for (int u = 0; u < 320; ++u)
         if (other->label.at(u, v) != PixelLabel::background) other->label.at(u, v) = label;
@@ -141,14 +142,14 @@ TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
     std::erase_if(comparison.correspondences,
                   [](const Correspondence& c) { return c.kind != Correspondence::Kind::behind; });
 
-    // They go back along their line of sight, by the distance by which they stand out.
+    // They should move back along their line of sight by the distance `by`.
     for (const Correspondence& c : comparison.correspondences)
       EXPECT_LT((c.data.head<2>() / c.data.z() - c.model.head<2>() / c.model.z()).norm(), 1e-5);
     const auto is_back = [&](const Correspondence& c) { return std::abs(c.data.z() - c.model.z() - by) < 1e-3; };
     return std::ranges::count_if(comparison.correspondences, is_back);
   };
 
-  // Only skin that stands out a little goes back.
+  // Only skin that is slightly in front should move back.
   for (const PixelLabel label : {PixelLabel::object, PixelLabel::background}) {
     EXPECT_GT(standing_out(label, 0.003f), 50);
     EXPECT_EQ(standing_out(label, 0.02f), 0) << "far out it goes aside";
@@ -156,7 +157,7 @@ TEST_F(CompareTest, SkinThatStandsOutOfWhatIsSeenGoesBackIntoIt) {
   }
 }
 
-// A finger beside the outline of the hand is one step aside from being hidden by the hand, however deep it is.
+// A finger outside the outline of the hand needs only a small sideways motion to be hidden by the hand, at any depth.
 TEST_F(CompareTest, SkinBesideTheHandMayHideBehindIt) {
   const auto aside = [&](double deeper) {
     int count = 0;

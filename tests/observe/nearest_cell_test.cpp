@@ -22,7 +22,7 @@ TEST(NearestCell, IsAsNearAsBruteForce) {
   NearestCell nearest;
   nearest.index(occupied);
 
-  // The nearest one is as near as the one that brute force finds.
+  // The distance to the nearest cell equals that found by brute force.
   for (int v = 0; v < occupied.height(); ++v)
     for (int u = 0; u < occupied.width(); ++u) {
       int best = std::numeric_limits<int>::max();

@@ -69,12 +69,12 @@ class RigidIcp : public testing::Test {
     model_ = visible_points_.of(surface_, before_, test::small_camera(), params_.model_points);
     centre_ = before_[kPalm] * Eigen::Vector3d(0, 0, -0.07);
   }
-  /// Rotation about the middle of the palm, then a shift.
+  /// Rotation by the vector `w` [rad] about the middle of the palm, followed by a shift [m].
   SE3 motion(const Eigen::Vector3d& w, const Eigen::Vector3d& shift) const {
     const Eigen::Matrix3d R = exp_so3(w);
     return {R, centre_ - R * centre_ + shift};
   }
-  /// To a frame that follows the one of `model_`.
+  /// Aligns the model with the cloud of the next frame.
   IcpResult align(const ObservedCloud& cloud, const SE3& last_motion) const {
     return align_rigid(model_, cloud, last_motion, motion_bound(params_, kFrame), params_);
   }

@@ -11,7 +11,7 @@
 
 namespace barehand {
 
-/// A batch of so many samples that nobody looks at.
+/// A batch with a given number of samples, whose poses do not matter.
 struct EmptyBatch {
   explicit EmptyBatch(int per_segment) {
     for (auto& of_segment : poses) of_segment.resize(per_segment);
@@ -23,14 +23,14 @@ struct EmptyBatch {
   std::array<std::vector<SE3>, kSegmentCount> poses;
 };
 
-/// What the observers below say of every sample.
+/// The distances that the observers below return for every sample; they identify the observer.
 inline constexpr float kByCpu = 1, kByDevice = 2;
 
 inline void say(float distance, const SampleBatch& batch, PatchDistances& distances) {
   for (int s = 0; s < kSegmentCount; ++s) distances[s].assign(batch.poses[s].size(), {distance, 1, 1});
 }
 
-/// Takes given times for its calls, the last one for all later calls.
+/// An observer whose calls take given times; the last time applies to all later calls.
 class Stopwatch {
  public:
   Stopwatch(std::shared_ptr<ManualClock> clock, std::deque<std::int64_t> call_us)
@@ -59,7 +59,7 @@ class TimedCpu final : public Observer {
 
 class TimedDevice final : public DeviceObserver {
  public:
-  /// Fails in call number `failing`, from 0; never if negative.
+  /// The call with the number `failing`, counted from 0, fails; none if negative.
   explicit TimedDevice(Stopwatch time, int failing = -1, std::vector<std::uint64_t>* map_ids = nullptr)
       : time_(std::move(time)), calls_left_(failing), map_ids_(map_ids) {}
   Result<void> compare(const SampleBatch& batch, PatchDistances& distances) override {

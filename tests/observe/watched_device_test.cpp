@@ -7,11 +7,11 @@
 namespace barehand {
 namespace {
 
-constexpr double kCpuSeconds = 1e-6;  // a sample
+constexpr double kCpuSeconds = 1e-6;  // per sample
 constexpr int kPerSegment = 100;      // the CPU takes 1.6 ms for all segments
-constexpr int kLongRun = 10'000;      // calls, some minutes of tracking
+constexpr int kLongRun = 10'000;      // number of calls in some minutes of tracking
 
-/// Calls that succeed, up to a long run.
+/// The number of calls that succeed before the device is given up, at most kLongRun.
 int good_calls(std::deque<std::int64_t> call_us, int per_segment = kPerSegment) {
   const auto clock = std::make_shared<ManualClock>();
   WatchedDevice device(std::make_unique<TimedDevice>(Stopwatch(clock, std::move(call_us))), kCpuSeconds, clock);

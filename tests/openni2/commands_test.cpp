@@ -1,4 +1,4 @@
-// Runs the program like a user, with the virtual sensor.
+// Tests commands of the program with the virtual sensor.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -40,7 +40,7 @@ TEST(OpenNiCommands, RecordsAndPlaysBack) {
 }
 
 TEST(OpenNiCommands, ARecordingSaysThatItsDiskCannotKeepUp) {
-  // A pipe stands for the disk, which is as slow as the pipe's reader.
+  // The log is written to a pipe, which is as slow as its reader: it replaces a slow disk.
   VirtualSensor sensor;
   const test::TempFolder folder;
   const std::string log = folder / "slow.lcmlog";
@@ -140,7 +140,7 @@ TEST(OpenNiCommands, TrackingOutlivesTheCable) {
   sensor.unplug();
   ASSERT_TRUE(track.wait_for("was unplugged")) << track.output();
 
-  // Long enough for a second message about the same thing.
+  // Wait long enough for a second message about the same fault.
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   sensor.set({{"plugged", "1"}, {"uri", "virtual/3"}, {"sim", "fist,noise=kinect,width=160,height=120"}});
   ASSERT_TRUE(track.wait_for("160x120")) << track.output();

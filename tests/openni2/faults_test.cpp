@@ -1,4 +1,4 @@
-// Injects everything that can go wrong with a sensor into the virtual one while it streams.
+// Tests how the source reacts to faults of the virtual sensor that start while it streams.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -14,11 +14,11 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A clock that can be set like that of a machine.
+/// A clock that can be set, like the system's clock.
 class SettableClock : public SystemClock {
  public:
   std::int64_t utime() const override { return SystemClock::utime() + set_by; }
-  std::atomic<std::int64_t> set_by = 0;  ///< us
+  std::atomic<std::int64_t> set_by = 0;  ///< offset from the system's clock [us]
 };
 
 class OpenNiFaults : public ::testing::Test {
@@ -58,7 +58,7 @@ TEST_F(OpenNiFaults, UnpluggedAndPluggedIntoAnotherPort) {
   const FramePtr before = reader_->frame();
   sensor_.unplug();
   ASSERT_TRUE(reader_->told("virtual/1 was unplugged"));
-  reader_->frames_within(milliseconds(100));  // frames that were under way
+  reader_->frames_within(milliseconds(100));  // read the frames that were already on their way
   EXPECT_EQ(reader_->frames_within(milliseconds(500)), 0);
   sensor_.set({{"plugged", "1"}, {"uri", "virtual/9"}});
   const FramePtr after = reader_->frame();
@@ -91,7 +91,7 @@ TEST_F(OpenNiFaults, StallWithoutAnError) {
 TEST_F(OpenNiFaults, AHiccupOfBothCamerasIsNoReasonToDoubtThatTheyAreInStep) {
   stream();
   inject("stall");
-  reader_->frames_within(milliseconds(750));  // more than half of the patience, but not all of it
+  reader_->frames_within(milliseconds(750));  // more than half of the time until a stall is reported, but not all of it
   inject("none");
   reader_->frames(20);
   EXPECT_THAT(reader_->notices, Not(HasSubstr("synchronise")));
@@ -225,7 +225,7 @@ TEST_F(OpenNiFaults, ManyPlugsCostNothing) {
     }
   };
 
-  // Count files and threads after some plugs ...
+  // Count open files and threads after the sensor was plugged in some times ...
   replug(5);
   const auto open_files = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());

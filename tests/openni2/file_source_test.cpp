@@ -21,7 +21,7 @@ const std::string kSim = "fist,noise=kinect,width=160,height=120";
 
 class OniFile : public ::testing::Test {
  protected:
-  /// Lets OpenNI2 itself record the virtual sensor; `fault` is in force from the middle of the recording on.
+  /// Records the virtual sensor by OpenNI2's own recorder. `fault` starts in the middle of the recording.
   void record_file(const std::string& streams, const std::string& fault = "none") {
     ChildProcess recorder({BAREHAND_RECORD_ONI, path_, "1600", streams});
     ASSERT_TRUE(recorder.wait_for("recording")) << recorder.output();

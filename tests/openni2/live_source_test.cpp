@@ -87,7 +87,7 @@ TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
   ASSERT_EQ(frames.size(), 60u);
 
   // Numbers and times agree with the rate.
-  const FramePtr& first = frames[20];  // by now the clock is known
+  const FramePtr& first = frames[20];  // by now the offset of the sensor's clock has been estimated
   for (std::size_t i = 21; i < frames.size(); ++i) {
     EXPECT_GT(frames[i]->number, frames[i - 1]->number);
     const double expected = 1e6 / 30 * static_cast<double>(frames[i]->number - first->number);
@@ -95,9 +95,9 @@ TEST(OpenNiLiveSource, NumbersAndTimesCountWhatTheSensorExposed) {
   }
   EXPECT_LT(std::abs(stream.clock.utime() - frames.back()->utime), 5'000'000);
 
-  // The counts agree once nothing is under way any more.
+  // The counts agree when all frames have arrived.
   stream.sensor.set({{"fault", "stall"}});
-  ASSERT_TRUE(stream.reader.told("stalled"));  // nothing is under way any more
+  ASSERT_TRUE(stream.reader.told("stalled"));  // all frames have arrived
   const auto queues = stream.source.queues();
   EXPECT_EQ(queues[0].popped, queues[1].pushed + stream.reader.skipped);
   EXPECT_EQ(queues[0].pushed, queues[0].popped + queues[0].dropped);

@@ -1,5 +1,5 @@
-// Records the first sensor with OpenNI2's own recorder, in a process of its own, since it crashes when it is used
-// twice.
+// Records the first sensor with OpenNI2's own recorder. This is a separate program because the recorder crashes if a
+// process uses it twice.
 // Usage: record_oni FILE MILLISECONDS depth|both
 #include <OpenNI.h>
 

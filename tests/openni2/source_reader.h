@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// Reads a source like the pipeline, and keeps the messages.
+/// Reads a source as the pipeline does, and keeps the notices.
 class SourceReader {
  public:
   explicit SourceReader(FrameSource& source) : source_(source) {}
@@ -55,7 +55,7 @@ class SourceReader {
     }
     return false;
   }
-  /// False: nothing arrived.
+  /// Reads the next event; false if none arrived.
   bool read() {
     SourceEvent event = source_.next(std::chrono::milliseconds(20));
     last_ = nullptr;

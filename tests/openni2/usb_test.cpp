@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 constexpr const char* kUri = "1d27/0601@1/4";
 constexpr UsbAddress kAddress{0x1d27, 0x0601, 1, 4};
 
-/// A bus with one device; a reset calls `cure`, which mends the virtual sensor.
+/// A simulated USB bus with one device. Resetting it calls `cure`, which ends the fault of the virtual sensor.
 struct Bus {
   std::function<void()> changed, cure;
   std::vector<UsbSensor> plugged;
@@ -83,19 +83,19 @@ TEST_F(OpenNiOnUsb, ASensorThatOpensAndNeverAnswersIsReset) {
 }
 
 TEST_F(OpenNiOnUsb, ASensorThatNoResetHelpsIsResetThreeTimes) {
-  // A clock that runs fast.
+  // A clock that runs fast shortens the waits.
   class Hurried : public SystemClock {
    public:
     std::int64_t steady_us() const override { return 10 * SystemClock::steady_us(); }
   } hurried;
 
-  // A sensor that stalls and that no reset mends.
+  // A sensor that stalls; no reset ends the fault.
   sensor_.set({{"uri", kUri}, {"fault", "stall"}});
   bus_.cure = [] {};
   OpenNiLiveSource source("", params_, 8, hurried, std::make_unique<RecordingBus>(bus_));
   SourceReader reader(source);
 
-  // Every second time that it was opened in vain, its port might be reset.
+  // The port may be reset after every second failed attempt to open the sensor.
   for (int opened = 0; opened < 9; ++opened) {
     reader.notices.clear();
     ASSERT_TRUE(reader.told("opened Barehand")) << opened;
@@ -124,10 +124,10 @@ TEST_F(OpenNiOnUsb, EveryPlugIsLookedAtWithoutDelay) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "back-off alone needs 27 s";
 }
 
-/// A finder that looks for a sensor that is not there.
+/// A SensorFinder, and no sensor that it could find.
 class OpenNiFinderOnUsb : public ::testing::Test {
  protected:
-  /// Whether the next look loads OpenNI2, for which it asks for the state of the bus once more.
+  /// Whether the next search loads OpenNI2. If it does, it reads the state of the bus once more.
   bool loads() {
     const int before = bus_.states;
     EXPECT_FALSE(finder_.find());
@@ -157,7 +157,7 @@ TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewWhenTheBusChanges) {
 TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewAfterAChangeThatItMayHaveSeenHalfOf) {
   bus_.state = "1-2#5 ";  // the device is listed already
   EXPECT_TRUE(loads());
-  finder_.bus_changed();  // and now it is complete
+  finder_.bus_changed();  // now all of its interfaces are there
   EXPECT_FALSE(loads()) << "it was loaded";
   EXPECT_TRUE(loads());
   EXPECT_FALSE(loads_after(0)) << "once is enough";

@@ -14,8 +14,8 @@
 
 namespace barehand {
 
-/// Tells the virtual OpenNI2 device (virtual_device/settings.h), in this process and in child processes, what to be.
-/// Only one may exist at a time, and it must exist before OpenNI2 starts.
+/// Controls the virtual OpenNI2 device (virtual_device/settings.h) in this process and in child processes, by a file of
+/// settings. Only one object may exist at a time, and it must be created before OpenNI2 starts.
 class VirtualSensor {
  public:
   using Settings = std::map<std::string, std::string>;
@@ -24,12 +24,12 @@ class VirtualSensor {
     write();
     setenv("BAREHAND_VIRTUAL_OPENNI2", path_.c_str(), 1);
     setenv("LD_LIBRARY_PATH", BAREHAND_OPENNI2_SDK, 1);
-    // Until a driver that another test left loaded has noticed.
+    // Wait until a driver that an earlier test left loaded has read the file.
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   ~VirtualSensor() { unsetenv("BAREHAND_VIRTUAL_OPENNI2"); }
 
-  /// Changes settings; they are in force within a few hundredths of a second.
+  /// Changes settings. They are applied within a few hundredths of a second.
   void set(const Settings& changes) {
     for (const auto& [key, value] : changes) settings_[key] = value;
     write();
@@ -44,7 +44,7 @@ class VirtualSensor {
       std::ofstream file(draft);
       for (const auto& [key, value] : settings_) file << key << "=" << value << "\n";
     }
-    std::rename(draft.c_str(), path_.c_str());  // so that the file is never seen half written
+    std::rename(draft.c_str(), path_.c_str());  // so that the driver never reads a half-written file
   }
 
   test::TempFolder folder_;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs the packages into a fresh, minimal Debian 12 tree, runs them there as an ordinary user, and removes them again.
 #   tests/package/clean_install.sh barehand_VERSION.deb [MIRROR]    as root; needs mmdebstrap and a Debian mirror
-# barehand-video_VERSION.deb and python3-barehand_VERSION.deb lie beside it.
-# The simulator's hands are those of deploy/fetch_hand_mesh.sh, or in the folder BAREHAND_HANDS.
+# The packages barehand-video and python3-barehand of the same version must be in the same folder.
+# The simulator's hand meshes are downloaded by deploy/fetch_hand_mesh.sh, or taken from the folder BAREHAND_HANDS.
 set -euo pipefail
 
 package=$(realpath "$1") mirror=${2:-http://deb.debian.org/debian}
@@ -20,7 +20,7 @@ root=$work/root
 
 say() { echo "== $*"; }
 die() { echo "FAILED: $*" >&2; exit 1; }
-# A network whose loopback carries multicast, and the tree's own /proc: nothing leaves the machine.
+# Runs a command in the tree, with its own /proc and with a private network whose loopback interface carries multicast.
 inside() {
   unshare --net --mount --pid --fork sh -c '
     ip link set lo up && ip route add 224.0.0.0/4 dev lo &&
@@ -56,7 +56,8 @@ grep -q "): 10 published" "$work/track" || die "not 10 frames published"
 [ -s "$root/tmp/fist.csv" ] && [ -s "$root/tmp/fist.lcmlog" ] || die "nothing is written"
 inside barehand track --config paper --print-config >/dev/null || die "it does not find paper.yaml"
 
-# The loader takes the program for AVX2 unless the processor has none: as if it had none, the other one runs.
+# The loader chooses the library built for AVX2 if the processor supports it. Here it is told that it does not, so that
+# the other one is tested, too.
 say "the program for processors without AVX2"
 older=(env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2)
 inside "${older[@]}" barehand doctor >"$work/doctor_older" || die "it does not run"
@@ -73,7 +74,7 @@ say "videos"
 video_of_fist() { inside barehand track --source sim:fist,frames=10 --no-publish --overlay /tmp/fist.mp4; }
 video_of_fist >"$work/video" 2>&1 && die "it writes a video without its module"
 grep -q 'install the package barehand-video' "$work/video" || die "it does not say what a video needs"
-# apt takes no package from a file without downloading, so dpkg does, and apt adds what it depends on.
+# Installs a package file with dpkg, then its dependencies with apt, which would not install a file without downloads.
 add() {
   { chroot "$root" dpkg --unpack "/opt/$(basename "$1")" &&
     chroot "$root" apt-get install --fix-broken --yes --no-download; } >"$work/log" 2>&1 ||

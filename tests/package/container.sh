@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds the image of deploy/Containerfile, or takes one, and tries it: doctor, an element of the Kubernetes job as a pod
-# would run it, and a service that is heard on LCM and stops in time.
+# Tests the container image of deploy/Containerfile, which is built unless one is given: runs `barehand doctor`, an
+# element of the Kubernetes job as in a pod, and a service, which must publish on LCM and stop in time.
 #   tests/package/container.sh [IMAGE]    as root; needs podman and, to build, a registry with debian:12-slim
-# PODMAN: podman with its options; PODMAN_BUILD: those of its build. The simulator's hands as for clean_install.sh.
+# PODMAN: the podman command with its options. PODMAN_BUILD: options of `podman build`. BAREHAND_HANDS: as for
+# clean_install.sh.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")") image=${1:-} podman=${PODMAN:-podman}
@@ -44,7 +45,7 @@ done
 for log in a b c; do [ -s "$work/recordings/out/$log/result.csv" ] || die "$log was not tracked"; done
 
 say "a service"
-# A network whose loopback carries multicast: nothing leaves the machine.
+# Use a private network whose loopback interface carries multicast, so that no message leaves the machine.
 unshare --net sh -c '
   ip link set lo up && ip route add 224.0.0.0/4 dev lo || exit 1
   podman=$1 hands=$2 image=$3 heard=$4

@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-/// A person whose hand is larger, broader and longer-fingered than the mean hand, shown in a few poses.
+/// Fits a person whose hand is larger and broader, with longer fingers, than the mean hand, to frames of a few poses.
 class PersonFitTest : public ::testing::Test {
  protected:
   static HandShape shape_of_the_person() {
@@ -23,7 +23,7 @@ class PersonFitTest : public ::testing::Test {
     }
     return shape;
   }
-  // Shows the hand in different directions and bends, and fits.
+  // Adds frames that see the hand from different directions and bent by different amounts, and fits.
   void show(int looks) {
     for (int i = 0; i < looks; ++i) {
       const HandPose facing = test::facing_pose(*person_, 0.45, 0.15 + 0.1 * (i % 8));

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kCell = 0.008;  // m, coarse: few unknowns
 
-/// A hand rotated about its vertical axis and bent, in front of the camera.
+/// A hand in front of the camera, rotated about its vertical axis and with bent joints [rad].
 HandPose shown(const HandProfile& hand, double turn, double mcp, double pip, double thumb) {
   SE3 T_camera_palm = test::facing_pose(hand, 0.4)[kPalm];
   T_camera_palm.R = exp_so3({0, turn, 0}) * T_camera_palm.R;
@@ -36,7 +36,7 @@ std::vector<HandPose> all_shown(const HandProfile& hand) {
   return poses;
 }
 
-/// The frames that a camera takes of `person`; the poses are those that `start` would have.
+/// Frames of the hand `person`. Their poses are given as segment poses of the hand `start`.
 std::vector<ScanFrame> scan_of(const HandProfile& person, const HandProfile& start) {
   const Skin skin = make_blended_skin(person, 0.004);
   const std::vector<HandPose> poses = all_shown(person), guesses = all_shown(start);
@@ -65,7 +65,7 @@ class ScanTest : public ::testing::Test {
 };
 
 TEST_F(ScanTest, AModelThatNothingChangedIsTheHandItStartedFrom) {
-  // With other origins, the tips move to where the skin says.
+  // With other origins, the fingertips move to the end of the skin.
   const HandProfile start = started_as(ProfileOrigin::measured);
   const HandProfile hand = scanned_profile(make_scan_model(start, kCell), make_scan_model(start, kCell));
 
@@ -171,7 +171,7 @@ TEST_F(ScanTest, AFittedRadiusIsThatOfTheSkinAndAMeasuredOneStays) {
   const double end = bone.length + bone.radius[1];
   start.segments[s].radius[1] = bone.radius[1] + 0.001;  // the sections, which the skin follows, stay
 
-  // Only a fitted hand takes the radius of the skin.
+  // Only a fitted hand gets the radius of the skin.
   for (const auto origin : {ProfileOrigin::measured, ProfileOrigin::fitted}) {
     start.origin = origin;
     const ScanModel model = make_scan_model(start, kCell);
@@ -273,7 +273,7 @@ TEST_F(ScanEquationsTest, FindBackHowFarTheSkinStandsOut) {
   for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) change[variables.offset(static_cast<int>(i))] = 0.001;
   const auto step = found_back(Unknown::offset, [&](ScanModel& model) { variables.apply(change, model); });
 
-  // The step takes the shift back wherever the skin was seen.
+  // The step undoes the shift where the skin was seen.
   double sum = 0;
   int seen = 0;
   for (std::size_t i = 0; i < truth.skin.vertices.size(); ++i) {
@@ -337,7 +337,8 @@ TEST_F(ScanEquationsTest, FindBackWhereAJointWas) {
   EXPECT_NEAR(found.y(), -in_segment.y(), 2e-5);
 }
 
-/// Only frames in which the angles of a hinge contradict its axes show how its bones stand to each other at rest.
+/// The relative rotation of two bones at rest is observable only in frames in which the bones are not rotated about the
+/// hinge's axis alone.
 TEST_F(ScanEquationsTest, FindBackHowAHingeStoodAtRest) {
   const int s = segment_of(2, 1);
   const Vector3d turn(0, 0.012, -0.008);
@@ -412,7 +413,8 @@ TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
   const ScanModel start = make_scan_model(*start_, kCell);
 
   const ScanVariables variables(start);
-  const auto pull = [&](const ScanModel& model, bool hold) {  // sideways, on the root of every digit
+  const auto pull = [&](const ScanModel& model,
+                        bool hold) {  // the sideways force of the prior on the root of every digit
     ScanEquations equations;
     equations.set_zero(variables.count());
     add_scan_prior(model, start, variables, hold, equations);
@@ -421,7 +423,7 @@ TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
     return g;
   };
 
-  // Both points of every root move, so that nothing pulls but the prior of the joint and of the skin's middle.
+  // Both points of every root are moved, so that only the prior of the joint and of the skin's middle acts on them.
   ScanModel beside = start;
   for (int f = 0; f < kFingerCount; ++f) {
     const int s = segment_of(f, 0);
@@ -430,7 +432,8 @@ TEST_F(ScanTest, FingersAreRootedInTheMiddleOfTheirSkin) {
   }
 
   const auto free = pull(beside, false), at_start = pull(start, false), held = pull(beside, true);
-  for (int f = 1; f < kFingerCount; ++f)  // 1 mm at a deviation of 1 mm is 1000 / m; at least half of it must pull
+  for (int f = 1; f < kFingerCount;
+       ++f)  // 1 mm with a standard deviation of 1 mm gives a force of 1000 / m; at least half of it must act
     EXPECT_LT(free[f] - at_start[f], held[f] - 500) << f;
   EXPECT_NEAR(free[0] - at_start[0], held[0], 1e-6);
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kLength = 0.045;
 
-/// A tapered tube of elliptic sections about a line from (x, y) at the joint to (0, 0) at the end. Only the part that
-/// a scan sees: from the middle of the bone on, and two thirds of the girth.
+/// A tapered tube with elliptic sections about a line from (x, y) at the joint to (0, 0) at the end. It has only the
+/// part that a scan sees: the distal half of the bone, and two thirds of the circumference.
 Skin tube(int segment, double x, double y) {
   Skin skin;
   for (double u = 0.4; u < 1; u += 0.1)

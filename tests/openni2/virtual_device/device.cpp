@@ -13,7 +13,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr int kUnregisteredShift = 12;  // px, between the cameras
 constexpr int kUnsyncedIndex = 3;       // offset of the indices if the cameras count separately
-/// The sensor's clock has its own zero [us].
+/// Time of the sensor's clock when it is opened [us]; it is unrelated to the host's clock.
 constexpr std::int64_t kClockAtOpen = 5'000'000;
 
 }  // namespace
@@ -90,7 +90,7 @@ void Device::expose_pictures(std::stop_token stop) {
     due += period;
 
     const auto late = SteadyClock::now() - due;
-    if (late > period) {  // images that there was no time to expose are left out, but numbered
+    if (late > period) {  // images that came too late to be exposed are skipped, but their numbers are used
       const auto missed = late / period;
       due += missed * period;
       index_ += static_cast<int>(missed);

@@ -16,9 +16,9 @@ struct Settings {
   bool upright = false;       ///< the second depth mode has its width and height exchanged
   bool field_of_view = true;  ///< the sensor states its field of view
   bool mirror_fixed = false;  ///< images are mirrored, which cannot be switched off
-  bool lies = false;          ///< accepts registration and sync but does neither
+  bool lies = false;          ///< the sensor accepts registration and sync but does neither
 
-  // These are in force at once.
+  // Changes of these are applied at once.
   bool plugged = true;
   std::string uri = "virtual/1";  ///< changes when the sensor is plugged in again, as on a USB bus
   std::string second_uri;         ///< address of a second sensor; "": there is none

@@ -8,7 +8,7 @@
 
 namespace barehand::virtual_openni {
 
-/// One exposure as a stream delivers it.
+/// An exposure, of which each stream delivers its image.
 struct Exposure {
   const RgbdFrame* picture = nullptr;
   std::uint64_t device_us = 0;  ///< by the sensor's clock [us]
