@@ -10,7 +10,7 @@
 
 namespace barehand::bench {
 
-/// The first level of the pyramid for the frame of world(), with samples of all segments, on one core. The benchmark's
+/// The first level of sampling for the frame of world(), with samples of all segments, on one core. The benchmark's
 /// first argument is the number of samples per segment.
 struct Level {
   explicit Level(const benchmark::State& state) {

@@ -24,8 +24,8 @@ BENCHMARK(compare_on_cpu)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-/// By OpenGL ES, on a GPU if there is one, else in software: the benchmark's label names the renderer. Every iteration
-/// uploads a new observation map, as every frame does.
+/// By OpenGL ES, on a GPU if there is one, else in software: the benchmark's label names the renderer. As in tracking,
+/// a new observation map is uploaded for each frame, once for all of its levels.
 void compare_by_egl(benchmark::State& state) {
   const Level level(state);
   const float cap = distance_cap(level.w.tracker.segment_tracker);

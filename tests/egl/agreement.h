@@ -18,13 +18,13 @@ namespace barehand {
 
 inline constexpr float kCap = 0.008f;  // m
 
-/// Times that a driver which works does not take on the busiest machine.
+/// Time limits that a working driver keeps even on a busy machine.
 inline DeviceLimits patient_limits() {
   constexpr std::chrono::minutes kLong(5);
   return {kLong, kLong, kLong, kLong};
 }
 
-/// What runs OpenGL ES here. `load`: where EGL's functions come from.
+/// An observer with the OpenGL ES renderer of this machine. `load` provides EGL's functions.
 inline std::unique_ptr<EglObserver> open_observer(float cap, std::function<Result<Egl>()> load,
                                                   const DeviceLimits& limits = patient_limits()) {
   auto observer = EglObserver::open(cap, DeviceChoice::any, std::move(load), limits);
@@ -49,15 +49,16 @@ inline PatchDistances by_cpu(const RandomBatch& world, float cap = kCap, int fir
   return distances;
 }
 
-/// The tolerance between observers: mean distances within 0.1 um and weights within 1e-5 of the sample's whole, save
-/// for samples with a point so near to a pixel's edge or the silhouette that single precision decides its side.
+/// Whether mean distances agree within 0.1 um and weights within 1e-5 of the sample's total weight. Samples with a
+/// point very near to a pixel's edge or the silhouette may differ more, since rounding decides on which side the point
+/// is.
 inline bool agree(const PatchDistance& a, const PatchDistance& b) {
   const double weight = 1e-5 * std::max(a.total, b.total);
   return std::abs(a.mean() - b.mean()) <= 1e-7 && std::abs(a.counted - b.counted) <= weight &&
          std::abs(a.total - b.total) <= weight;
 }
 
-/// Share of the samples that differ.
+/// The fraction of the samples that differ.
 inline double disagreement(const PatchDistances& a, const PatchDistances& b) {
   int samples = 0, different = 0;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -67,6 +68,6 @@ inline double disagreement(const PatchDistances& a, const PatchDistances& b) {
   }
   return static_cast<double>(different) / samples;
 }
-inline constexpr double kNearAnEdge = 0.002;  // share of samples
+inline constexpr double kNearAnEdge = 0.002;  // fraction of samples that may differ, see agree()
 
 }  // namespace barehand

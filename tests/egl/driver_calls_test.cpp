@@ -1,4 +1,4 @@
-// What the observer asks of the driver: which calls it makes, how often and on which thread.
+// Tests which functions of the driver the observer calls, how often and on which thread.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -32,7 +32,7 @@ TEST_F(DriverCalls, AContextIsMadeCurrentOncePerThread) {
   EXPECT_EQ(driver_.released, 1);
   EXPECT_EQ(driver_.threads_released, 1);
 
-  // All of it on one thread, which is none of those that ask.
+  // All calls are made on one thread, which is none of those that use the observer.
   EXPECT_EQ(driver_.threads().size(), 1u);
   EXPECT_FALSE(driver_.threads().contains(std::this_thread::get_id()));
 }

@@ -19,7 +19,7 @@ TEST(EglObserver, AgreesWithTheCpu) {
     const PatchDistances expected = by_cpu(world, cap);
     EXPECT_LE(disagreement(by_egl(*open_observer(cap), world.batch()), expected), kNearAnEdge)
         << skin_points << " points, cap " << cap;
-    EXPECT_GT(disagreement(by_cpu(world, 0.9f * kCap), expected), 0.5);  // what differs is noticed
+    EXPECT_GT(disagreement(by_cpu(world, 0.9f * kCap), expected), 0.5);  // the check can fail
   }
 }
 
@@ -37,7 +37,8 @@ TEST(EglObserver, ANewIdBringsTheNewMap) {
   const auto observer = open_observer();
   by_egl(*observer, first.batch(1));
   EXPECT_LE(disagreement(by_egl(*observer, second.batch(2)), by_cpu(second)), kNearAnEdge);
-  EXPECT_GT(disagreement(by_egl(*observer, first.batch(2)), by_cpu(first)), 0.5);  // the second map is still there
+  EXPECT_GT(disagreement(by_egl(*observer, first.batch(2)), by_cpu(first)),
+            0.5);  // the second map is still in the device's memory
   EXPECT_LE(disagreement(by_egl(*observer, first.batch(1)), by_cpu(first)), kNearAnEdge);
 }
 

@@ -14,8 +14,8 @@
 
 namespace barehand {
 
-/// The driver that is there, seen through: it counts what is called of it, and fails where it is told to. There is one
-/// at a time, as functions of EGL know no object.
+/// A layer above the real driver: counts the calls of its functions, and lets them fail if a test wants it. Only one
+/// object may exist at a time, since EGL's functions have no argument for it.
 class FaultyDriver {
  public:
   FaultyDriver() { current_ = this; }
@@ -23,16 +23,16 @@ class FaultyDriver {
   FaultyDriver(const FaultyDriver&) = delete;
   FaultyDriver& operator=(const FaultyDriver&) = delete;
 
-  std::atomic<bool> stays_mapped = true;    ///< GL_EXT_buffer_storage is there
-  std::atomic<GLenum> error = GL_NO_ERROR;  ///< of every call from now on
-  std::atomic<GLenum> reset = GL_NO_ERROR;  ///< what became of the context
-  std::atomic<bool> fences_hang = false;    ///< the device never finishes
+  std::atomic<bool> stays_mapped = true;    ///< GL_EXT_buffer_storage is supported
+  std::atomic<GLenum> error = GL_NO_ERROR;  ///< result of glGetError() from now on
+  std::atomic<GLenum> reset = GL_NO_ERROR;  ///< result of glGetGraphicsResetStatus()
+  std::atomic<bool> fences_hang = false;    ///< the device never finishes its work
   std::atomic<bool> mapping_fails = false;
-  std::atomic<bool> dispatch_blocks = false;  ///< the call does not return before let_go()
+  std::atomic<bool> dispatch_blocks = false;  ///< glDispatchCompute() does not return before let_go()
   std::atomic<int> made_current = 0, released = 0, threads_released = 0, dispatched = 0, buffers_made = 0;
 
   void let_go() { gate_.set_value(); }
-  /// Waits until the thread of a context has come to its end.
+  /// Waits until the thread that used the context has released it.
   void wait_for_thread_release() {
     std::unique_lock lock(mutex_);
     thread_released_.wait(lock, [&] { return threads_released > 0; });

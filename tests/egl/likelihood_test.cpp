@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-/// One level's samples of every segment around the upright capsule, whose left half is behind an object.
+/// Samples of one level for every segment, around an upright capsule whose left half is behind an object.
 SegmentSamples sample_by(std::shared_ptr<Observer> observer, bool observe_palm) {
   SegmentTrackerParams params;
   params.samples = 200;

@@ -54,7 +54,7 @@ class LostDevice : public ::testing::Test {
   Log log_;
 };
 
-/// Works a given number of times, then fails and leaves half a result behind.
+/// A device that works a given number of times, then fails and leaves an incomplete result.
 class FailingDevice final : public DeviceObserver {
  public:
   explicit FailingDevice(int good_calls) : good_calls_(good_calls) {}
@@ -78,10 +78,10 @@ TEST_F(LostDevice, ItsBatchAndAllLaterOnesGoToTheOtherObserver) {
   EXPECT_THAT(log_.text.str(), HasSubstr("device: gone"));
 }
 
-/// Tracks with a real driver until something happens to it.
+/// Tests what happens if a real driver fails while it is used.
 class LostDriver : public LostDevice {
  protected:
-  /// The second of three batches is the first that meets `trouble`.
+  /// Compares three batches; calls `trouble`, which makes the driver fail, before the second one.
   void expect_fallback(const std::function<void()>& trouble, const std::string& reason) {
     FallbackObserver observer(open_observer(kCap, FaultyDriver::load), std::make_unique<CpuObserver>(kCap, workers_),
                               log_.logger);
@@ -127,7 +127,7 @@ TEST_F(LostDriver, CallThatDoesNotReturnIsAbandonedAndItsThreadEndsLater) {
   observer.reset();
   EXPECT_EQ(driver_.threads_released, 0) << "the driver still has it";
 
-  // Everything that the call works on is still there when it goes on.
+  // When the blocked call continues, all objects that it uses must still exist.
   driver_.let_go();
   driver_.wait_for_thread_release();
   EXPECT_EQ(driver_.dispatched, 1);
@@ -138,7 +138,7 @@ TEST_F(LostDriver, BuffersThatCannotBeMapped) {
   driver_.mapping_fails = true;
   const auto device = open_observer(kCap, FaultyDriver::load);
   PatchDistances distances;
-  for (int i = 0; i < 2; ++i) {  // the reason stays
+  for (int i = 0; i < 2; ++i) {  // later calls report the same reason
     const auto done = device->compare(world_.batch(), distances);
     ASSERT_FALSE(done);
     EXPECT_THAT(done.error().message(), HasSubstr("a buffer cannot be mapped"));

@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-/// What one level compares: every kind of pixel, samples spread around the middle of the image.
+/// A batch as one level compares it, with random pixels of every label, and samples around the middle of the image.
 struct RandomBatch {
   std::shared_ptr<const HandSurface> surface;
   PixelMap map;

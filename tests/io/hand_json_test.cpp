@@ -252,8 +252,7 @@ TEST_F(HandJson, BadSkinIsNamed) {
   EXPECT_THAT(vertex({0.5, 0, 0, 0}), bad_vertex);
   EXPECT_THAT(vertex({0, 0, 0, 80}), bad_vertex);                  // millimetres
   EXPECT_THAT(vertex({0, 0, 0, 0, 5, 0.2, 0, 0, 0}), bad_vertex);  // segment 5 is no neighbour of segment 0
-  EXPECT_THAT(vertex({0, 0, 0, 0, 4, 0.7, 0, 0, 0}),
-              bad_vertex);  // the second segment's weight must be the smaller one
+  EXPECT_THAT(vertex({0, 0, 0, 0, 4, 0.7, 0, 0, 0}), bad_vertex);  // the second segment's weight exceeds 0.5
   EXPECT_THAT(vertex({0, 0, 0, nullptr}), bad_vertex);
   for (const json& row : {json{0, 1, 3}, json{0, 1, -1}, json{0, 1}, json{0, 1, 1.5}})
     EXPECT_THAT(with([&](json& j) { j["skin"]["triangles"][0] = row; }), HasSubstr("\"triangles\" 0 must be three"))

@@ -19,7 +19,7 @@ TEST(PixelRays, GiveTheObservationsOwnPoints) {
   for (std::size_t i = 0; i < observation.depth.size(); ++i)
     observation.depth[i] = 0.3f + 1e-5f * static_cast<float>(i);
 
-  // The tables give exactly the same points as unproject().
+  // The tables give exactly the same points as HandObservation::point().
   PixelRays rays;
   rays.reset(frame->camera, observation.u0, observation.v0, 213, 97);
   for (int v = 0; v < 97; ++v)

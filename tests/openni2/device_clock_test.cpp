@@ -87,7 +87,7 @@ TEST(DeviceClock, AClockThatFallsBehindForGoodIsFollowed) {
   sensor.run(20);
   int frames = 0;
   while (!sensor.jumped() && ++frames < 300) sensor.next(200'000);  // from now on every frame arrives later
-  EXPECT_GT(frames, 30);                                            // a few late frames must not restart the clock
+  EXPECT_GT(frames, 30);  // a few late frames are no reason to restart the clock
   ASSERT_LT(frames, 150);
   EXPECT_NEAR(sensor.next(200'000), 200'000, 3'000);
 }

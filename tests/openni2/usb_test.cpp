@@ -157,7 +157,7 @@ TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewWhenTheBusChanges) {
 TEST_F(OpenNiFinderOnUsb, LoadsOpenNi2AnewAfterAChangeThatItMayHaveSeenHalfOf) {
   bus_.state = "1-2#5 ";  // the device is listed already
   EXPECT_TRUE(loads());
-  finder_.bus_changed();  // now all of its interfaces are there
+  finder_.bus_changed();  // reports the change once more, when it is complete
   EXPECT_FALSE(loads()) << "it was loaded";
   EXPECT_TRUE(loads());
   EXPECT_FALSE(loads_after(0)) << "once is enough";

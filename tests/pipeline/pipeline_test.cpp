@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// A source that returns for its n-th call what `script` says.
+/// A source that returns `script(n)` in its n-th call.
 class ScriptedSource : public FrameSource {
  public:
   ScriptedSource(bool live, std::function<SourceEvent(int)> script) : live_(live), script_(std::move(script)) {}
@@ -66,7 +66,7 @@ class RecordingSink : public Sink {
   std::atomic<int> idle_calls = 0;
 };
 
-/// Stages whose results depend on the feedback and on everything tracked before, and that fail on given frames.
+/// A pipeline whose results depend on the feedback and on all frames before. It fails for given frames.
 struct World {
   explicit World(bool threaded) { options.threaded = threaded; }
 
@@ -300,7 +300,7 @@ TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
 }
 
 TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
-  // Look at the pulse while the last frame is in the sink.
+  // Get the counts of progress (the pulse) while the last frame is in the sink.
   ScriptedSource source(false, frames_then_end(5));
   PipelinePulse inside;
   world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
@@ -309,7 +309,7 @@ TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
   };
   world_.run(source);
 
-  // The counts at that moment, and at the end.
+  // Check the counts at that moment and at the end.
   EXPECT_EQ(inside.finished, 4);
   EXPECT_EQ(inside.inside, 1) << "the one that the sink holds";
   EXPECT_GE(inside.answers, 5);
@@ -359,7 +359,7 @@ TEST_P(PipelineLifecycle, SinksHearThatNoFramesCome) {
     if (n == 0) return frame(0);
     return world.sink.idle_calls < 3 ? SourceEvent(Timeout{}) : EndOfStream{};
   });
-  const RunResult result = world.run(source);  // ends only if the sink is told
+  const RunResult result = world.run(source);  // ends only if the sink's idle() is called
   EXPECT_EQ(result.health.published, 1);
   EXPECT_GE(world.sink.idle_calls, 3);
 }

@@ -31,13 +31,13 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
 }
 
 TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
-  // Change values of both kinds.
+  // Change values that can be reloaded and values that need a restart.
   PendingParams pending;
   Reload reload({}, pending);
   Config wanted;
   wanted.run.channel_prefix = "LEFT_";
   wanted.tracker.shape_fit.enabled = !wanted.tracker.shape_fit.enabled;
-  wanted.tracker.loss.hold_time = wanted.publish.hold_time = 2;  // as reading the one key sets both
+  wanted.tracker.loss.hold_time = wanted.publish.hold_time = 2;  // one key of the file sets both
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.loss.hold_time: 0.5 -> 2"));
   EXPECT_THAT(changes.for_restart,

@@ -20,7 +20,7 @@ class CrossedFingers : public testing::TestWithParam<Handedness> {
     for (int finger = 1; finger < kFingerCount; ++finger)
       for (int k = 0; k < 3; ++k) pose_.angles[segment_of(finger, k)].flexion = 10 * kDegree;
   }
-  /// Positive: towards the thumb, on either hand.
+  /// Abducts a finger; positive angles move it towards the thumb, on either hand.
   void abduct(int finger, double degrees) {
     pose_.angles[segment_of(finger, 0)].abduction = side_sign(profile_.handedness) * degrees * kDegree;
   }
@@ -43,7 +43,7 @@ TEST_P(CrossedFingers, ChangePlaces) {
   EXPECT_FALSE(uncrossed(profile_, *apart, kWidening));
   const double between = (tip(crossed, 2) - tip(crossed, 3)).norm();
   EXPECT_GT(between, 0.03);
-  // Fingers differ in length: each ends nearer to the other one than to where it was.
+  // The fingertips do not swap exactly, since the fingers differ in length.
   EXPECT_LT((tip(*apart, 2) - tip(crossed, 3)).norm(), between / 2);
   EXPECT_LT((tip(*apart, 3) - tip(crossed, 2)).norm(), between / 2);
   for (const int finger : {0, 1, 4}) EXPECT_LT((tip(*apart, finger) - tip(crossed, finger)).norm(), 1e-9);

@@ -12,7 +12,7 @@ namespace barehand {
 namespace {
 
 constexpr double kWidening = 10 * kDegree;
-constexpr double kAtOnce = 0;  // s, too short to forget anything
+constexpr double kAtOnce = 0;  // s, no time for the pose to relax
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2, kRing = 3, kLittle = 4;
 
 class HiddenFingers : public testing::TestWithParam<Handedness> {
@@ -30,7 +30,7 @@ class HiddenFingers : public testing::TestWithParam<Handedness> {
     for (int s = 0; s < kSegmentCount; ++s) shown[s] = seen_[s] ? 1.0 : 0.0;
     return with_hidden_following(profile_, before, now, dt, seen_, shown, kWidening);
   }
-  /// Degrees of flexion of every finger but the thumb, from its root to its tip.
+  /// A pose with the given flexion of all fingers, from root to tip, and of the thumb [degrees].
   HandPose bent(double first, double second, double third, double thumb = 0) const {
     ArticulatedPose pose{{palm_orientation(0.3, 0.2, 0.5), {0.02, -0.01, 0.5}}, {}};
     for (int finger = kIndex; finger < kFingerCount; ++finger) {
@@ -43,7 +43,7 @@ class HiddenFingers : public testing::TestWithParam<Handedness> {
   double flexion(const HandPose& pose, int finger, int k) const {
     return joint_angles(profile_, pose, segment_of(finger, k)).flexion / kDegree;
   }
-  /// The pose with one finger of another one, relative to the palm.
+  /// `pose` with one finger taken from the pose `other`, relative to the palm.
   static HandPose with_finger_of(const HandPose& pose, const HandPose& other, int finger) {
     HandPose result = pose;
     for (int k = 0; k < 3; ++k) {
@@ -76,7 +76,8 @@ TEST_P(HiddenFingers, FollowWhatTheirNeighboursAreSeenToBend) {
   const HandPose before = bent(20, 30, 10);
   HandPose now = bent(28, 42, 16);
   now = with_finger_of(now, bent(22, 30, 10), kMiddle);
-  for (const int finger : {kIndex, kLittle}) now = with_finger_of(now, before, finger);  // held where they vanished
+  for (const int finger : {kIndex, kLittle})
+    now = with_finger_of(now, before, finger);  // kept where they were last seen
   hide(seen_, kLittle);
   hide(seen_, kIndex, 1);
   const HandPose followed = following(before, now, kAtOnce);
@@ -146,7 +147,8 @@ TEST_P(HiddenFingers, LeaveTheThumbWhereItIs) {
 }
 
 TEST_P(HiddenFingers, CloseWithTheThumbWhereNoneIsSeen) {
-  const HandPose before = bent(20, 30, 10, 0), now = bent(20, 30, 10, 10);  // two joints of the thumb, each by 10
+  const HandPose before = bent(20, 30, 10, 0),
+                 now = bent(20, 30, 10, 10);  // two joints of the thumb, each bent by 10 degrees
   for (int finger = kIndex; finger < kFingerCount; ++finger) hide(seen_, finger);
   const HandPose closed = following(before, now, kAtOnce);
   for (int finger = kIndex; finger < kFingerCount; ++finger) {

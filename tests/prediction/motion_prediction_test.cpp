@@ -18,7 +18,8 @@ const StartPose* find(const Prediction& prediction, const std::string& name) {
   return nullptr;
 }
 
-/// Observations that show nothing but enough points; ICP is off, so that the rules of velocity stand alone.
+/// Predicts without ICP, to test the rules of the velocity alone. The observations contain only a sufficient number of
+/// points.
 class VelocityRules : public testing::Test {
  protected:
   void SetUp() override {
@@ -38,7 +39,7 @@ class VelocityRules : public testing::Test {
     for (int i = 0; i < 300; ++i) o.cloud.emplace_back(0.001f * (i % 20), 0.001f * (i / 20), 0.4f);
     return o;
   }
-  /// Plays two frames and predicts the third.
+  /// Processes two frames and predicts the third.
   Prediction third(const HandPose& second, std::int64_t interval, std::int64_t next_interval) {
     MotionModel model(params_, icp_);
     model.restart(first_, 0);

@@ -8,7 +8,7 @@
 namespace barehand {
 namespace {
 
-/// 40 x 30 cells at 0.5 m.
+/// A grid of 40 x 30 cells with the depth 0.5 m.
 CoarseGrid flat_grid() {
   CoarseGrid grid;
   grid.camera = {40, 30, 60, 60, 20, 15};
@@ -20,7 +20,7 @@ TEST(SplitSurfaces, OfOneDepthAreConnectedComponents) {
   const CoarseGrid grid = flat_grid();
   std::mt19937 random(5);
   Components found;
-  for (const int share : {10, 30, 40, 50, 70}) {  // per cent; around 40 parts of all sizes and shapes
+  for (const int share : {10, 30, 40, 50, 70}) {  // per cent; near 40 there are components of all sizes and shapes
     Image<std::uint8_t> mask(40, 30);
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = static_cast<int>(random() % 100) < share;
     cv::Mat labels;

@@ -1,4 +1,4 @@
-// What the labels of a detection change: depth alone does not tell a hand from what it touches.
+// Tests how the labels of a detection separate a hand from an object that it touches, which depth alone cannot do.
 #include <gtest/gtest.h>
 
 #include "preprocess/painted_scene.h"
@@ -12,14 +12,14 @@ using test::PaintedScene;
 
 constexpr double kZ = 0.5;
 
-/// A hand whose forearm and body lie at its own depth: one surface of a fifth of a square metre.
+/// A hand with a forearm and a body at the same depth. Together they are one surface of 0.2 m^2.
 PaintedScene person() {
   PaintedScene scene;
   scene.patch(-0.02, -0.05, 0.3, 1, kZ, test::kBlue).hand(-0.1, 0.05, kZ).forearm(-0.1, 0.05, kZ, test::kBlue);
   return scene.no_colour();
 }
 
-/// What an ideal detection says of that hand: its own label above the wrist at y = 0.05 within the hand's outline.
+/// An ideal detection of that hand: within the hand's outline, pixels above the wrist (y = 0.05) are labelled as hand.
 DetectionPtr detected(const PaintedScene& scene, double x = -0.1) {
   const Intrinsics camera = scene.share()->camera;
   DetectedHand hand;

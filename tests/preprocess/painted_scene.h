@@ -11,7 +11,7 @@ namespace barehand::test {
 
 inline constexpr Rgb kSkin{205, 150, 120}, kGreen{60, 160, 70}, kBlue{40, 60, 140}, kGrey{120, 120, 120}, kBlack{};
 
-/// A frame painted with flat patches that face the camera. Coordinates in metres at the patch's own depth.
+/// A frame with flat patches that face the camera. Their coordinates are in the camera frame [m].
 class PaintedScene {
  public:
   explicit PaintedScene(float wall = 1.2f, Rgb wall_colour = kGrey) {
@@ -31,7 +31,8 @@ class PaintedScene {
       }
     return *this;
   }
-  /// Open right hand, fingers up, its wrist at (x, y, z): palm 80 x 90 mm, four fingers 90 mm, thumb to the right.
+  /// Adds an open right hand with the fingers up and the wrist at (x, y, z): a palm of 80 x 90 mm, four fingers of 90
+  /// mm, and the thumb on the right.
   PaintedScene& hand(double x, double y, double z, Rgb colour = kSkin) {
     patch(x - 0.04, y - 0.09, x + 0.04, y, z, colour);
     for (int finger = 0; finger < 4; ++finger) {
@@ -40,7 +41,7 @@ class PaintedScene {
     }
     return patch(x + 0.04, y - 0.055, x + 0.085, y - 0.035, z, colour);
   }
-  /// Forearm 54 mm wide, from the wrist down to the border of the image.
+  /// Adds a forearm of 54 mm width, from the wrist down to the border of the image.
   PaintedScene& forearm(double x, double y, double z, Rgb colour) {
     return patch(x - 0.027, y, x + 0.027, y + 1, z, colour);
   }
@@ -66,7 +67,7 @@ class PaintedScene {
   RgbdFrame frame_;
 };
 
-/// Estimate of exactly the hand that PaintedScene::hand() paints.
+/// The exact estimate of the hand that PaintedScene::hand() adds.
 inline HandEstimate painted_hand_estimate(double x, double y, double z, std::int64_t number = 0) {
   auto profile = std::make_shared<HandProfile>();
   HandEstimate estimate;
@@ -92,7 +93,7 @@ inline HandEstimate painted_hand_estimate(double x, double y, double z, std::int
   return estimate;
 }
 
-/// Label at a point of the camera frame.
+/// The label at the projection of a point in the camera frame [m].
 inline PixelLabel label_at(const HandObservation& o, double x, double y, double z) {
   const Eigen::Vector2d p = o.frame->camera.project({x, y, z});
   const int u = static_cast<int>(std::lround(p.x())) - o.u0, v = static_cast<int>(std::lround(p.y())) - o.v0;

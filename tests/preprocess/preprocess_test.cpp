@@ -12,9 +12,9 @@ namespace {
 using test::label_at;
 using test::painted_hand_estimate;
 using test::PaintedScene;
-constexpr double kX = 0.0, kY = 0.06, kZ = 0.5;  // wrist
+constexpr double kX = 0.0, kY = 0.06, kZ = 0.5;  // position of the wrist [m]
 
-/// The only hand.
+/// The observation of the only hand that is searched for. `earlier` is the estimate of the previous frame.
 HandObservationPtr process(Preprocessor& preprocessor, const FramePtr& frame, const HandEstimate* earlier = nullptr) {
   HandEstimates feedback;
   if (earlier) feedback.push_back(std::make_shared<HandEstimate>(*earlier));
@@ -51,7 +51,8 @@ TEST(Preprocess, ObjectTouchingTheHandAtItsDepthIsToldApartByColour) {
 }
 
 TEST(Preprocess, AFingertipThatShowsBehindAnObjectIsHand) {
-  // Five pixels wide: all of it lies beside depth edges, and the object before it is hardly nearer.
+  // At this depth, a finger is five pixels wide: all of them are next to depth edges. The object in front is hardly
+  // nearer than the fingers.
   constexpr double kFar = 0.8, kTip = kY - 0.18;
   const auto o = observe(PaintedScene()
                              .hand(kX, kY, kFar)
@@ -170,7 +171,7 @@ TEST(Preprocess, EmptyFrameHasNoHand) {
   const auto o = observe(scene);
   EXPECT_FALSE(o->hand_present);
   EXPECT_TRUE(o->hand_pixels.empty());
-  EXPECT_FALSE(observe(PaintedScene())->hand_present);  // a wall alone
+  EXPECT_FALSE(observe(PaintedScene())->hand_present);  // only a wall
 }
 
 TEST(Preprocess, WrongSizesAndMissingIntrinsicsAreErrors) {
@@ -187,7 +188,7 @@ TEST(Preprocess, WrongSizesAndMissingIntrinsicsAreErrors) {
 }
 
 TEST(Preprocess, SkinModelFollowsAShiftedWhiteBalance) {
-  // Light turns blue in small steps until the generic model alone calls the skin something else.
+  // The light becomes bluer in small steps, until the general skin model alone would not recognise the skin.
   const auto lit = [](Rgb c, int step) {
     return Rgb{static_cast<std::uint8_t>(c.r * (1 - 0.012 * step)), c.g,
                static_cast<std::uint8_t>(c.b * (1 + 0.02 * step))};
@@ -246,7 +247,7 @@ TEST(Preprocess, ResultsSurviveThePreprocessor) {
   EXPECT_EQ(label_at(*kept, kX, kY - 0.04, kZ), PixelLabel::hand);
 }
 
-/// Two hands that are looked for; feedback may be null.
+/// The observations of two hands. `first` and `second` are the estimates of the previous frame, or null.
 HandObservations observe_two(const PaintedScene& scene, const HandEstimate* first, const HandEstimate* second) {
   Preprocessor preprocessor{PreprocessParams{}, 2};
   HandEstimates feedback;
@@ -271,7 +272,7 @@ TEST(PreprocessTwoHands, EveryHintFindsItsOwnHand) {
 }
 
 TEST(PreprocessTwoHands, HandsSideBySideAtOneDepthAreToldApartByTheirHints) {
-  // The thumb of the left one touches the other one's palm: one surface.
+  // The thumb of the left hand touches the palm of the other, so that both hands are one surface.
   constexpr double kGap = 0.125;
   const HandEstimate left = painted_hand_estimate(-kGap / 2, kY, kZ), right = painted_hand_estimate(kGap / 2, kY, kZ);
   const auto o = observe_two(PaintedScene().hand(-kGap / 2, kY, kZ).hand(kGap / 2, kY, kZ), &left, &right);

@@ -37,12 +37,12 @@ TEST(SkinModel, WhatIsMuchDarkerThanThisSkinIsSomethingElse) {
     const auto channel = [share](double full) { return static_cast<std::uint8_t>(std::lround(share * full)); };
     return Rgb{channel(205), channel(150), channel(128)};
   };
-  ASSERT_GT(model.log_odds(shade(0.2)), 0.4f);  // as dark a skin may come yet
+  ASSERT_GT(model.log_odds(shade(0.2)), 0.4f);  // before this person's skin is learned, it may be dark
   std::vector<Rgb> skin;
   for (int i = 0; i < 200; ++i) skin.push_back(shade(0.7 + 0.3 * i / 200));
   for (int frame = 0; frame < 20; ++frame) model.learn(skin, {});
   EXPECT_LT(model.log_odds(shade(0.2)), -0.4f);
-  EXPECT_GT(model.log_odds(shade(0.5)), 0.4f);  // the shade of an object
+  EXPECT_GT(model.log_odds(shade(0.5)), 0.4f);  // this person's skin in the shadow of an object
   EXPECT_EQ(model.log_odds(Rgb{}), 0.f);        // no colour
 }
 

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kSpeckArea = 3e-5;  // m^2
 
-/// Of a camera in which a part at 0.5 m must have this many pixels.
+/// Intrinsics with which a component at a depth of 0.5 m needs this number of pixels to be kept.
 Intrinsics camera_for(int pixels) {
   const double f = std::sqrt(pixels * 0.25 / kSpeckArea);
   return {64, 48, f, f, 32, 24};
 }
 
-/// The same by OpenCV.
+/// Reference implementation with OpenCV.
 Image<std::uint8_t> without_specks(const Intrinsics& camera, const Image<float>& depth, Image<std::uint8_t> mask) {
   cv::Mat labels, stats, centroids;
   cv::connectedComponentsWithStats(cv::Mat(mask.height(), mask.width(), CV_8U, mask.data()), labels, stats, centroids);
@@ -35,7 +35,7 @@ TEST(SpeckRemover, AgreesWithConnectedComponents) {
   std::mt19937 random(11);
   SpeckRemover remover;
   int cleared = 0, kept = 0;
-  for (const int share : {5, 30, 40, 45, 60})  // per cent; around 40 parts of all sizes and shapes
+  for (const int share : {5, 30, 40, 45, 60})  // per cent; near 40 there are components of all sizes and shapes
     for (const int least : {2, 9, 40}) {
       Image<std::uint8_t> mask(53 + share % 7, 37 + least);
       Image<float> depth(mask.width(), mask.height());

@@ -13,7 +13,8 @@ TEST(WindowSum, AgreesWithABoxFilter) {
   WindowSum<float> sum;
   for (const int radius : {0, 1, 2, 10}) {
     Image<float> in(31 + radius, 17), out;  // the last window is higher than the image
-    for (std::size_t i = 0; i < in.size(); ++i) in[i] = static_cast<float>(random() % 2001) - 1000.f;  // exact sums
+    for (std::size_t i = 0; i < in.size(); ++i)
+      in[i] = static_cast<float>(random() % 2001) - 1000.f;  // integers, so that sums are exact
     sum.compute(in, radius, out);
     cv::Mat expected;
     cv::boxFilter(cv::Mat(in.height(), in.width(), CV_32F, in.data()), expected, -1, {2 * radius + 1, 2 * radius + 1},
@@ -27,7 +28,7 @@ TEST(WindowSum, CountsFlags) {
   Image<std::uint8_t> flags(50, 30, 1);
   Image<std::uint16_t> count;
   WindowSum<std::uint16_t>().compute(flags, 10, count);
-  EXPECT_EQ(count.at(25, 15), 21 * 21);  // more than a byte holds
+  EXPECT_EQ(count.at(25, 15), 21 * 21);  // exceeds the range of a byte
   EXPECT_EQ(count.at(0, 0), 11 * 11);
 }
 

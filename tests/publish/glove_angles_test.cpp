@@ -15,7 +15,7 @@ class Glove : public testing::TestWithParam<Handedness> {
   GloveAngles measure(const Angles& angles) const {
     return glove_angles(profile_, forward_kinematics(profile_, somewhere(), angles));
   }
-  /// Abduction towards the thumb is about +y on a right hand, about -y on a left one.
+  /// Sign of an abduction towards the thumb: about +y for a right hand, about -y for a left one.
   double towards_thumb(double angle) const { return GetParam() == Handedness::right ? angle : -angle; }
   double joint(const GloveAngles& glove, std::string_view name) const {
     const auto at = std::find(kGloveJointNames.begin(), kGloveJointNames.end(), name);

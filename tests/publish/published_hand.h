@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// Half a metre in front of the camera, turned about every axis.
+/// A pose of the palm half a metre in front of the camera, rotated about every axis.
 inline SE3 somewhere() { return {exp_so3({0.4, -0.9, 2.0}), {0.05, -0.1, 0.5}}; }
 
 using Angles = std::array<JointAngles, kSegmentCount>;

@@ -22,7 +22,7 @@ HandMessages messages(std::int64_t utime = kStart) {
   return maker.process(estimate_of(*test::adult_hand(Handedness::right), {}, utime));
 }
 
-/// Keeps what it is given, or refuses everything.
+/// Stores all messages, or refuses all.
 class MemorySink : public MessageSink {
  public:
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override {

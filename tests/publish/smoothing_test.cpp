@@ -36,7 +36,7 @@ TEST(OneEuro, FollowsAFastHandClosely) {
   SE3 position, orientation;
   for (int i = 0; i <= 30; ++i) {
     position = moving.filter(shifted(i * kFrame * 1.0), kFrame, {});     // 1 m/s
-    orientation = turning.filter(turned(i * kFrame * 6.0), kFrame, {});  // 6 rad/s, past half a turn
+    orientation = turning.filter(turned(i * kFrame * 6.0), kFrame, {});  // 6 rad/s, by more than half a turn in total
   }
   EXPECT_LT(30 * kFrame * 1.0 - position.t.x(), 0.2 * kFrame) << "lag of a fraction of a frame";
   EXPECT_LT(boxminus(turned(30 * kFrame * 6.0), orientation).norm(), 0.4 * kFrame * 6.0);

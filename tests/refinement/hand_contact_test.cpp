@@ -22,7 +22,7 @@ class Contact : public testing::TestWithParam<Handedness> {
   HandPose pose_of(const std::array<JointAngles, kSegmentCount>& angles) const {
     return posed(profile_, {{palm_orientation(0.3, 0.2, 0.5), {0.02, -0.01, 0.5}}, angles});
   }
-  /// All fingers bent alike, from index to little finger; the thumb is straight.
+  /// Angles of a hand with the same flexions of all fingers [degrees] and a straight thumb.
   std::array<JointAngles, kSegmentCount> bent(double first, double second, double third) const {
     std::array<JointAngles, kSegmentCount> angles{};
     for (int finger = 1; finger < kFingerCount; ++finger) {
@@ -69,8 +69,8 @@ TEST_P(Contact, GradientMatchesCentralDifferences) {
   EXPECT_GT(error(), 0.01) << "the check must notice a wrong gradient";
 }
 
-// The energy of the refinement without data: soft joints hold the hand together, and each step starts from the last
-// pose.
+// Minimises the energy of the refinement without data: the soft joints hold the hand together, and each step starts
+// from the pose of the step before.
 TEST_P(Contact, MovesSegmentsApartAndKeepsThemApart) {
   // The overlap at the start.
   const HandContact contact(profile_);

@@ -84,7 +84,7 @@ TEST_F(EnergyTest, DataGradientMatchesCentralDifferences) {
   }
 }
 
-// Beside a silhouette the data is deeper than the model, wherever the model is.
+// Displacements of unexplained data along the surface have the weight `tangential`; those along the normal count fully.
 TEST_F(EnergyTest, UnexplainedDataPullsAlongTheSurfaceOnlyAsFarAsItShall) {
   ModelComparison comparison = evidence();
   std::erase_if(comparison.correspondences, [](const Correspondence& c) { return c.kind != Kind::unexplained; });
@@ -113,14 +113,14 @@ TEST_F(EnergyTest, PalmSkinCountsLessThanPhalanges) {
 }
 
 TEST_F(EnergyTest, FoldsCountLessTheMoreEvenlyTwoSegmentsShareThem) {
-  // One vertex that two segments share.
+  // A vertex that follows two segments.
   ModelComparison comparison = evidence();
   comparison.correspondences.resize(1);
   SkinVertex& v = skin_.vertices[comparison.correspondences[0].vertex];
   v.a = segment_of(2, 1);
   v.b = segment_of(2, 2);
 
-  // The information that is left, relative to that without the penalty.
+  // The ratio of the information to that without the penalty.
   const auto fraction = [&](float share) {
     v.weight_b = share;
     return data_terms(comparison, {.folds = 4}).H_self[v.a].trace() / data_terms(comparison, {}).H_self[v.a].trace();

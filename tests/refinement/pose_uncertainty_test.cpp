@@ -88,7 +88,7 @@ TEST_F(PoseUncertaintyTest, APoseWithoutEvidenceIsAnywhere) {
 TEST(ProbabilityWithin, AgreesWithDraws) {
   KeyedRandom random(1, 2);
 
-  // Several spreads, among them a very flat one.
+  // Several covariances, among them that of a very flat distribution.
   for (const Eigen::Vector3d& deviations : {Eigen::Vector3d(0.004, 0.004, 0.004), Eigen::Vector3d(0.002, 0.005, 0.011),
                                             Eigen::Vector3d(0.0001, 0.0001, 0.02)}) {
     const Eigen::Matrix3d turn = exp_so3({0.3, -0.8, 0.5});

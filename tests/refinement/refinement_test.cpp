@@ -14,7 +14,7 @@ class RefinementTest : public ::testing::Test {
       sum += (distal_end(*profile_, a, s) - distal_end(*profile_, b, s)).norm() / kSegmentCount;
     return sum;
   }
-  /// Puts a board before the first `rows` of the image.
+  /// Puts a board in front of the first `rows` of the image.
   static void hide_above(int rows, HandObservation& observation) {
     for (int v = 0; v < rows; ++v)
       for (int u = 0; u < observation.depth.width(); ++u) {
@@ -81,7 +81,7 @@ TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
   Skin other_knuckles = *skin_;
   for (SkinVertex& v : other_knuckles.vertices) {
     if (v.weight_b == 0 || (v.a != kPalm && v.b != kPalm)) continue;
-    // The farther out on the finger, the more the skin differs.
+    // The difference grows with the weight of the finger.
     const bool on_palm = v.a == kPalm;
     const Eigen::Vector3f out = (on_palm ? v.weight_b : 1 - v.weight_b) * 0.006f * Eigen::Vector3f::UnitY();
     v.in_a -= out;
@@ -92,7 +92,7 @@ TEST_F(RefinementTest, SkinThatIsAGuessAtTheKnucklesDoesNotTurnHiddenFingers) {
   const HandPose truth = test::facing_pose(*profile_, 0.45, 0.05);
   auto observation = test::observe_skin(other_knuckles, truth);
 
-  // Up to the knuckles.
+  // Cover the image down to the knuckles.
   hide_above(static_cast<int>(observation->frame->camera.project(truth[root].t).y()), *observation);
 
   // How far the refinement rotates the hidden finger in a second.

@@ -34,7 +34,7 @@ TEST(ResidualMoments, EqualTheSumOfEveryPointsJacobian) {
     const double r = random.normal() * 0.003, w = 1e5 * random.uniform();
     moments.add(v, p.cast<float>(), direction.cast<float>(), static_cast<float>(r), static_cast<float>(w));
 
-    // The same sums from every point's own Jacobian.
+    // Compute the same sums from the Jacobian of each point.
     const auto row = [&](int s, double share) {
       Vector6d j;  // d . d(R x + t)/d(v, w)
       j.head<3>() = share * direction;

@@ -35,7 +35,7 @@ class ShapeMomentsTest : public ::testing::Test {
     }
   }
 
-  // The evidence after a change of the shape: the skin moves outward, and the data stays.
+  // The evidence after a change of the shape, which moves the skin but not the data.
   ModelComparison reshaped_evidence(const HandShape& change) const {
     ModelComparison moved;
     moved.correspondences = evidence_.correspondences;

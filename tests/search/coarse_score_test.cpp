@@ -19,7 +19,7 @@ class CoarseScore : public testing::Test {
     truth_ = forward_kinematics(*profile_, {palm_orientation(0.1, 0.1, 0.3), {0.02, 0.06, 0.4}}, {});
     observation_ = test::PointWorld(*profile_, test::PointWorld::Arm::none).observe(truth_);
     grid_ = make_score_grid(*observation_, 0.005);
-    params_.no_forearm = 0;  // the drawn hand has no arm
+    params_.no_forearm = 0;  // no penalty, since the rendered hand has no arm
   }
   double score(const HandPose& pose) const { return CoarseScorer(grid_, skin_, params_)(pose); }
   HandPose shifted(const Eigen::Vector3d& t) const { return moved({Eigen::Matrix3d::Identity(), t}, truth_); }

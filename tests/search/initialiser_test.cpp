@@ -29,11 +29,11 @@ class InitialiserTest : public testing::Test {
     limits_ = widened_limits(*profile, 0.1);
     initialiser_ = std::make_unique<Initialiser>(profile, InitialiserParams{});
   }
-  /// The middle of the hand near the optical axis at 0.4 m.
+  /// A pose similar to the template `index`, with the middle of the hand near the optical axis at a depth of 0.4 m.
   HandPose shape(std::size_t index, double roll, double in_plane) const {
     ArticulatedPose pose;
     pose.angles = shape_templates(*profile_, limits_)[index].angles;
-    // Not exactly a template: neither shape nor orientation.
+    // Neither the shape nor the orientation is exactly that of a template.
     pose.angles[segment_of(1, 0)].flexion += 0.1;
     pose.angles[segment_of(3, 1)].flexion += 0.15;
     const Eigen::Matrix3d R = palm_orientation(roll + 0.1, 0.15, in_plane);

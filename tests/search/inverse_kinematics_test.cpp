@@ -13,7 +13,7 @@ double square(double x) { return x * x; }
 
 class InverseKinematicsTest : public ::testing::Test {
  protected:
-  /// A pose of `profile` with random angles within its limits, anywhere, turned anyhow.
+  /// A pose of `profile` with random angles within its limits and a random position and orientation.
   HandPose random_pose(const HandProfile& profile) {
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
@@ -43,8 +43,8 @@ class InverseKinematicsTest : public ::testing::Test {
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
 };
 
-/// Largest relative difference between the equations' gradient and a numeric one of their energy: over the shift and
-/// the turn of every segment, which are of different sizes, and the scale.
+/// Largest relative difference between the equations' gradient and the numeric gradient of their energy. Translations,
+/// rotations and the scale are compared separately, since their gradients have different units.
 double gradient_error(const KinematicEquations& equations, const std::function<double(const HandPose&, double)>& energy,
                       const HandPose& pose, double scale) {
   constexpr double kStep = 1e-6;
@@ -70,7 +70,7 @@ TEST_F(InverseKinematicsTest, TheGradientIsTheEnergysAndAWrongOneIsNoticed) {
   const DetectedJoints joints = joints_of(*profile_, random_pose(*profile_), 0.02);
   HandPose pose = random_pose(*profile_);
   std::uniform_real_distribution<double> shift(-0.02, 0.02);
-  for (SE3& T : pose) {  // joints open and beyond their limits
+  for (SE3& T : pose) {  // separates the joints and moves them beyond their limits
     Vector6d step;
     for (double& x : step) x = shift(random_);
     T = boxplus(T, step);
@@ -105,7 +105,7 @@ TEST_F(InverseKinematicsTest, JointsWithTheDetectionsNoiseGiveAPoseThatIsBetterT
   double sum = 0;
   for (int i = 0; i < 30; ++i) {
     const HandPose truth = random_pose(*profile_);
-    const auto fit = fit_to_joints(*profile_, joints_of(*profile_, truth, 0.007));  // 12 mm from the truth each
+    const auto fit = fit_to_joints(*profile_, joints_of(*profile_, truth, 0.007));  // each joint is off by 12 mm
     ASSERT_TRUE(fit);
     sum += pose_distance(*profile_, fit->pose, truth) / 30;
   }
@@ -133,7 +133,7 @@ TEST_F(InverseKinematicsTest, AMeanHandIsGivenTheDetectedSize) {
   const auto fit = fit_to_joints(*profile_, joints);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->scale, 0.8, 0.01);
-  double apart = 0;  // of the flexions, which a weak pull draws to that of a hand at rest [rad]
+  double apart = 0;  // error of the flexions [rad]; a weak prior pulls them to those of the neutral pose
   for (int s = 1; s < kSegmentCount; ++s)
     apart += std::abs(joint_angles(*profile_, fit->pose, s).flexion - joint_angles(child, truth, s).flexion) / 15;
   EXPECT_LT(apart, 0.1);

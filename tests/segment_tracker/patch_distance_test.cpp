@@ -14,7 +14,8 @@ namespace {
 constexpr int kSegment = 6;
 using HiddenPixels = Image<std::uint8_t>;
 
-/// Sec. 4.1 and 4.2 point by point in double precision, from the observation itself instead of the pixel map.
+/// Sec. 4.1 and 4.2 of the paper, evaluated for each point in double precision, from the observation instead of the
+/// pixel map.
 PatchDistance reference_distance(const SegmentSurface& skin, const SE3& T, const HandObservation& o,
                                  const HiddenPixels& hidden, bool missing_is_background, double cap) {
   const Intrinsics& c = o.frame->camera;
@@ -27,7 +28,7 @@ PatchDistance reference_distance(const SegmentSurface& skin, const SE3& T, const
     const double weight = skin.area[i] * facing / std::pow(p.z(), 3) * c.fx * c.fy;
     total += weight;
 
-    // The data there: hidden points do not count.
+    // The data at this pixel; hidden points do not count.
     const Eigen::Vector2d pixel = c.project(p);
     const int u = static_cast<int>(std::floor(pixel.x() + 0.5)), v = static_cast<int>(std::floor(pixel.y() + 0.5));
     if (!o.label.contains(u, v) || hidden.at(u, v)) continue;
@@ -46,7 +47,7 @@ PatchDistance reference_distance(const SegmentSurface& skin, const SE3& T, const
   return {static_cast<float>(distance), static_cast<float>(counted), static_cast<float>(total)};
 }
 
-/// Random labels, with depths around that of the segment, and large enough that all skin is within the image.
+/// An observation with random labels and with depths around that of the segment. All of the skin is within the image.
 HandObservation random_scene(std::uint64_t seed) {
   KeyedRandom random(seed, 3);
   return make_observation(small_camera(64, 64), [&](int, int) -> ScenePixel {
@@ -85,13 +86,13 @@ TEST(PatchDistance, AgreesWithTheEquationsPointByPoint) {
 
     const PatchDistance actual = patch_distance(skin, T, kSegment, map, static_cast<float>(cap));
     const PatchDistance expected = reference_distance(skin, T, o, hidden, missing_is_background, cap);
-    // A point within single precision of a pixel's border or of the silhouette may fall either way.
+    // Rounding to single precision may move a point across a pixel's border or the silhouette.
     ASSERT_NEAR(actual.total, expected.total, 1e-3 * expected.total) << "seed " << seed;
     ASSERT_NEAR(actual.counted, expected.counted, 1e-3 * expected.total) << "seed " << seed;
     ASSERT_NEAR(actual.mean(), expected.mean(), 2e-5) << "seed " << seed;
     counted += expected.counted_fraction() / kScenes;
   }
-  EXPECT_GT(counted, 0.2);  // the scenes exercise both outcomes
+  EXPECT_GT(counted, 0.2);  // some points count, others do not
   EXPECT_LT(counted, 0.8);
 }
 

@@ -15,7 +15,7 @@ SegmentTracker make_tracker(Workers& workers, const SegmentTrackerParams& params
   return {params, std::make_shared<HandSurface>(make_cylinder_surface(capsule_profile(), 150)), workers};
 }
 
-/// All segments are predicted at the upright capsule; the tests look at kTip only.
+/// A prediction with all segments at the upright capsule; the tests check kTip only.
 HandPose prediction() {
   HandPose pose;
   pose.fill(upright_pose());
@@ -30,8 +30,8 @@ Proposals boxes(double translation, double rotation) {
   return proposals;
 }
 
-/// The upright capsule, whose left part up to column `covered_to` is behind an object 30 mm in front of it. A bit of
-/// hand in the corner keeps Eq. 1 defined where everything else is covered.
+/// The upright capsule, whose left part up to column `covered_to` is behind an object 30 mm in front of it. Some pixels
+/// of hand in the corner keep Eq. 1 defined if everything else is covered.
 HandObservation covered_capsule(int covered_to) {
   const Intrinsics camera = small_camera();
   return make_observation(camera, [&](int u, int v) {
@@ -58,7 +58,7 @@ TEST(SegmentTracker, TrueSampleBeatsDisplacedOnes) {
   EXPECT_LT(at_truth, 0.0007);
   for (int axis = 0; axis < 3; ++axis)
     for (const double offset : {-0.006, -0.003, 0.003, 0.006}) {
-      if (axis == 1 && offset > 0) continue;  // towards the palm, a tip slides within its own outline
+      if (axis == 1 && offset > 0) continue;  // in the direction of the palm, the tip moves within its own outline
       SE3 T = upright_pose();
       T.t[axis] += offset;
       EXPECT_GT(tracker.compare(prepared, kTip, T).mean(), 1.5 * at_truth) << "axis " << axis << " by " << offset;
@@ -108,8 +108,8 @@ TEST(SegmentTracker, FullyHiddenSegmentIsFlat) {
 }
 
 TEST(SegmentTracker, SamplesThatMoveIntoOcclusionAreNotPunished) {
-  // The tip's end is in the upper half of the image. When it slides on by 5 mm, it leaves its own outline, either into
-  // the open or behind an object that covers everything above.
+  // The tip's end is in the upper half of the image. When it moves up by 5 mm, it leaves its own outline: either in
+  // front of the background, or behind an object that covers everything above.
   const Intrinsics camera = small_camera();
   const auto tip_below = [&](PixelLabel above, float z) {
     return make_observation(camera, [&, above, z](int u, int v) {

@@ -41,7 +41,7 @@ TEST(PredictedPatch, HoldsTheDepthOfTheSkinAndContinuesBeyondIt) {
                                                        }),
                                       false, workers);
 
-  // The depth at a pixel of the observation.
+  // The predicted depth at a pixel of the observation.
   PredictedPatch patch;
   patch.predict(make_cylinder_surface(capsule_profile(), 150)[kTip], upright_pose(), map, 0.010);
   const auto depth_at = [&](int u, int v) {
@@ -49,7 +49,7 @@ TEST(PredictedPatch, HoldsTheDepthOfTheSkinAndContinuesBeyondIt) {
         .z[static_cast<std::size_t>((v + 1 - patch.v0) / patch.cell) * patch.columns + (u + 1 - patch.u0) / patch.cell];
   };
   EXPECT_NEAR(depth_at(48, 48), 0.392, 0.0007);       // the front of the skin
-  EXPECT_NEAR(depth_at(48 + 18, 48), 0.399, 0.0025);  // 3 mm beside the outline
+  EXPECT_NEAR(depth_at(48 + 18, 48), 0.399, 0.0025);  // 3 mm outside the outline
 }
 
 TEST(SelfOcclusion, SkinInFrontByMoreThanTheThresholdHides) {

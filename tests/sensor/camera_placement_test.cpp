@@ -11,7 +11,8 @@ using ::testing::HasSubstr;
 
 const double kRoot = std::sqrt(0.5);
 
-/// A camera 1.2 m above the floor that looks along the world's y axis: its x is the world's x, its y (down) is -z.
+/// Position and orientation of a camera 1.2 m above the floor that looks along the world's y axis: its x axis is the
+/// world's x axis, its y axis (down) is -z.
 const std::vector<double> kLevel = {0.5, -2, 1.2, -kRoot, 0, 0, kRoot};
 const std::vector<double> kLevelMatrix = {1, 0, 0, 0.5, 0, 0, 1, -2, 0, -1, 0, 1.2, 0, 0, 0, 1};
 

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 constexpr std::int64_t kFrame = 33'333;  // us
 constexpr std::int64_t kNow = 1'700'000'000'000'000;
 
-/// The numbers that frames get, "-" where one is not used.
+/// The numbers that FrameOrder gives to frames; "-" if it rejects a frame.
 std::string numbers(const std::vector<std::pair<std::int64_t, std::int64_t>>& frames) {
   FrameOrder order(StampUnit::microseconds);
   std::string text;

@@ -9,7 +9,7 @@ namespace {
 
 using Depth = Image<std::uint16_t>;
 
-/// A slanted wall with noise, and a box before it.
+/// Depth of a slanted wall with noise, and of a box in front of it.
 Depth scene(unsigned seed) {
   std::minstd_rand random(seed);
   std::uniform_int_distribution<int> noise(-15, 15);

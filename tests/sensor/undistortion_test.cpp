@@ -9,10 +9,11 @@ namespace {
 
 constexpr Intrinsics kCamera{160, 120, 130, 130, 79.5, 59.5};
 
-/// The depth of a plane across the camera's axis whose counts tell the ideal column, as a lens shows it.
+/// A distorted depth image of a plane perpendicular to the camera's axis. The depth values encode the column at which
+/// an ideal camera would see the point.
 Image<std::uint16_t> seen_through(const Distortion& lens) {
   Image<std::uint16_t> image(kCamera.width, kCamera.height);
-  const int fine = 8;  // ideal places are tried between the pixels, too
+  const int fine = 8;  // number of ideal positions per pixel along each axis
   for (int v = 0; v < fine * kCamera.height; ++v) {
     for (int u = 0; u < fine * kCamera.width; ++u) {
       const double ideal_u = static_cast<double>(u) / fine, ideal_v = static_cast<double>(v) / fine;
@@ -27,7 +28,7 @@ Image<std::uint16_t> seen_through(const Distortion& lens) {
   return image;
 }
 
-// Figures of cv::projectPoints.
+// The expected numbers were computed by cv::projectPoints.
 TEST(Distortion, IsThatOfOpenCv) {
   const auto expect = [](const Distortion& lens, double x, double y, double to_x, double to_y) {
     EXPECT_NEAR(lens.distorted(x, y).x(), to_x, 1e-8);

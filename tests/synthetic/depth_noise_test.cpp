@@ -34,7 +34,7 @@ Spread spread(const Image<float>& depth) {
   return {sum / n, std::sqrt(sum_sq / n - sum / n * sum / n), 1 - n / static_cast<double>(depth.size())};
 }
 
-/// The claim under test: the axial sigma of this depth image of a flat wall is `sigma` within 5 %.
+/// Whether the axial standard deviation of this depth image of a flat wall is `sigma` [m] within 5 %.
 bool has_sigma(const Image<float>& depth, double sigma) { return std::abs(spread(depth).sigma / sigma - 1) < 0.05; }
 
 TEST(KinectNoise, HasThePublishedAxialSigma) {

@@ -42,7 +42,7 @@ TEST_F(Grasp, ClosesUntilTheSkinTouchesAndNotThrough) {
   for (int s = 0; s < kSegmentCount; ++s) EXPECT_GT(gap[s], -0.002) << kSegmentNames[s];
 }
 
-/// Smallest distance between skin and thing: over a whole sequence, and while the thing is held.
+/// Smallest distance between the skin and the object [m]: over the whole sequence, and while the object is held.
 struct Contact {
   double ever = 1, held = 1;
 };

@@ -17,7 +17,7 @@ SceneGeometry ball_at(const Eigen::Vector3d& centre, double radius) {
   return scene;
 }
 
-/// z where the ray of a pixel first hits a ball; 0 if it misses.
+/// Depth (z) of the first intersection of a pixel's ray with a ball [m]; 0 if it misses the ball.
 double analytic_depth(int u, int v, const Eigen::Vector3d& centre, double radius) {
   const Eigen::Vector3d ray = kCamera.unproject(u, v, 1);
   const double a = ray.squaredNorm(), b = ray.dot(centre), c = centre.squaredNorm() - radius * radius;
@@ -45,8 +45,8 @@ TEST(Rasteriser, DepthOfABallIsAnalytic) {
       }
       if (expected == 0) continue;
       ++hits;
-      // The points are on the ball within the sagitta of its facets; where the ball faces the camera, the depth is
-      // right, too.
+      // The points are on the ball, up to the distance (sagitta) of its flat facets from the sphere. Where the ball
+      // faces the camera, the depth is accurate, too.
       EXPECT_NEAR((kCamera.unproject(u, v, 1 / inverse) - centre).norm(), radius, 9e-5) << u << " " << v;
       if (expected < centre.z() - 0.85 * radius) {
         EXPECT_NEAR(1 / inverse, expected, 1.2e-4) << u << " " << v;
@@ -116,7 +116,7 @@ TEST(Rasteriser, NearerSurfaceWinsWhateverTheOrder) {
 }
 
 TEST(Rasteriser, ClipsWhatReachesBehindTheCamera) {
-  SceneGeometry scene;  // a floor below the camera, from far behind to far ahead
+  SceneGeometry scene;  // a floor below the camera, from far behind to far in front of it
   scene.add(make_plate({-5, 0.3, -5}, {0, 0, 10}, {10, 0, 0}), SE3{}, 0);
   Rasteriser rasteriser(kCamera);
   rasteriser.draw(scene.vertices, scene.triangles, 0);

@@ -56,7 +56,7 @@ TEST(Returns, LeavesTheViewTenTimes) {
   Simulator sim = simulator(small_scene("returns"));
   int departures = 0;
   bool was_there = true;
-  for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // in the last frames the hand leaves for good
+  for (std::int64_t i = 0; i + 1 < sim.frame_count(); ++i) {  // after the last frames the hand does not return
     const bool there = sim.render(i).hands.front().table.has_value();
     departures += was_there && !there;
     was_there = there;

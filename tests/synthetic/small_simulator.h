@@ -8,7 +8,7 @@
 
 namespace barehand::synthetic {
 
-/// A sequence at 160x120.
+/// Parameters of this sequence with images of 160x120 pixels.
 inline SimulatorParams small_scene(const std::string& sequence) {
   SimulatorParams params;
   params.sequence = sequence;
@@ -17,7 +17,7 @@ inline SimulatorParams small_scene(const std::string& sequence) {
   return params;
 }
 
-/// Throws where the parameters make none.
+/// Creates a simulator; throws if the parameters are invalid.
 inline Simulator simulator(const SimulatorParams& params) {
   auto made = Simulator::create(params);
   if (!made) throw std::runtime_error(made.error().message());

@@ -8,7 +8,8 @@
 
 namespace barehand::synthetic {
 
-/// A test with the fetched hand mesh; without the mesh it fails and says what to run.
+/// Base of tests with the hand mesh that deploy/fetch_hand_mesh.sh downloads. Without the mesh, they fail with a
+/// message that names the script.
 class HandTest : public testing::Test {
  protected:
   void SetUp() override {

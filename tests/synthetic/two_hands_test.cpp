@@ -38,7 +38,7 @@ bool is_fist(const HandTruth& hand) {
   return (rows[segment_of(2, 2)].distal - rows[kPalm].proximal).norm() < 0.1;
 }
 
-/// Smallest distance between the vertices of two surfaces [m]; above 0.1 it is not exact.
+/// Smallest distance between the vertices of two surfaces [m]. Distances above 0.1 m are not exact.
 float gap(const SceneGeometry& a, const SceneGeometry& b) {
   Eigen::AlignedBox3f box;
   for (const auto& v : b.vertices) box.extend(v);
@@ -92,8 +92,8 @@ TEST(TwoHands, ComeAndGoOneByOne) {
     }
 }
 
-/// What happens to the hand behind during a crossing: the smallest visible fraction, and the time with more than a
-/// tenth hidden.
+/// Visibility of the farther hand while two hands cross: its smallest visible fraction, and the time during which more
+/// than a tenth of it is hidden [s].
 struct Crossing {
   double least_shown = 1, seconds = 0;
 };
@@ -149,7 +149,7 @@ TEST(TwoHands, NeverTouch) {
   const auto sequence = make_sequence("two_hands", nullptr, 1);
   ASSERT_TRUE(sequence.has_value());
 
-  // The gap over time; for a moment the fists are side by side.
+  // Check the gap over time, including the moment when the fists are next to each other.
   for (double time = 0; time < (*sequence)->duration(); time += 0.1) {
     const SceneState state = (*sequence)->at(time);
     const auto geometry = [&](int hand, const std::string& sleeve) {

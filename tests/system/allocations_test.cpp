@@ -1,4 +1,4 @@
-// Counts what a frame takes from the heap once a stream runs steadily.
+// Tests that processing a frame allocates no memory from the heap in the steady state.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -38,13 +38,14 @@ struct Counts {
   double preprocess = 0, track = 0, publish = 0;
 };
 
-/// Of a swaying hand, the first of those looked for: mean over the frames after a warm-up.
+/// The mean number of allocations per frame while a swaying hand is tracked, after a warm-up. `hands` is the number of
+/// hands that the tracker searches for; only the first one is in view.
 Counts allocations_per_frame(TrackerParams params, int hands = 1) {
-  params.shape_fit.scans = 0;                 // learning a hand is no steady state
-  constexpr int kWarmUp = 40, kCounted = 20;  // twice and once to and fro
+  params.shape_fit.scans = 0;                 // a scan of the hand is no steady state
+  constexpr int kWarmUp = 40, kCounted = 20;  // two swings of the hand, and one
   const Intrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
   auto measured = std::make_shared<HandProfile>(*test::adult_hand());
-  measured->origin = ProfileOrigin::measured;  // nor is fitting a mean hand to the person
+  measured->origin = ProfileOrigin::measured;  // fitting a mean hand to the person is no steady state either
   const std::shared_ptr<const HandProfile> profile = measured;
   const Skin skin = make_blended_skin(*profile, 0.004);
   Workers workers(1);
@@ -81,7 +82,8 @@ TEST(Allocations, AreCounted) {
   EXPECT_EQ(allocations - before, 1);
 }
 
-/// Now and then a buffer still grows to the largest frame so far; what is allocated for a frame is at least 1.
+/// The bound is not zero because a buffer may still grow for a frame with more data than all before. An allocation in
+/// every frame would give 1 or more.
 void expect_none(const Counts& counts) {
   EXPECT_LT(counts.preprocess, 0.25);
   EXPECT_LT(counts.track, 0.25);

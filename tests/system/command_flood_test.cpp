@@ -1,4 +1,4 @@
-// The program on a real network whose other end floods it with commands; started by with_multicast.sh.
+// Tests that a flood of commands from the network does not stop the tracking. To be started by with_multicast.sh.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -40,7 +40,8 @@ class Flood {
   void send() {
     for (; !stop_ && sent_ < kMost; ++sent_) {
       (void)bus_->send("COMMAND", messages_[static_cast<std::size_t>(sent_) % messages_.size()], 0);
-      if (sent_ % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // 2,500 a second at most
+      if (sent_ % 50 == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // at most 2,500 commands per second
     }
   }
   std::unique_ptr<LcmBus> bus_;
@@ -51,11 +52,11 @@ class Flood {
 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSlow = true;  // every command to reset is a search of ten seconds
+constexpr bool kSlow = true;  // every reset causes a search that takes ten seconds
 #else
 constexpr bool kSlow = false;
 #endif
-constexpr int kFrames = kSlow ? 1 : 45;  // tracked under the flood
+constexpr int kFrames = kSlow ? 1 : 45;  // number of frames that must be tracked during the flood
 
 class CommandFlood : public ::testing::TestWithParam<bool> {
  protected:

@@ -196,7 +196,7 @@ TEST(Track, FindsShippedConfigsByName) {
     EXPECT_EQ(barehand({"track", "--print-config", "--config", name}).exit_code, 0) << name;
 }
 
-/// A network of one's own without any route; not everywhere allowed.
+/// Whether a private network without any route can be created, which is not allowed everywhere.
 bool can_unshare() { return ChildProcess({"unshare", "-rn", "true"}).finish() == 0; }
 
 TEST(Track, SaysHowToMendAMissingMulticastRoute) {
@@ -244,7 +244,8 @@ TEST(Track, OutlivesANetworkThatIsGoneForAWhile) {
     const auto at = said.rfind("failed ");
     return at == std::string::npos ? 0 : std::atoi(said.c_str() + at + 7);
   };
-  while (failed() <= 60) ASSERT_TRUE(child.wait_for_more()) << child.output();  // twice as many as end a replay
+  while (failed() <= 60)
+    ASSERT_TRUE(child.wait_for_more()) << child.output();  // twice the number of failures that would end a replay
   EXPECT_EQ(ip("add"), 0);
   const auto published = [&] {
     const std::string& said = child.output();
@@ -267,7 +268,7 @@ TEST(Track, CanBeStoppedWhileItWaitsForTheNetwork) {
     EXPECT_EQ(child.finish(), exit_code) << child.output();
   }
 }
-// The doctor loads graphics drivers, which leak and are unloaded: under a sanitizer that would be its exit status.
+// The doctor loads graphics drivers, which leak memory. The leak sanitizer would change the exit status.
 #define BAREHAND_DOCTOR "ASAN_OPTIONS=detect_leaks=0 " BAREHAND_PROGRAM " doctor"
 
 TEST(Doctor, FindsTheMissingMulticastRoute) {
@@ -282,7 +283,7 @@ TEST(Doctor, IsSatisfiedWithARoute) {
   if (!can_unshare()) GTEST_SKIP() << "no network namespaces here";
   ChildProcess child(
       {"unshare", "-rn", "sh", "-c", "ip link set lo up && ip route add 224.0.0.0/4 dev lo && " BAREHAND_DOCTOR});
-  child.finish();  // whatever else is missing here
+  child.finish();  // the exit code depends on what else the machine lacks
   EXPECT_THAT(child.output(), AllOf(HasSubstr("ok      multicast route: through lo"), HasSubstr("ok      LCM: ")));
 }
 

@@ -1,4 +1,4 @@
-// `barehand record`, `convert` and `listen` as a user meets them.
+// Tests the commands `barehand record`, `convert` and `listen` as a user runs them.
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -69,7 +69,8 @@ TEST_F(CopyCommands, NothingIsOverwrittenUnasked) {
   EXPECT_EQ(barehand({"convert", in, out, "--overwrite"}).exit_code, 0);
 }
 
-/// Refused with a message that has all of `words`, and the input as it was.
+/// Expects that the program refuses the arguments with a message that contains all of `words`, and leaves the input
+/// unchanged.
 void expect_refused(const std::vector<std::string>& arguments, const std::string& input,
                     const std::vector<std::string>& words) {
   const std::string before = test::read_text(input);
@@ -143,7 +144,7 @@ TEST_F(CopyCommands, IntrinsicsComeFromTheConfigurationUnlessTheyAreGiven) {
   ASSERT_TRUE(writer->send("KINECT", encode_message(kinect_message(test_frame(0), true)), 1));
   writer.reset();
   std::string text = test::read_text(BAREHAND_CONFIGS "/default.yaml");
-  for (const char* key : {"fx", "fy", "cx", "cy"})  // the first of the name: foreign_camera's
+  for (const char* key : {"fx", "fy", "cx", "cy"})  // the first key of this name belongs to foreign_camera
     text = test::replaced(text, std::string("  ") + key + ": 0\n", std::string("  ") + key + ": 3\n");
   test::write_text(config, text);
   const auto fx_after = [&](std::vector<std::string> more) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Holds how many shared libraries the program loads when it starts, and that those for videos are not among them.
+# Checks how many shared libraries the program loads when it starts, and that those for videos are not among them.
 #   libraries.sh PROGRAM VIDEO_MODULE
 set -euo pipefail
 

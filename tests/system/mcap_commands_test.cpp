@@ -1,4 +1,4 @@
-// MCAP files as a user meets them: `record`, `convert`, `track` and what they leave.
+// Tests the commands `record`, `convert` and `track` with MCAP files as a user runs them.
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -25,7 +25,7 @@ class McapCommands : public testing::Test {
         script(folder_.path(), "$B record --source sim:fist,width=160,height=120 --frames 6 --out $D/take");
     ASSERT_EQ(made.exit_code, 0) << made.output;
   }
-  /// Exit code 0, or a failure with the output.
+  /// Expects that the shell commands in `text` succeed; otherwise prints their output.
   void expect_done(const std::string& text) const {
     const Outcome outcome = script(folder_.path(), "set -e; " + text);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

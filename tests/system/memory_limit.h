@@ -11,11 +11,11 @@
 
 namespace barehand {
 
-/// A limit on the memory of child processes, as systemd's MemoryMax sets it: a control group of the kernel's, which
-/// kills what needs more.
+/// A limit on the memory of child processes, as systemd's MemoryMax sets it: a control group, in which the kernel kills
+/// a process that needs more.
 class MemoryLimit {
  public:
-  /// None where this process may make no control group for memory.
+  /// None if this process may not create a control group for memory.
   static std::optional<MemoryLimit> make(long bytes) {
     for (const Version& version : {kVersion2, kVersion1}) {
       MemoryLimit limit(version);
@@ -34,7 +34,8 @@ class MemoryLimit {
     all.insert(all.end(), program.begin(), program.end());
     return all;
   }
-  /// Most memory that was used at once, the kernel's on behalf of the programs and cached files included [bytes].
+  /// Largest amount of memory that was used at once, including cached files and the kernel's memory for the programs
+  /// [bytes].
   long peak() const {
     long bytes = 0;
     std::ifstream(folder_ + "/" + version_.peak) >> bytes;
@@ -54,8 +55,8 @@ class MemoryLimit {
     std::error_code error;
     if (std::filesystem::create_directory(folder, error) && !error) folder_ = std::move(folder);
   }
-  /// This process's group, "4:memory:/group" of version 1. In version 2 a group with processes can have no groups in
-  /// it.
+  /// The control group of this process in version 1, given as "4:memory:/group" in /proc. "" in version 2, where a
+  /// group that contains processes cannot contain groups.
   static std::string own_group(const std::string& controller) {
     if (controller.empty()) return "";
     std::ifstream groups("/proc/self/cgroup");
@@ -75,7 +76,7 @@ class MemoryLimit {
   }
 
   Version version_;
-  std::string folder_;  ///< "": none was made, or moved from
+  std::string folder_;  ///< folder of the control group; "" if none was created or this object was moved from
 };
 
 }  // namespace barehand

@@ -16,8 +16,8 @@
 
 namespace barehand {
 
-/// The socket that systemd would listen on, named to programs started meanwhile (and to this one). Like systemd it
-/// reads all the time: a program waits when ten messages are unread.
+/// Replaces the socket of systemd's service notifications for this process and for programs that it starts. Like
+/// systemd it reads continuously, since a program blocks when ten messages are unread.
 class NotifySocket {
  public:
   explicit NotifySocket(const std::string& watchdog_us = "") {
@@ -38,7 +38,7 @@ class NotifySocket {
   NotifySocket(const NotifySocket&) = delete;
   NotifySocket& operator=(const NotifySocket&) = delete;
 
-  /// The next message if it comes in time; else "".
+  /// The next message if one comes within this time, else "".
   std::string next(int patience_ms = 0) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
     while (true) {
@@ -49,7 +49,7 @@ class NotifySocket {
   }
   /// Reads until a message contains `text`; "" if none comes.
   std::string wait_for(const std::string& text) {
-    constexpr int kLongMs = 60'000;  // never waited for when all is well
+    constexpr int kLongMs = 60'000;  // a timeout that is reached only by failing tests
     std::string message = next(kLongMs);
     while (!message.empty() && message.find(text) == std::string::npos) message = next(kLongMs);
     return message;
@@ -84,7 +84,7 @@ class NotifySocket {
 
   test::TempFolder folder_;
   const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  std::mutex mutex_;  ///< guards what follows, and reading
+  std::mutex mutex_;  ///< protects the members below and the reading of the socket
   std::deque<std::string> messages_;
   std::jthread reader_{[this](const std::stop_token& stop) { read(stop); }};
 };

@@ -1,4 +1,4 @@
-// Outputs that are the standard output, another descriptor, or a named pipe.
+// Tests outputs to the standard output, to another descriptor and to a named pipe.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -96,7 +96,7 @@ TEST_F(PipedOutputs, AScannedHandIsWrittenOnce) {
   EXPECT_THAT(text_of("err"), HasSubstr("frames tracked"));
 }
 
-/// Reads from a named pipe what comes within one read.
+/// The result of a single read from a named pipe.
 std::string some_of(const std::string& pipe, int file) {
   std::string text(1 << 16, ' ');
   const ssize_t count = read(file, text.data(), text.size());

@@ -1,4 +1,4 @@
-// `barehand record` for ever: killed, on a full disk, rotating.
+// Tests `barehand record` as a service that never ends: when it is killed, on a full disk, and with rotated files.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class Record : public ::testing::Test {
     std::sort(paths.begin(), paths.end());
     return paths;
   }
-  /// Numbers of the frames that a log replays; every one of its events is a frame.
+  /// Numbers of the frames in a log, all events of which must be frames.
   static std::vector<std::int64_t> replay(const fs::path& path) {
     std::vector<std::int64_t> numbers;
     auto source = LcmLogSource::open(path.string());
@@ -148,7 +148,7 @@ TEST_F(Record, RefusesASetThatCannotBe) {
   expect_refusal("a.lcmlog", {"--max-age", "1 fortnight"}, "fortnight");
 }
 
-/// Records to a small disk.
+/// Tests recording to a small disk.
 class RecordOnSmallDisk : public Record {
  protected:
   void SetUp() override {
@@ -161,7 +161,7 @@ class RecordOnSmallDisk : public Record {
 };
 
 TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
-  const test::TempFolder outside;  // not hidden by the small disk
+  const test::TempFolder outside;  // outside of the folder that the small disk is mounted on
   ChildProcess child(on_small_disk({}));
   ASSERT_TRUE(child.wait_for("No space left on device")) << child.output();
   disk_.make_room(child);
@@ -177,7 +177,7 @@ TEST_F(RecordOnSmallDisk, RecordingGoesOnWhenThereIsRoomAgain) {
 
 TEST_F(RecordOnSmallDisk, TheOldestOfASetMakeRoomForTheNewest) {
   ChildProcess child(on_small_disk({"--max-size", "40kB", "--quota", "1GB"}));
-  ASSERT_TRUE(child.wait_for("\n"));  // its first line: the disk is there
+  ASSERT_TRUE(child.wait_for("\n"));  // after its first line, the disk is mounted
   const auto newest = [&] { return disk_.beside(child, "ls " + folder_.path() + " | grep take | tail -n 1"); };
   for (std::string name = newest(); name < "take-000012"; name = newest())
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

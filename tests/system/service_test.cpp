@@ -1,4 +1,4 @@
-// The program as a service: what systemd is told, reloading, starting and stopping.
+// Tests the program as a service of systemd: notifications, reloading, starting and stopping.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLiveHand = "sim:fist,live=true,loop=true,width=160,height=120";
 
-/// Drives the sink by hand: nothing but the pulse decides whether the watchdog is fed.
+/// Calls the sink directly, with given counts of the pipeline's progress (its pulse), which decide whether the watchdog
+/// is notified.
 class Watchdog : public ::testing::Test {
  protected:
   bool fed() {
@@ -104,7 +105,7 @@ TEST(ServiceManager, KeepsStillWithoutSystemd) {
   manager.alive();
 }
 
-/// `barehand track` before a simulated hand, with a configuration of its own.
+/// Runs `barehand track` with a simulated hand and a test configuration.
 class Service : public ::testing::Test {
  protected:
   Service() { write_config(test::quick_config()); }
@@ -155,7 +156,7 @@ TEST_F(Service, RefusesABrokenConfigurationAndGoesOnWithTheOldOne) {
   EXPECT_THAT(socket_.wait_for("READY=1"), HasSubstr("STATUS=configuration not reloaded"));
   ASSERT_TRUE(child.wait_for("the old one stays in force"));
   const auto told = child.output().size();
-  while (child.output().find("captured ", told) == std::string::npos)  // and frames still pass
+  while (child.output().find("captured ", told) == std::string::npos)  // wait until frames are still processed
     ASSERT_TRUE(child.wait_for_more()) << child.output();
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
@@ -182,7 +183,7 @@ TEST_F(Service, LeavesNothingBehindWhenStartedAndStoppedAgainAndAgain) {
   setenv("TMPDIR", here.c_str(), 1);
   for (int cycle = 0; cycle < 6; ++cycle) {
     ChildProcess child(command({"--states-log", here + "/states.lcmlog"}));
-    if (cycle % 2 == 0) {  // every other one is stopped while it starts
+    if (cycle % 2 == 0) {  // in every second cycle, the program is stopped while it starts
       EXPECT_FALSE(socket_.wait_for("WATCHDOG").empty());
     } else {
       EXPECT_FALSE(socket_.wait_for("READY=1").empty());
@@ -240,7 +241,7 @@ TEST_F(Service, TheLimitOfMemoryIsOne) {
 }
 #endif
 
-/// How often a text holds another.
+/// How often `text` contains `part`.
 int count(const std::string& text, const std::string& part) {
   int found = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
@@ -249,12 +250,12 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(Service, WritesResultsAgainWhenTheFullDiskHasRoom) {
   if (!SmallDisk::possible()) GTEST_SKIP() << "no mount namespaces here";
-  const test::TempFolder hidden, outside;  // the disk stands in place of the first
+  const test::TempFolder hidden, outside;  // the small disk is mounted on the first folder
   const SmallDisk disk(hidden.path());
   const std::string table = hidden / "result.csv", log = hidden / "states.lcmlog";
   ChildProcess child(disk.command(command({"--result", table, "--states-log", log})));
   ASSERT_TRUE(child.wait_for("failed in states log")) << child.output();
-  disk.beside(child, "head -c 200000 /dev/zero > " + (hidden / "more") + " || true");  // not a byte is left
+  disk.beside(child, "head -c 200000 /dev/zero > " + (hidden / "more") + " || true");  // fills the disk completely
   ASSERT_TRUE(child.wait_for("failed in result table")) << child.output();
   disk.beside(child, "rm " + (hidden / "more"));
   disk.make_room(child);

@@ -1,5 +1,5 @@
-// What a program is started with and what happens around it: closed descriptors, pipes that nobody reads, terminals
-// that go away, limits.
+// Tests the program in unusual environments: with closed descriptors, pipes without a reader, terminals that are closed
+// while it runs, and limits.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -30,14 +30,14 @@ constexpr const char* kHand = "sim:fist,width=160,height=120";
 class Surroundings : public ::testing::Test {
  protected:
   Outcome script(const std::string& text) const { return barehand::script(folder_.path(), text); }
-  /// A recording of six frames, one of which cannot be read: there is something to say.
+  /// Creates a recording of six frames, one of which cannot be read, so that the program prints a message.
   std::string recording() const {
     EXPECT_EQ(barehand({"sim", "fist,width=160,height=120,frames=6", "--out", folder_ / "take"}).exit_code, 0);
     fs::remove(folder_ / "take/depth/000003.png");
     test::write_text(folder_ / "quick.yaml", test::quick_config());
     return folder_ / "take";
   }
-  /// Until the file of this name, or the draft of it that a program writes first, has some.
+  /// Waits until the file of this name, or its draft (which a program writes first), is not empty.
   void wait_for_bytes(const std::string& name) const {
     const auto written = [&] {
       for (const auto& entry : fs::directory_iterator(folder_.path())) {
@@ -69,7 +69,7 @@ TEST_F(Surroundings, MessagesNeverLandInDataWhicheverDescriptorsAreClosed) {
   }
 }
 
-/// Descriptor 3 is a pipe that nobody reads.
+/// A shell command that makes descriptor 3 a pipe without a reader.
 const std::string kBrokenPipe = "exec 3> >(true); wait $!; ";
 
 TEST_F(Surroundings, ARunGoesOnWhenNobodyReadsWhatItSays) {
@@ -114,7 +114,7 @@ TEST_F(Surroundings, HangupEndsARecordingInOrder) {
                       folder_ / "a.lcmlog"});
   wait_for_bytes("a.lcmlog");
   child.signal(SIGHUP);
-  child.signal(SIGHUP);  // a terminal that goes away sends it twice
+  child.signal(SIGHUP);  // a terminal that is closed sends it twice
   EXPECT_EQ(child.finish(), 0) << child.output();
   EXPECT_THAT(child.output(), HasSubstr("stopped"));
   EXPECT_GT(events(folder_ / "a.lcmlog"), 0u);
@@ -138,13 +138,13 @@ TEST_F(Surroundings, WhatAKilledRecorderLeftIsPartOfItsSet) {
   }
 }
 
-/// Commands that have nothing to save in the middle are ended by the signal itself.
+/// These commands have nothing to save before they are finished, so the signal itself ends them.
 TEST_F(Surroundings, CtrlCLeavesNoHalfFiguresOfEvalAndBench) {
   recording();
   ASSERT_EQ(mkfifo((folder_ / "r.csv").c_str(), 0600), 0);
   ChildProcess eval({BAREHAND_PROGRAM, "eval", "--result", folder_ / "r.csv", "--truth", folder_ / "take/truth.csv",
                      "--json", folder_ / "figures.json", "--plots", folder_ / "plots"});
-  const int pipe = open((folder_ / "r.csv").c_str(), O_WRONLY);  // returns when the table is being read
+  const int pipe = open((folder_ / "r.csv").c_str(), O_WRONLY);  // blocks until the program opens the table
   eval.signal(SIGINT);
   EXPECT_EQ(eval.finish(), 128 + SIGINT) << eval.output();
   close(pipe);

@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A recording of an empty wall whose frames share one small image.
+/// Tests `barehand track` on a recording of a wall without a hand. All of its frames refer to the same small image.
 class TrackRun : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -34,7 +34,7 @@ class TrackRun : public ::testing::Test {
     ASSERT_TRUE(writer->write(frame) && writer->finish());
   }
 
-  /// A hand before a wall that turns a little, over six frames.
+  /// Records six frames of a hand in front of a wall. The hand rotates slightly.
   void record_hand() {
     fs::remove_all(folder_);
     auto writer = RecordingWriter::create(folder_);
@@ -71,7 +71,7 @@ class TrackRun : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  /// Frames in the states log, which must be whole.
+  /// Number of frames in the states log, which must not be damaged.
   std::size_t logged_frames() const {
     const auto log = LcmLogReader::open(folder_ + "/states.lcmlog");
     EXPECT_TRUE(log) << log.error().message();
@@ -134,7 +134,7 @@ TEST_F(TrackRun, CtrlCKeepsWhatWasTrackedAndIsExitCode130) {
   for (const bool inline_stages : {false, true}) {
     ChildProcess child(
         track(inline_stages ? std::vector<std::string>{"--health", "--inline"} : std::vector<std::string>{"--health"}));
-    ASSERT_TRUE(child.wait_for("captured ")) << child.output();  // the first report on a run that goes on
+    ASSERT_TRUE(child.wait_for("captured ")) << child.output();  // the first report of progress
     child.signal(SIGINT);
     EXPECT_EQ(child.finish(), 130) << child.output();
     EXPECT_THAT(child.output(), HasSubstr("stopped by Ctrl-C"));
@@ -162,7 +162,8 @@ TEST_F(TrackRun, SigtermStopsADaemonThatWaitsForFramesInOrder) {
 
 TEST_F(TrackRun, FullDiskEndsTheRunAndKeepsWhatIsWritten) {
   repeat(1'000'000);
-  std::string command = "trap '' XFSZ; ulimit -f 64; exec";  // files of 32 or 64 KiB, as on a small disk
+  // Files are limited to 32 or 64 KiB, depending on the shell. This replaces a full disk.
+  std::string command = "trap '' XFSZ; ulimit -f 64; exec";
   for (const std::string& argument : track({})) command += " '" + argument + "'";
   ChildProcess child({"bash", "-c", command});
   EXPECT_EQ(child.finish(), 1) << child.output();

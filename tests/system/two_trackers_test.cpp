@@ -1,4 +1,4 @@
-// Two trackers on one network, over real UDP on the loopback interface; started by with_multicast.sh.
+// Tests two trackers on one network (UDP on the loopback interface). To be started by with_multicast.sh.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -18,11 +18,11 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// A port of its own for each process, so that tests that run side by side do not hear each other.
+/// Every process uses another port, so that tests that run at the same time do not receive each other's messages.
 int port() { return 20'000 + ::getpid() % 40'000; }
 std::string url() { return "udpm://239.255.76.67:" + std::to_string(port()); }
 
-/// The shipped configuration with another prefix and range.
+/// The shipped configuration with this channel prefix and LCM time to live (ttl).
 std::string configuration(const test::TempFolder& folder, const std::string& prefix, int ttl) {
   std::string config = test::replaced(test::quick_config(), "channel_prefix: \"\"", "channel_prefix: " + prefix);
   config = test::replaced(config, "lcm_ttl: 0", "lcm_ttl: " + std::to_string(ttl));
@@ -39,7 +39,7 @@ std::vector<std::string> track(const std::string& config, const std::string& han
           "--source",       "sim:fist,frames=6,width=160,height=120,hand=" + hand};
 }
 
-/// A subscriber of one sensor.
+/// Subscribes to the channels with one prefix, i.e. of one sensor.
 class Subscriber {
  public:
   explicit Subscriber(const std::string& prefix)
@@ -67,10 +67,10 @@ class Subscriber {
   std::vector<std::int64_t> frames_;
   std::set<int> hands_;
   std::set<std::string> channels_;
-  LcmListener listener_;  // goes first
+  LcmListener listener_;  // last member, since it must be destroyed first
 };
 
-/// How far packets may go, by the channel in them.
+/// Receives packets and their times to live (ttl), which limit how many routers they may pass.
 class Ranges {
  public:
   Ranges() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
@@ -88,7 +88,7 @@ class Ranges {
   }
   ~Ranges() { close(socket_); }
 
-  /// The ttl of the packets that arrived whose channel begins with this.
+  /// The times to live of all received packets whose channel starts with `prefix`.
   std::set<int> of(const std::string& prefix) {
     read_all();
     std::set<int> found;
@@ -99,7 +99,7 @@ class Ranges {
 
  private:
   void read_all() {
-    constexpr std::size_t kHeader = 8;  // of LCM's short messages: magic, sequence number; then the channel's name
+    constexpr std::size_t kHeader = 8;  // bytes of an LCM short message before its channel: magic, sequence number
     std::array<char, 65536> packet{};
     alignas(cmsghdr) std::array<char, 64> extra{};
     iovec data{packet.data(), packet.size() - 1};

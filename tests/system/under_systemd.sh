@@ -1,8 +1,8 @@
 #!/bin/bash
-# Runs the service of deploy/systemd under a real systemd: starts it, reloads it, lets it hang, stops it.
+# Tests the service of deploy/systemd with a real systemd: starts it, reloads it, lets it hang, stops it.
 #   under_systemd.sh PROGRAM SOURCE_TREE
-# systemd runs as a user's manager in a /run of its own, without the settings that only a machine's manager can follow
-# (another user, closed devices). Exit code 77 (skipped) where that cannot be.
+# systemd runs as a user's manager with a private /run. Settings that only the system's manager supports (another user,
+# closed devices) are removed. Exits with 77 (test skipped) where this is not possible.
 program=$1 tree=$2
 manager=/lib/systemd/systemd
 if [ -z "${IN_OWN_RUN-}" ]; then
@@ -16,7 +16,8 @@ mkdir -p /run/systemd/system /run/config/systemd/user $XDG_RUNTIME_DIR && chmod 
 units=/run/config/systemd/user
 cp "$tree/configs/default.yaml" /run/config.yaml
 
-# What is left of the unit says how it starts, is watched, reloaded and started again; the watchdog bites sooner.
+# The remaining settings of the unit determine how it is started, watched, reloaded and restarted. The watchdog's time
+# is shortened.
 sed -E -e "s#/usr/bin/barehand#$program#" -e 's#^\[Service\]#&\nStandardError=append:/run/service.log#' \
   -e 's/^WatchdogSec=.*/WatchdogSec=10/' -e 's/^RestartSec=.*/RestartSec=0.2/' \
   -e '/^(Dynamic|Supplementary|State|Working|Device|Capability|Lock|NoNew|Private|Protect|Restrict(A|N|R|S)|System|Memory|Tasks)/d' \
@@ -53,7 +54,7 @@ wait_until "a wrong configuration is refused" log_says "configuration not reload
 wait_until "it goes on with the old one" is ActiveState active
 cp "$tree/configs/default.yaml" /run/config.yaml
 
-sleep 11  # longer than the watchdog's patience: it is fed
+sleep 11  # longer than the watchdog's time, so the service must have notified it
 is NRestarts 0 || wait_until "it was not started again while it worked" false
 kill -STOP "$(systemctl --user show -P MainPID barehand.service)"  # hangs
 wait_until "the watchdog bites and the service starts again" is NRestarts 1

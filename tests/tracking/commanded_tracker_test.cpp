@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A tracker before an open hand that faces the camera, and the commands it will find.
+/// A tracker that observes an open hand facing the camera, and a queue of commands for it.
 class CommandedTrackerTest : public ::testing::Test {
  protected:
   HandObservationPtr seen(const HandObservation& what) { return test::stamped(what, utime_ += 33'000); }
@@ -90,7 +90,7 @@ TEST_F(CommandedTrackerTest, AFloodOfCommandsLeavesTimeToTrack) {
 
 TEST_F(CommandedTrackerTest, WhatHadToWaitIsFollowedInTheEnd) {
   tracker_.start_at(pose_);
-  for (int i = 0; i <= CommandedTracker::kBurst; ++i) {  // one more than is followed at once
+  for (int i = 0; i <= CommandedTracker::kBurst; ++i) {  // one more than the tracker executes at once
     Command start;
     start.kind = Command::Kind::initialise;
     start.pose = pose_;

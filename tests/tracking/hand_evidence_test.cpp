@@ -8,9 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kLots = 0.9;  // log odds that matter
+constexpr double kLots = 0.9;  // a difference of log odds that is significant
 
-/// What the networks say of an ordinary hand.
+/// Output of the networks for an ordinary hand.
 constexpr HandCues kHand{.palm = 0.8, .side = 4, .labels = 5, .misfit = 0.3};
 const Eigen::Vector3d kHere(0, 0, 0.6);
 
@@ -31,7 +31,7 @@ TEST(HandCues, OfAFollowedHandOrNoJointsAreNotInfinite) {
   EXPECT_GT(log_odds_of_hand(nothing), -15);
 }
 
-/// A hand that was detected where it is.
+/// A hand whose joints are detected at their true positions.
 class CuesOfDetection : public testing::TestWithParam<Handedness> {
  protected:
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand(GetParam());
@@ -62,7 +62,7 @@ TEST_P(CuesOfDetection, AreTheSameForProfilesOfBothSides) {
 
 TEST_P(CuesOfDetection, JointsWithoutAHandsProportionsFitNone) {
   DetectedHand foot = detected();
-  for (int finger = 0; finger < kFingerCount; ++finger)  // the toes are short
+  for (int finger = 0; finger < kFingerCount; ++finger)  // a foot: toes without length
     for (int k = 1; k < 4; ++k)
       foot.joints[landmark_of(finger, k)].position = foot.joints[landmark_of(finger, 0)].position;
   EXPECT_GT(hand_cues(foot, *profile_).misfit, 0.5);

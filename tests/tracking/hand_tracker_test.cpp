@@ -22,7 +22,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Never lost and never convinced, with quick searches that look for an upright palm only.
+/// Parameters with which the hand is never lost, no search result is convincing, and quick searches try only an upright
+/// palm.
 TrackerParams stubborn_tracker() {
   TrackerParams params = test::quick_tracker();
   params.loss.lost_score = 0.1;
@@ -32,14 +33,14 @@ TrackerParams stubborn_tracker() {
   return params;
 }
 
-/// The rules that decided about an estimate, in order.
+/// The names of the rules that decided about an estimate, in the order of the decisions.
 std::vector<std::string_view> rules_of(const HandEstimate& estimate) {
   std::vector<std::string_view> rules;
   for (const Decision& decision : estimate.decisions) rules.push_back(decision.rule);
   return rules;
 }
 
-/// A hand that hangs down, tracked from an upright start.
+/// A tracker that starts with an upright hand, while the observed hand hangs down.
 class UpsideDown : public testing::Test {
  protected:
   double error_of_next() {
@@ -61,7 +62,7 @@ class UpsideDown : public testing::Test {
 };
 
 TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
-  for (int start = 0; start < 3; ++start) {  // a count of all doubts would make the third one's search a quick one
+  for (int start = 0; start < 3; ++start) {  // a count that is not reset would make the third search a quick one
     tracker_.apply(StartAnew{});
     tracker_.apply(StartAt{upright_});
     for (int i = 1; i < (params_.doubt_every + 1) / 2; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
@@ -72,7 +73,7 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
 
 TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   TrackerParams params = test::quick_tracker();
-  params.skin_cell = 0.006;  // m: few unknowns, yet finer than what the scan corrects
+  params.skin_cell = 0.006;  // m: coarse, for few unknowns, but finer than what the scan corrects
   params.shape_fit.scan_after = 32;
   auto profile = std::make_shared<HandProfile>(*test::adult_hand());
   profile->origin = ProfileOrigin::measured;
@@ -81,7 +82,7 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   HandTracker tracker(params, profile, 1, workers);
   std::int64_t utime = 1'000'000;
   tracker.apply(StartAt{test::facing_pose(*profile, 0.5)});
-  const auto given_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);  // it is scanned beside the frames
+  const auto given_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);  // the scan runs in the background
   for (int i = 0; !tracker.view().profile->scanned_skin; ++i) {
     ASSERT_LT(std::chrono::steady_clock::now(), given_up);
     const HandPose pose = test::facing_pose(*profile, 0.5, 0.02 * std::min(i, params.shape_fit.scan_after));
@@ -92,7 +93,7 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   EXPECT_FALSE(tracker.view().profile->scanned_skin);
 }
 
-/// Three frames of a hand that is followed from where it is; what the log says meanwhile.
+/// Tracks a hand over three frames from a start near its true pose. Keeps the last estimate and the log.
 struct Followed {
   explicit Followed(const SegmentTrackerParams& samples) {
     TrackerParams params = test::quick_tracker();
@@ -120,7 +121,7 @@ struct Followed {
 TEST(HandTracker, DrawsMoreSamplesOnlyWhereADeviceComparesThem) {
   SegmentTrackerParams params;
   params.samples = 20;
-  params.level_budget_ms = 1000;  // a level in software stays below it on any machine
+  params.level_budget_ms = 1000;  // more than a level takes in software on any machine
   const auto with = [&](const char* observer, int samples_on_device) {
     params.observer = observer;
     params.samples_on_device = samples_on_device;
@@ -141,7 +142,7 @@ TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
   params.segment_tracker.observer = "egl";
   HandTracker tracker(params, test::adult_hand(), 1, workers, test::text_logger(text));
   const std::string opened = text.str();
-  EXPECT_THAT(opened, HasSubstr("amples"));  // on a device, or why not
+  EXPECT_THAT(opened, HasSubstr("amples"));  // the log names the device, or the reason why there is none
 
   params.segment_tracker.samples += 1;
   params.choice.doubt += 0.01;
@@ -152,7 +153,7 @@ TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
   EXPECT_GT(text.str().size(), opened.size());
 }
 
-/// A pose is given from outside.
+/// A tracker with a start pose that the user has given.
 class GivenStart : public testing::Test {
  protected:
   HandEstimatePtr next(const HandObservation& observation) {
@@ -212,7 +213,7 @@ TEST_F(GivenStart, VelocitiesAreKnownWithinATrackOnly) {
   EXPECT_FALSE(known(HandObservation{})) << "held";
 }
 
-/// A hand that is tracked, goes away and comes back, or a larger one in its place.
+/// A tracked hand that leaves the view; then it returns, or a larger one.
 class Return : public testing::Test {
  protected:
   static TrackerParams params() {
@@ -232,7 +233,7 @@ class Return : public testing::Test {
   TrackStatus status_at(const HandObservation& observation) {
     return tracker_.process(*test::stamped(observation, utime_ += 33'000))->status;
   }
-  /// `turn`: in the image plane [rad].
+  /// The observation of a hand `size` times as large as the profile's, rotated by `turn` in the image plane [rad].
   HandObservationPtr larger(double size, double turn = 0) const {
     const HandProfile profile = scaled(*profile_, size);
     const HandPose pose = test::turned(test::facing_pose(profile, 0.5), {0, 0, turn}, {0, 0, 0.5});
@@ -241,7 +242,7 @@ class Return : public testing::Test {
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   const HandPose pose_ = test::facing_pose(*profile_, 0.5);
-  const HandObservationPtr hand_ = larger(1.01);  // no skin is quite the hand's
+  const HandObservationPtr hand_ = larger(1.01);  // real skin differs a little from the model's
   Workers workers_{1};
   HandTracker tracker_{params(), profile_, 1, workers_};
   std::int64_t utime_ = 1'000'000;

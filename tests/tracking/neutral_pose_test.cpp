@@ -9,13 +9,13 @@
 namespace barehand {
 namespace {
 
-/// A hand of which only the palm, the thumb's root and the first phalanges are visible; an object hides the rest.
+/// A hand of which only the palm and the segments jointed to it are visible. An object hides the rest.
 class RelaxedPose : public testing::Test {
  protected:
   static bool shown(int s) { return s == kPalm || parent_of(s) == kPalm; }
 
   void SetUp() override {
-    // The whole hand.
+    // Observe the whole hand.
     auto hand = test::observe_skin(*skin_, pose_);
     RenderedHand rendered;
     const Intrinsics& camera = hand->frame->camera;
@@ -32,14 +32,14 @@ class RelaxedPose : public testing::Test {
       return true;
     });
 
-    // The derived maps.
+    // Update the maps that are derived from labels and skin.
     hand->nearest_hand = test::nearest_in(rendered.vertex);
     hand->nearest_object = test::nearest_in(object);
     hand_ = hand;
   }
 
-  /// A pose as a search might find it: hidden joints have this flexion, and knuckles are bent too far by `error`
-  /// [rad].
+  /// A pose as a search might find it: hidden joints have the flexion `hidden` [rad], and the knuckles are bent too far
+  /// by `error` [rad].
   RefinedPose found(double hidden, double error) const {
     RefinedPose result;
     std::array<JointAngles, kSegmentCount> angles{};
@@ -80,7 +80,7 @@ TEST_F(RelaxedPose, BendsThemLikeWhereThoseComeToLie) { expect_alike(relaxed(fou
 
 TEST_F(RelaxedPose, DiffersByWhatTheSensorCannotTell) {
   RefinedPose pose = found(0, 0);
-  pose.score = 0;  // nothing is explained better
+  pose.score = 0;  // no pose has a better score
   HandObservation noisy = *hand_;
   noisy.noise = 0.02;  // m
   EXPECT_GT(neutral_pose(noisy, pose, *profile_, refinement_, params_).score, 0);

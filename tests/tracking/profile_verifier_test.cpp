@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kBad = 0.01, kGood = 1e-5;  // scores far above and far below those of a hand of the observed side [m]
 
-/// The observed hand is a left hand, and the profile is that of a right hand; the test says how well the profile
-/// explains it.
+/// Verifies the profile of a right hand while a left hand is observed. The tests set the score of the profile's pose.
 class ProfileVerification : public ::testing::Test {
  protected:
   static TrackerParams params() {
@@ -25,7 +24,8 @@ class ProfileVerification : public ::testing::Test {
   }
   HandObservationPtr seen() { return test::stamped(*left_hand_, utime_ += 33'000); }
   bool refused(double score) { return verifier_.is_other_side(*seen(), Effort::quick, 1, score); }
-  /// Number of frames until the other side is recognised, for the profile's own `score` and status; none if it is not.
+  /// Number of frames until the other side is recognised, if the profile's estimates have this score and status. None
+  /// if it is not recognised.
   std::optional<int> verification(double score, TrackStatus status = TrackStatus::tracking) {
     HandEstimate own;
     own.status = status;
@@ -53,7 +53,7 @@ TEST_F(ProfileVerification, AStartIsRefusedWhereTheMirroredHandIsClearlyBetter) 
 }
 
 TEST_F(ProfileVerification, AHandOfTheOtherSideIsFoundOutWhileItIsTracked) {
-  ASSERT_FALSE(refused(kGood));  // the start looked good
+  ASSERT_FALSE(refused(kGood));  // the score at the start was good
   ASSERT_TRUE(verifier_.verifying());
   const auto frames = verification(kBad);
   ASSERT_TRUE(frames);

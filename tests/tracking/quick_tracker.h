@@ -4,7 +4,7 @@
 
 namespace barehand::test {
 
-/// Refinement alone, and full searches cut down to quick ones.
+/// Parameters for fast tests: refinement without sampling, and full searches with the effort of quick ones.
 inline TrackerParams quick_tracker() {
   TrackerParams params;
   params.sampling = false;

@@ -11,7 +11,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A level that takes a time by the square of its samples, as the fusion on the CPU does: 1 ms for a thousand.
+/// Simulates levels whose time grows with the square of the number of samples, as that of the fusion on the CPU: 1 ms
+/// for 1000 samples.
 class SampleBudgetOf : public ::testing::Test {
  protected:
   SampleBudget budget(int samples, int on_device, double budget_ms) {

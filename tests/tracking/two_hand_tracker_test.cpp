@@ -13,13 +13,13 @@
 namespace barehand {
 namespace {
 
-/// A right and a left hand, and what a camera sees of each of them.
+/// A tracker of a right and a left hand, and an observation of each.
 class TwoHandTrackerTest : public ::testing::Test {
  protected:
   enum Side { kRight, kLeft };
   static constexpr double kRightX = 0.1, kLeftX = -0.1;
 
-  /// The observation of a hand with its wrist at x.
+  /// The observation of a hand with its wrist at `x` [m].
   static HandObservationPtr seen(const HandProfile& profile, double flexion, double x) {
     HandPose pose = test::facing_pose(profile, 0.5, flexion);
     for (SE3& T : pose) T.t.x() += x;
@@ -110,7 +110,7 @@ TEST_F(TwoHandTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
 TEST_F(TwoHandTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   // Track a right hand with its profile.
   TrackerParams params = test::quick_tracker();
-  params.choice.search_convincing = 0;  // every start is put on verification
+  params.choice.search_convincing = 0;  // so that every start is verified
   std::ostringstream said;
   TwoHandTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
   HandEstimates last;
@@ -146,7 +146,7 @@ TEST_F(TwoHandTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLate
 
 TEST_F(TwoHandTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
   auto patch = std::make_shared<HandObservation>(*left_hand_);
-  patch->hand_pixels.resize(50);  // fewer than any search uses
+  patch->hand_pixels.resize(50);  // fewer points than a search needs
   HandEstimates found;
   for (int i = 0; i < 6 && (i == 0 || found[kRight]->status != TrackStatus::tracking); ++i)
     found = next(tracker_, right_hand_, patch, {});
@@ -187,7 +187,7 @@ TEST_F(TwoHandTrackerTest, OneThreadAndTwoGiveTheSame) {
 
 class ProfileOfAnotherSize : public TwoHandTrackerTest, public ::testing::WithParamInterface<double> {
  protected:
-  /// What the log says while the right hand is tracked with a measured profile scaled by `size`.
+  /// The log of tracking the right hand with a measured profile that is scaled by `size`.
   std::string said(double size) {
     auto profile = std::make_shared<HandProfile>(scaled(*right_, size));
     profile->origin = ProfileOrigin::measured;
@@ -203,7 +203,7 @@ class ProfileOfAnotherSize : public TwoHandTrackerTest, public ::testing::WithPa
     }
     return out.str();
   }
-  double confidence_ = 0;  ///< that is stated of the palm after that
+  double confidence_ = 0;  ///< confidence of the palm in the last frame of said()
 };
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ProfileOfAnotherSize, ::testing::Values(0.88, 1.0, 1.14));
@@ -219,7 +219,8 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
 /// A hand whose joints are detected.
 class StartOfDetectedHand : public TwoHandTrackerTest {
  protected:
-  /// What is certainly a hand, unless the heat map and the labels say less of it.
+  /// An observed hand with a detection. `palm` is the probability in the heat map, `odds` the log odds of the labels;
+  /// by default, both clearly indicate a hand.
   static HandObservationPtr detected(const HandProfile& profile, double flexion, double palm = 0.9, float odds = 6) {
     const HandPose pose = test::facing_pose(profile, 0.5, flexion);
     const auto observation = test::observe_skin(make_blended_skin(profile, 0.004), pose);
@@ -235,12 +236,12 @@ class StartOfDetectedHand : public TwoHandTrackerTest {
   }
   static TrackerParams params() {
     TrackerParams params = test::quick_tracker();
-    params.loss.lost_score = params.loss.recovered_score = 0.02;  // tracked however badly it is explained
+    params.loss.lost_score = params.loss.recovered_score = 0.02;  // tracked however bad the score is
     return params;
   }
 };
 
-/// It has `size` times the profile's size, as a depth unit that is wrong shows it.
+/// The observed hand is `size` times as large as the profile's, as with a wrong unit of depth.
 struct SizeOfStart {
   double size;
   ProfileOrigin origin;
@@ -295,7 +296,7 @@ TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsO
   const HandObservationPtr hand = detected(*right_, 0.15);
   const double score = next(tracker_, hand, nothing(), {})[kRight]->score;
 
-  // As if it was explained badly.
+  // Thresholds at which this hand's score counts as bad.
   TrackerParams strict = test::quick_tracker();
   strict.loss.lost_score = strict.loss.recovered_score = 0.7 * score;
   TwoHandTracker tracker(strict, {right_, left_}, 1, workers_);
@@ -304,10 +305,11 @@ TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsO
   EXPECT_EQ(found[kLeft]->status, TrackStatus::searching);
 }
 
-/// A detection that may be something else than a hand, `aside` [m] of what is explained well by one.
+/// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
+/// model explains well.
 class DoubtfulDetection : public StartOfDetectedHand {
  protected:
-  /// The first of 40 frames that is tracked; 0: none is.
+  /// The number of the first of 40 frames in which a hand is tracked; 0 if there is none.
   int first_tracked(double aside, double palm = 0.7) {
     auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, palm, 2));
     auto joints = std::make_shared<DetectedHand>(*hand->detected);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The data that the networks learn from: hands, grasps, scenes and sensors."""
+"""Tests the synthetic training data: hands, grasps, scenes and sensors."""
 import json
 import re
 import unittest
@@ -22,7 +22,7 @@ MESH = surroundings.HANDS / "right.glb"
 
 
 class NoChance(Chance):
-    """Every person is the mean one."""
+    """Random numbers that are all zero, so that every person has the mean shape."""
 
     def normal(self, deviation, *shape):
         return torch.zeros(*shape)
@@ -85,7 +85,7 @@ class Grasps(unittest.TestCase):
         self.assertGreater((touching >= 2).float().mean(), 0.6)
         self.assertGreater((gap > -0.004).float().mean(), 0.9)
 
-        # The same fingers around another object do not: the check can fail.
+        # The same fingers do not touch an object that is displaced: the check above can fail.
         elsewhere = Solids(solids.kind, solids.centre + 0.03, solids.rotation, solids.half)
         tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, TIPS]
         wrong = (elsewhere.distance(tips) - hands.flesh[:, TIPS]).abs() < 0.005

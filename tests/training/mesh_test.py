@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The mesh's joints are where the simulator says that they are, so that both speak of the same 21 landmarks.
+"""Tests that the joints of the training mesh are where the simulator has them, so that both mean the same 21 landmarks.
   mesh_test.py BAREHAND"""
 import json
 import subprocess

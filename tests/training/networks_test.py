@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Inputs, losses and figures of the training."""
+"""Tests the inputs, the losses and the metrics of the training."""
 import unittest
 
 import surroundings  # first: skips without PyTorch
@@ -12,7 +12,7 @@ MESH = surroundings.HANDS / "right.glb"
 
 
 def perfect_maps(examples):
-    """What a network would have to say of a batch of windows: a peak between two cells, the joint's depth everywhere."""
+    """The perfect output for a batch of windows: a peak between two cells, and the joint's depth everywhere."""
     cells = (examples.uv[:, 0] - MAP_OFFSET) / MAP_STEP
     columns, rows = torch.arange(24.0), torch.arange(24.0)[:, None]
     square = (columns - cells[..., 0, None, None]) ** 2 + (rows - cells[..., 1, None, None]) ** 2

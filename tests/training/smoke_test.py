@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A training of a few steps: the loss falls, OpenCV computes what PyTorch does, and the program reads the folder.
+"""Tests a training of a few steps: the loss falls, OpenCV and PyTorch give the same output, and the program reads the
+folder.
   smoke_test.py BAREHAND"""
 import json
 import re
@@ -10,8 +11,8 @@ from pathlib import Path
 
 import surroundings  # first: skips without PyTorch
 
-LEAST_FALL = 0.85  # of the loss on unseen scenes, from before the first step to after the last
-TOLERANCE = 1e-3  # of outputs
+LEAST_FALL = 0.85  # largest ratio of the loss on unseen scenes after the last step to that before the first
+TOLERANCE = 1e-3  # largest difference of outputs
 
 
 def run(*command: str) -> str:
@@ -37,7 +38,7 @@ def main(barehand: str) -> None:
         for name, values in figures.items():
             assert values["greatest difference in OpenCV"] < TOLERANCE, f"{name}: OpenCV's outputs differ: {values}"
 
-        # The program looks for hands with them, and says so if it cannot.
+        # The program loads the networks to detect hands; it would report an error if it could not.
         config = Path(work) / "config.yaml"
         track = [barehand, "track", "--source", "sim:open,noise=kinect,frames=2", "--no-publish", "--config", str(config)]
         config.write_text(f"detection:\n  networks: {folder}\n")

@@ -1,4 +1,4 @@
-"""What the tests of tools/training share: they are skipped, and say so, where PyTorch is missing."""
+"""Skips the tests of tools/training, with a message, if PyTorch is missing. All of them import this module first."""
 import importlib.util
 import os
 import sys

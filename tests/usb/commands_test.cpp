@@ -1,4 +1,4 @@
-// Runs the program like a user, with a USB tree simulated by umockdev.
+// Tests commands of the program with a USB tree simulated by umockdev.
 #include <gmock/gmock.h>
 
 #include <csignal>

@@ -130,7 +130,7 @@ TEST_F(LibUsb, TheWatchTellsOfEveryPlug) {
   EXPECT_TRUE(comes_true([&] { return changes == 3; }));
 }
 
-/// Counts and answers the resets that reach the kernel's side of a device.
+/// Simulates the kernel for a device: answers the resets of it and counts them.
 class Resets {
  public:
   Resets(MockBus& bus, const char* device, int error)

@@ -9,8 +9,8 @@
 
 namespace barehand::test {
 
-/// A USB tree simulated by umockdev: libusb and everything else in this process and its children see it instead of the
-/// machine's bus. libumockdev-preload.so.0 must be loaded first (umockdev-wrapper).
+/// A USB tree simulated by umockdev. This process and its children, including libusb, see it instead of the machine's
+/// bus. For this, libumockdev-preload.so.0 must be preloaded (by umockdev-wrapper).
 class MockBus {
  public:
   MockBus() : testbed_(umockdev_testbed_new()) {}
