@@ -49,7 +49,7 @@ violations() {  # ROOT: prints every forbidden include
     forbid "$folder" 'OpenNI|Oni|openni2/|libusb' | grep -vE '^drivers/(openni2|usb)/|"drivers/openni2/'
     forbid "$folder" 'civetweb' | grep -v '^src/io/web/'
     forbid "$folder" 'fastcdr' | grep -v '^src/io/ros/'
-    forbid "$folder" 'opencv2/dnn|dnnl|onnx/' | grep -v '^stages/detection/'
+    forbid "$folder" 'opencv2/dnn|oneapi/|onnx/' | grep -v '^stages/detection/'
   done
 }
 
