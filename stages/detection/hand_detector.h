@@ -16,7 +16,7 @@ struct DepthView;
 /// Finds hands in a depth image of any size and focal length without prior knowledge of their positions: one network
 /// finds palms in the whole frame; a second one is applied to a window around each palm and estimates the joints, the
 /// side (left or right) and labels of the surface. Every frame is processed independently. Synchronous, on the calling
-/// thread; the result does not depend on OpenCV's number of threads. Not thread-safe.
+/// thread. Not thread-safe.
 class HandDetector {
  public:
   /// Loads the networks from `folder` (docs/nets.md). Errors: files that are missing, damaged or not these networks.

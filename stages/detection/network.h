@@ -32,11 +32,11 @@ struct NetworkShape {
   int width = 0, height = 0, maps = 0;
 };
 
-/// One network with its weights, run by OpenCV on the calling thread (cv::setNumThreads). Not thread-safe.
+/// One network with its weights, run by oneDNN on the calling thread alone. Not thread-safe.
 class Network {
  public:
-  /// Loads a network from the bytes of an ONNX file; `name` is for error messages. Errors: OpenCV cannot read it; it
-  /// has another shape; it returns values that are not finite.
+  /// Loads a network from the bytes of an ONNX file; `name` is for error messages. Errors: those of read_onnx(); it
+  /// has another shape; it cannot be run; it returns values that are not finite.
   static Result<Network> load(const std::string& bytes, const std::string& name, const NetworkShape& shape);
   Network(Network&&) noexcept;
   Network& operator=(Network&&) noexcept;
