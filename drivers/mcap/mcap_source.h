@@ -40,6 +40,11 @@ class McapSource : public FrameSource {
 
   /// Number of events that next() will deliver before the end, for a progress display.
   std::int64_t remaining() const { return position_.remaining(); }
+  std::int64_t frames() const { return static_cast<std::int64_t>(frames_.size()); }
+  /// Time stamp of a frame, from 0 [us since the epoch].
+  std::int64_t utime(std::int64_t frame) const { return frames_[static_cast<std::size_t>(frame)].utime; }
+  /// Reads a frame, from 0, whatever next() has delivered: FramePtr, or SkippedFrame if it cannot be used.
+  SourceEvent read(std::int64_t frame);
   /// Nominal frame rate stored in the file [1/s]; 0: none.
   double fps() const { return fps_; }
   /// Warnings about the file, in sentences.
@@ -74,7 +79,6 @@ class McapSource : public FrameSource {
   const Stream* camera_of(const std::string& topic) const;
   const Stream* colour_of(const std::string& topic);
   std::string topics() const;
-  SourceEvent read(std::int64_t position);
   Result<FramePtr> read_frame(const Frame& frame);
   Result<Image<std::uint16_t>> read_depth(const Frame& frame);
   Result<Image<Rgb>> read_colour(const Frame& frame, const Intrinsics& camera);

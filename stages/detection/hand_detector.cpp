@@ -57,9 +57,9 @@ HandDetector::HandDetector(Network full, Network crop, std::string version, cons
 Result<HandDetector> HandDetector::load(const std::string& folder, const DetectionParams& params) {
   const auto weights = load_weights(folder);
   if (!weights) return tl::unexpected(weights.error());
-  auto full = Network::load(weights->full, weights->full_path, kFullShape);
+  auto full = Network::load(weights->full.bytes, weights->full.path, kFullShape);
   if (!full) return tl::unexpected(full.error());
-  auto crop = Network::load(weights->crop, weights->crop_path, kCropShape);
+  auto crop = Network::load(weights->crop.bytes, weights->crop.path, kCropShape);
   if (!crop) return tl::unexpected(crop.error());
   return HandDetector(std::move(*full), std::move(*crop), weights->version, params);
 }

@@ -13,7 +13,8 @@ constexpr const char* kInterface = "1";  // version of the networks' inputs and 
 constexpr const char* kRemedy = "install Barehand again, or correct the checksum in nets.json";
 
 /// Reads the file that nets.json names under `key`, and compares its checksum.
-Result<std::string> checked_file(const std::string& folder, const json_fields::Object& manifest, const char* key) {
+Result<DetectionWeights::File> checked_file(const std::string& folder, const json_fields::Object& manifest,
+                                            const char* key) {
   if (!manifest.has(key)) return fail("has no entry for \"" + std::string(key) + "\"", manifest.where, kRemedy);
   const json_fields::Object entry{manifest.json[key], manifest.where + ": " + key};
   const auto file = entry.text("file"), checksum = entry.text("crc32");
@@ -24,11 +25,11 @@ Result<std::string> checked_file(const std::string& folder, const json_fields::O
 
   const std::string path = folder + "/" + *file;
   auto bytes = read_file(path);
-  if (!bytes) return bytes;
+  if (!bytes) return tl::unexpected(bytes.error());
   const auto* data = reinterpret_cast<const Bytef*>(bytes->data());
   const std::string found = formatted("%08lx", crc32_z(0, data, bytes->size()));
   if (found != *checksum) return fail("has checksum " + found + ", nets.json states " + *checksum, path, kRemedy);
-  return bytes;
+  return DetectionWeights::File{path, std::move(*bytes)};
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ Result<DetectionWeights> load_weights(const std::string& folder) {
   auto full = checked_file(folder, manifest, "full"), crop = checked_file(folder, manifest, "crop");
   if (!full) return tl::unexpected(full.error());
   if (!crop) return tl::unexpected(crop.error());
-  return DetectionWeights{*version, std::move(*full), std::move(*crop), folder + "/full", folder + "/crop"};
+  return DetectionWeights{*version, std::move(*full), std::move(*crop)};
 }
 
 }  // namespace barehand

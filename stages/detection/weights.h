@@ -8,9 +8,12 @@ namespace barehand {
 
 /// The contents of a folder with the weights of the two networks.
 struct DetectionWeights {
+  /// An ONNX file.
+  struct File {
+    std::string path, bytes;
+  };
   std::string version;
-  std::string full, crop;            ///< bytes of the ONNX files
-  std::string full_path, crop_path;  ///< names of the networks in error messages
+  File full, crop;
 };
 
 /// Reads `folder`/nets.json and the files that it names. Errors: a file is missing or does not have the CRC-32 that

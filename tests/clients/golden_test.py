@@ -21,7 +21,7 @@ class Golden(Folder):
 
     def test_both_hands_equal_the_golden_vectors_to_1e_6(self):
         compared = 0
-        for hands in barehand.hands(self.log):
+        for hands in (*barehand.hands(self.log), *barehand.hands(self.folder / "hands.mcap")):
             for hand in hands:
                 golden = self.table[hand.frame_number, hand.handedness]
                 joints = hand.openxr26()
@@ -32,7 +32,7 @@ class Golden(Folder):
                     np.testing.assert_allclose(values, golden[outlet], rtol=0, atol=1e-6, err_msg=outlet)
                 np.testing.assert_array_equal(np.column_stack(hand.webxr25()), np.column_stack(joints)[1:])
                 compared += 1
-        self.assertEqual(compared, 8)
+        self.assertEqual(compared, 16)
 
     def test_a_difference_of_2e_6_is_noticed(self):
         hand = next(barehand.hands(self.log)).left

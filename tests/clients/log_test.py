@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Tests the reading of whole, truncated and damaged logs, and of files that are no logs."""
+"""Tests the reading of whole, truncated and damaged logs, and of files that are no logs.
+  log_test.py WRITE_CLIENT_GOLDEN"""
+import sys
 import unittest
 import warnings
 
@@ -8,6 +10,7 @@ from barehand import log
 from barehand.counts import Counts
 from support import Folder, messages_of
 
+PROGRAM = sys.argv.pop(1)
 FRAMES = 5
 
 
@@ -94,6 +97,40 @@ class Logs(Folder):
             with self.assertRaisesRegex(barehand.Error, words), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 list(barehand.hands(str(self.folder / name)))
+
+
+class McapFiles(Folder):
+    def setUp(self):
+        super().setUp()
+        self.lcm, _ = self.golden_states(PROGRAM)
+        self.path = self.folder / "hands.mcap"
+        self.whole = self.path.read_bytes()
+
+    def read(self):
+        """The events and the counts."""
+        counts = Counts()
+        return list(log.events(self.path, counts)), counts
+
+    def test_they_hold_what_the_lcm_log_holds(self):
+        events, counts = self.read()
+        self.assertEqual(events, list(log.events(self.lcm, Counts())))
+        self.assertEqual((len(events), counts), (30, Counts()))
+
+    def test_cut_short_or_changed_anywhere_they_give_nothing_that_is_wrong(self):
+        right, _ = self.read()
+        for at in range(len(log.mcap.MAGIC), len(self.whole), 211):
+            for damaged in (self.whole[:at], self.whole[:at] + bytes([self.whole[at] ^ 0x55]) + self.whole[at + 1:]):
+                self.path.write_bytes(damaged)
+                events, counts = self.read()
+                if damaged != self.whole[:at] and not counts.damaged:  # it was in the index or a name, which are not read
+                    continue
+                self.assertTrue(all(event in right for event in events), at)
+
+    def test_a_file_without_hands_is_said(self):
+        self.path.write_bytes(self.whole[:100])
+        with self.assertRaisesRegex(barehand.Error, "no hand states"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            list(barehand.hands(self.path))
 
 
 unittest.main()

@@ -160,7 +160,7 @@ class Trouble(unittest.TestCase):
                 barehand.hands(f"udpm://{group}:{port + 1}")
 
     def test_addresses_that_are_none_are_said(self):
-        for url in ("tcpq://localhost:7700", "ws://localhost:8765", "udpm://10.0.0.1:7667", "udpm://nowhere:7667",
+        for url in ("tcpq://localhost:7700", "udpm://10.0.0.1:7667", "udpm://nowhere:7667",
                     *("udpm://239.255.76.67:" + end for end in ("99999", "7667?ttl=x", "7667?ttl=300"))):
             with self.assertRaisesRegex(barehand.Error, "URLs look like"):
                 barehand.hands(url)

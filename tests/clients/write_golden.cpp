@@ -1,11 +1,13 @@
-// Writes the expected results of the clients' tests: FOLDER/states.lcmlog, hand states as the tracker publishes them,
-// and FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here with Eigen.
+// Writes the expected results of the clients' tests: FOLDER/states.lcmlog and FOLDER/hands.mcap, hand states as the tracker
+// publishes them, and FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here with
+// Eigen.
 //   write_client_golden FOLDER
 #include <Eigen/SVD>
 #include <cstdio>
 #include <iostream>
 
 #include "io/lcm/lcm_log_writer.h"
+#include "io/mcap/mcap_scene.h"
 #include "publish/published_hand.h"
 #include "stages/publish/glove_angles.h"
 #include "stages/publish/hand_messages.h"
@@ -102,19 +104,25 @@ void write_outlets(Table& table, const HandProfile& profile, const HandPose& pos
 
 /// A right and a left hand in each of four frames, and a fifth in which both are lost.
 int write(const std::string& folder) {
-  auto log = LcmLogWriter::create(folder + "/states.lcmlog", true);
-  if (!log) {
-    std::cerr << log.error().message() << "\n";
+  const auto failed = [](const Error& error) {
+    std::cerr << error.message() << "\n";
     return 1;
-  }
+  };
+  auto log = LcmLogWriter::create(folder + "/states.lcmlog", true);
+  if (!log) return failed(log.error());
+  auto file = mcap::McapWriter::create(folder + "/hands.mcap", true);
+  if (!file) return failed(file.error());
   Table table(folder + "/golden.csv");
   auto publisher = Publisher::create("", {log->get()}).value();
   for (int frame = 0; frame < 5; ++frame) {
+    ros::Scene scene;
+    scene.utime = kStart + frame * kFrameInterval;
+    scene.number = frame;
     for (const Handedness side : {Handedness::right, Handedness::left}) {
       const auto profile = test::adult_hand(side);
       const bool lost = frame == 4;
-      HandEstimate estimate = estimate_of(*profile, bent(frame), kStart + frame * kFrameInterval,
-                                          lost ? TrackStatus::lost : TrackStatus::tracking);
+      HandEstimate estimate =
+          estimate_of(*profile, bent(frame), scene.utime, lost ? TrackStatus::lost : TrackStatus::tracking);
       estimate.number = frame;
       estimate.hand_id = side == Handedness::right ? 1 : 2;
       const HandPose pose = test::turned(pose_of(estimate.segments), {0.7 * frame, -0.4, 1.1 * frame}, {0.1, 0, 0.5});
@@ -122,14 +130,14 @@ int write(const std::string& folder) {
       if (lost) estimate.segments = {};
 
       // Every frame gets a new message maker, so that its smoothed pose equals the raw one.
-      if (auto sent = publisher.send(HandMessageMaker({}).process(estimate)); !sent) {
-        std::cerr << sent.error().message() << "\n";
-        return 1;
-      }
+      const HandMessages messages = HandMessageMaker({}).process(estimate);
+      scene.hands.push_back({messages.state, messages.glove, messages.joints});
+      if (auto sent = publisher.send(messages); !sent) return failed(sent.error());
       if (!lost) write_outlets(table, *profile, pose, 2 * frame + (side == Handedness::left ? 1 : 0));
     }
+    if (auto written = mcap::write_scene(**file, scene); !written) return failed(written.error());
   }
-  return (*log)->finish() ? 0 : 1;
+  return (*log)->finish() && (*file)->finish() ? 0 : 1;
 }
 
 }  // namespace

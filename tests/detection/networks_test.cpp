@@ -61,14 +61,15 @@ TEST_F(NetworksTest, ADamagedFileIsSaid) {
 TEST_F(NetworksTest, AFileThatIsNoNetworkIsSaid) {
   write(folder_ / "full.onnx", "this is no network");
   accept("full", error());
-  EXPECT_THAT(error(), testing::HasSubstr("is not a network"));
+  EXPECT_THAT(error(), testing::HasSubstr(folder_ / "full.onnx" + ": is not a network"));
 }
 
 TEST_F(NetworksTest, ANetworkOfAnotherShapeIsSaid) {
   std::filesystem::copy(folder_ / "full.onnx", folder_ / "crop.onnx",
                         std::filesystem::copy_options::overwrite_existing);
   accept("crop", error());
-  EXPECT_THAT(error(), testing::HasSubstr("other inputs or outputs"));
+  EXPECT_THAT(error(),
+              testing::AllOf(testing::HasSubstr(folder_ / "crop.onnx"), testing::HasSubstr("other inputs or outputs")));
 }
 
 TEST_F(NetworksTest, AnotherInterfaceIsSaid) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -19,6 +20,16 @@ inline Bytes read_bytes(const std::string& path) {
 inline void write_bytes(const std::string& path, const Bytes& bytes) {
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Cuts off what follows the last chunk of a finished file, as if its recorder had been killed.
+inline void cut_off_end(const std::string& path) {
+  Bytes bytes = read_bytes(path);
+  constexpr std::size_t kFooter = 8 + 8 + 4, kDataEnd = mcap::kRecordHeader + 4;
+  std::uint64_t summary = 0;  // the footer begins with its position; the end of the data comes before it
+  std::memcpy(&summary, bytes.data() + bytes.size() - mcap::kMagic.size() - kFooter, sizeof summary);
+  bytes.resize(summary - kDataEnd);
+  write_bytes(path, bytes);
 }
 
 /// Composes MCAP files that McapWriter would never write: those of other programs, and files with wrong values.

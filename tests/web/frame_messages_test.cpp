@@ -5,6 +5,8 @@
 #include "app/view/log_index.h"
 #include "drivers/lcm/wire.h"
 #include "io/lcm/lcm_log_writer.h"
+#include "io/mcap/mcap_scene.h"
+#include "mcap/mcap_bytes.h"
 #include "publish/published_hand.h"
 #include "stages/publish/hand_messages.h"
 #include "support/temp_folder.h"
@@ -43,7 +45,8 @@ TEST(FrameMessages, GiveViewersOfRosTheHandsThatAreWhole) {
   const auto content = frame_content(messages, hands, {});
   ASSERT_EQ(content.hands.size(), 1u);
   EXPECT_EQ(content.hands[0].joints.radius[3], made.joints.radius[3]);
-  EXPECT_EQ(content.messages.size(), 2u) << "the page does without them";
+  ASSERT_EQ(content.messages.size(), 3u) << "clients get them, too";
+  EXPECT_STREQ(content.messages[2].channel, "HAND_JOINTS");
 }
 
 TEST(FrameMessages, AreLeftOutWhereDamaged) {
@@ -80,6 +83,82 @@ TEST(LogIndex, PutsStatesInOrderAndFindsLostOnes) {
   EXPECT_EQ(index->lost()[0].first, 2);
   EXPECT_EQ(index->lost()[0].last, 3);
   EXPECT_EQ(index->messages(4).size(), 2u);
+}
+
+/// The depth is 500 + `number` everywhere.
+ros::Scene scene_with_image(std::int64_t utime, int number) {
+  auto frame = std::make_shared<RgbdFrame>();
+  frame->utime = utime;
+  frame->number = number;
+  frame->camera = {64, 48, 50, 50, 32, 24};
+  frame->depth.reset(64, 48, static_cast<std::uint16_t>(500 + number));
+  ros::Scene scene;
+  scene.utime = utime;
+  scene.number = number;
+  scene.frame = frame;
+  return scene;
+}
+
+/// A file as `track --mcap` writes it: five frames with images, without a pose in the third.
+std::string mcap_file(const test::TempFolder& folder) {
+  const std::string path = folder / "hands.mcap";
+  auto file = mcap::McapWriter::create(path, false);
+  EXPECT_TRUE(file);
+  for (int i = 0; i < 5; ++i) {
+    const HandMessages made = messages_at(1'000'000 + 100'000 * i, i == 2 ? TrackStatus::lost : TrackStatus::tracking);
+    ros::Scene scene = scene_with_image(made.state.utime, i);
+    scene.hands = {{made.state, made.glove, made.joints}};
+    EXPECT_TRUE(mcap::write_scene(**file, scene));
+  }
+  EXPECT_TRUE((*file)->finish());
+  return path;
+}
+
+TEST(LogIndex, ReadsMcapFilesWithTheirImages) {
+  const test::TempFolder folder;
+  auto index = LogIndex::open({mcap_file(folder)});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 5);
+  ASSERT_EQ(index->lost().size(), 1u);
+  EXPECT_EQ(index->lost()[0].first, 2);
+  EXPECT_TRUE(index->doubts().empty());
+
+  // A frame has the messages of the bus and its own image.
+  const std::vector<LcmMessage> messages = index->messages(3);
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(messages[0].bytes, encode_message(messages_at(1'300'000).state));
+  ShownHands hands = mean_hands();
+  const auto content = frame_content(messages, hands, {}, index->image(3));
+  EXPECT_EQ(content.hands.size(), 1u);
+  ASSERT_TRUE(content.frame);
+  EXPECT_EQ(content.frame->depth.at(5, 5), 503);
+  EXPECT_TRUE(content.focus);
+}
+
+TEST(LogIndex, ShowsTheImagesOfAnMcapFileWithoutHands) {
+  const test::TempFolder folder;
+  const std::string path = folder / "take.mcap";
+  auto file = mcap::McapWriter::create(path, false);
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(mcap::write_scene(**file, scene_with_image(7, 0)));
+  ASSERT_TRUE((*file)->finish());
+  auto index = LogIndex::open({path});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 1);
+  EXPECT_TRUE(index->lost().empty());
+  ShownHands hands = mean_hands();
+  EXPECT_EQ(frame_content(index->messages(0), hands, {}, index->image(0)).utime, 7);
+}
+
+TEST(LogIndex, SaysWhatIsCutOff) {
+  const test::TempFolder folder;
+  const std::string path = mcap_file(folder);
+  test::cut_off_end(path);
+  const auto index = LogIndex::open({path});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 5);
+  ASSERT_EQ(index->doubts().size(), 1u);
+  EXPECT_NE(index->doubts()[0].find(path), std::string::npos);
 }
 
 TEST(LogIndex, RefusesALogWithNothingToShow) {

@@ -44,11 +44,13 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   const TrackedFrame frame = tracked(3'000'000);
   ASSERT_TRUE(sink.consume(frame));
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLD");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLD");
   const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
-  const auto state = encode_message(messages.state), glove = encode_message(messages.glove);
+  const auto state = encode_message(messages.state), glove = encode_message(messages.glove),
+             joints = encode_message(messages.joints);
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
   EXPECT_EQ(chunks[3].payload, "\x0bGLOVE_STATE" + std::string(glove.begin(), glove.end()));
+  EXPECT_EQ(chunks[4].payload, "\x0bHAND_JOINTS" + std::string(joints.begin(), joints.end()));
 
   ASSERT_TRUE(sink.consume(tracked(3'033'000)));
   EXPECT_EQ(test::kinds_of(chunks_of(client.binary().value())).find('S'), std::string::npos) << "the skin comes once";
@@ -139,7 +141,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   ASSERT_TRUE(sink.consume(moved(3)));
   const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLL");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLL");
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 

@@ -1,5 +1,5 @@
 """Reads the figures (measured numbers) of a run from the JSON files of the program: those of `eval --json`, with
-`--fingertips` or `--states`, too, of `experiment`, and of `bench --json`. KNOWN lists the names of the figures."""
+`--fingertips` or `--states`, too, of `experiment`, of `bench --json`, and of measure_python_client.py. KNOWN lists the names of the figures."""
 import csv
 
 KNOWN = {
@@ -13,6 +13,8 @@ KNOWN = {
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
     # From bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times.
     "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
+    # From measure_python_client.py: numbers of frames.
+    "sent", "heard",
     # The number of repetitions over which a range is taken.
     "runs",
 }
@@ -77,6 +79,8 @@ def of_report(report, label=None):
         figures.update({"values": [case["value"] for case in swept], "cpu": [case["cpu_ms_per_frame"] for case in swept]})
     elif cases:
         figures.update(of_case(cases[0]))
+    if client := report.get("client"):
+        figures.update({"sent": client["sent"], "heard": client["heard"], "cpu": client["cpu_ms_per_frame"]})
     if not figures:
         raise KeyError(f"nothing is called {label}" if label else "the report has no figures")
     return figures

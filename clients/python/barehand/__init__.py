@@ -1,10 +1,12 @@
 """Barehand in Python: receives the states of the hands from the tracker, and sends images to it.
 
     import barehand
-    for hands in barehand.hands():                    # live over LCM; barehand.hands("take.lcmlog") reads a log
+    for hands in barehand.hands():                    # live over LCM; see below for other sources
         for hand in hands:                            # the hands with a pose; hands.without_pose holds the others
             print(hand.handedness, hand.status, hand.joint_angles()["index_pip_flex"])
 
+    barehand.hands("ws://localhost:8765")             # live from barehand track --view
+    barehand.hands("states.lcmlog")                   # from a log
     barehand.publish_rgbd(depth, colour, (fx, fy, cx, cy))   # for barehand track --source lcm
 
 Units are metres, seconds and radians. The camera frame has x right, y down, z forward. Unknown values are NaN, never 0.

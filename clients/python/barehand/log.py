@@ -1,4 +1,5 @@
-"""LCM's event logs, which lcm-logger, `barehand record` and `barehand track --states-log` write.
+"""Logs: MCAP files (mcap.py), and LCM's event logs, which lcm-logger, `barehand record` and `barehand track --states-log`
+write.
 
 An event consists of a sync word, its number, its time [us] and the lengths of channel and data (4, 8, 8, 4, 4 bytes,
 big endian), then the channel and the data (https://lcm-proj.github.io/lcm/content/log-file-format.html).
@@ -7,6 +8,7 @@ import mmap
 import os
 import struct
 
+from . import mcap
 from .datagrams import LONGEST_CHANNEL
 from .error import Error
 
@@ -15,10 +17,11 @@ _HEADER = struct.Struct(">IqqII")
 
 
 def events(path, counts):
-    """An iterator over all complete events of a log: (time [us], channel, data), the last two as bytes. Damaged or
-    truncated parts are skipped up to the next event and counted in `counts.damaged`. Raises Error if the file is no
-    log."""
-    return _scan(_map(path), path, counts)  # _map() opens the file now, so that a missing file is reported at once
+    """An iterator over all complete events of a log, or over the LCM messages of an MCAP file: (time [us], channel,
+    data), the last two as bytes. Damaged or truncated parts are skipped up to the next event and counted in
+    `counts.damaged`. Raises Error if the file is neither."""
+    data = _map(path)  # opens the file now, so that a missing file is reported at once
+    return mcap.events(data, path, counts) if data[:len(mcap.MAGIC)] == mcap.MAGIC else _scan(data, path, counts)
 
 
 def _scan(bytes_, path, counts):

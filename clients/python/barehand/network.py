@@ -31,7 +31,7 @@ def parse_url(url=None):
     except (ValueError, OSError) as error:
         raise Error(f"is no address of an LCM network: {error}", url, example) from None
     if parts.scheme != "udpm":
-        raise Error("the Python client knows networks (udpm) and logs only", url, example)
+        raise Error("the Python client knows networks (udpm), live pages (ws) and logs only", url, example)
     if not multicast or not 0 <= ttl <= 255 or buffer <= 0:
         raise Error("is no multicast address with a ttl of 0 to 255", url, example)
     return group, port, ttl, buffer
@@ -39,6 +39,9 @@ def parse_url(url=None):
 
 class Network:
     """Sends and receives messages as liblcm does. Not thread-safe."""
+
+    #: What to do if nothing comes.
+    remedy = "start `barehand track` with the same LCM URL and channel prefix; `barehand listen` shows what it sends"
 
     def __init__(self, url=None, counts=None):
         """Connects for sending and, if `counts` (counts.Counts) is given, for receiving."""

@@ -1,4 +1,4 @@
-"""Hands, frame by frame, from a network or a log."""
+"""Hands, frame by frame, from a network, a live page or a log."""
 import os
 import time
 import warnings
@@ -9,6 +9,7 @@ from .error import Error
 from .hand import Hand, Hands
 from .messages import Damaged, Foreign, decode, glove_state_t, hand_joints_t, hand_state_t
 from .network import Network
+from .page import END_OF_FRAME, Page
 
 _PARTS = {"HAND_STATE": hand_state_t, "GLOVE_STATE": glove_state_t, "HAND_JOINTS": hand_joints_t}
 _SILENCE = 5.0  # seconds without a message after which a warning says what to check
@@ -21,15 +22,16 @@ def hands(source=None, prefix="", timeout=None, newest=False):
             if hands.right:
                 print(hands.right.joint_angles()["index_pip_flex"])
 
-    source: an LCM network, such as udpm://239.255.76.67:7667?ttl=0; the name of a log that `barehand track --states-log`,
-    `barehand record` or `lcm-logger` wrote; or None for the network in the environment variable LCM_DEFAULT_URL, or
-    LCM's default network.
-    prefix: the channel prefix of the tracker (`run.channel_prefix`).
-    timeout: for a network: seconds without a hand state after which Error is raised; None waits for ever, with one
-    warning.
-    newest: for a network: skips frames if newer ones have arrived, for consumers that are slower than the tracker.
+    source: an LCM network, such as udpm://239.255.76.67:7667?ttl=0; the live page of `barehand track --view` or
+    `barehand view`, such as ws://localhost:8765; the name of a log that `barehand track --states-log` or `--mcap`,
+    `barehand record` or `lcm-logger` wrote; or None for the network in the environment variable LCM_DEFAULT_URL, or LCM's default network.
+    prefix: the channel prefix of the tracker (`run.channel_prefix`); a live page has none.
+    timeout: for a network or a page: seconds without a hand state after which Error is raised; None waits for ever, with
+    one warning. A page that ends and comes back is connected to again.
+    newest: for a network or a page: skips frames if newer ones have arrived, for consumers that are slower than the
+    tracker.
 
-    Returns a HandStream. Raises Error if the network or the log cannot be opened, or if a log holds no hand states.
+    Returns a HandStream. Raises Error if the network, the page or the log cannot be opened, or if a log holds no hand states.
     Damaged and foreign messages are left out, and hands may be incomplete; all of these are counted, with one warning
     for each kind.
     """
@@ -43,10 +45,14 @@ class HandStream:
     def __init__(self, source, prefix, timeout, newest):
         self.counts = Counts()
         self._source, self._timeout, self._newest = source, timeout, newest
-        self._frames = _Frames(prefix, self.counts)
         self._warned = set()
         self._network = None
-        if source is None or "://" in os.fspath(source):
+        is_page = source is not None and os.fspath(source).startswith(("ws://", "wss://"))
+        self._frames = _Frames("" if is_page else prefix, self.counts, is_page)
+        if is_page:
+            self._network, self._newest = Page(source, self.counts, newest), False  # the server skips frames itself
+            self._hands = self._live()
+        elif source is None or "://" in os.fspath(source):
             self._network = Network(source, self.counts)
             self._hands = self._live()
         else:
@@ -65,7 +71,7 @@ class HandStream:
         self.close()
 
     def close(self):
-        """Ends the iteration and closes the network."""
+        """Ends the iteration and closes the network or the connection."""
         self._hands.close()
         if self._network:
             self._network.close()
@@ -109,12 +115,11 @@ class HandStream:
 
     def _warn_of_silence(self, seconds):
         said = f"no message on {self._frames.prefix}HAND_STATE for {seconds:.0f} s"
-        remedy = "start `barehand track` with the same LCM URL and channel prefix; `barehand listen` shows what it sends"
         if self._timeout is not None and seconds >= self._timeout:
-            raise Error(said, self._network.url, remedy)
+            raise Error(said, self._network.url, self._network.remedy)
         if seconds >= _SILENCE and "silence" not in self._warned:
             self._warned.add("silence")
-            warnings.warn(f"barehand: {self._network.url}: {said} ({remedy})", RuntimeWarning, stacklevel=4)
+            warnings.warn(f"barehand: {self._network.url}: {said} ({self._network.remedy})", RuntimeWarning, stacklevel=4)
 
 
 class _Frame:
@@ -128,10 +133,10 @@ class _Frame:
 class _Frames:
     """Collects the messages of each frame. The number of hands is assumed to be that of the previous frame, so that a
     frame can be returned as soon as its last message arrives; the first frame is returned when the second one
-    begins."""
+    begins. `marked`: END_OF_FRAME follows the messages of each frame, and nothing need be assumed."""
 
-    def __init__(self, prefix, counts):
-        self.prefix, self._counts = prefix, counts
+    def __init__(self, prefix, counts, marked=False):
+        self.prefix, self._counts, self._marked = prefix, counts, marked
         self._types = {(prefix + name).encode(): (name, type_) for name, type_ in _PARTS.items()}
         self._open, self._expected, self._last = {}, {}, {}  # by sensor: open frame, expected hands, last frame
 
@@ -140,6 +145,8 @@ class _Frames:
 
     def add(self, channel, data):
         """Adds a message and returns the list of the frames (Hands) that it completes."""
+        if (channel, data) == END_OF_FRAME:
+            return self.rest()
         if channel not in self._types:
             return []
         name, type_ = self._types[channel]
@@ -168,7 +175,7 @@ class _Frames:
         # hand is returned separately, and the number of hands is determined again.
         frame = self._open.setdefault(sensor, _Frame(key, late=self._last.get(sensor) == key))
         frame.hands.setdefault((message.handedness, message.hand_id), {})[name] = message
-        if not frame.late and len(frame.hands) == self._expected.get(sensor) and frame.complete():
+        if not self._marked and not frame.late and len(frame.hands) == self._expected.get(sensor) and frame.complete():
             done.append(self._close(sensor))
         return done
 

@@ -163,7 +163,8 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
   eval->add_option("--result", o->results, "result table; several are compared with one another");
   eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
-  eval->add_option("--states", o->states, "log of hand states, one for each truth, to check the stated uncertainty");
+  eval->add_option("--states", o->states,
+                   "log of hand states (LCM or MCAP), one for each truth, to check the stated uncertainty");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");

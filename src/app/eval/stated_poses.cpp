@@ -6,7 +6,7 @@
 #include "barehand/hand_state_t.hpp"
 #include "drivers/lcm/layouts.h"
 #include "hand/hand_pose.h"
-#include "io/lcm/lcm_log_reader.h"
+#include "io/lcm/message_log.h"
 
 namespace barehand {
 namespace {
@@ -44,7 +44,7 @@ bool sensible(const StatedSegment& segment) {
 }  // namespace
 
 Result<StatedPoses> read_stated_poses(const std::string& log_path) {
-  auto log = LcmLogReader::open(log_path);
+  auto log = MessageLog::open(log_path);
   if (!log) return tl::unexpected(log.error());
   StatedPoses poses;
   std::optional<std::int8_t> side;
@@ -69,7 +69,8 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
                   "give a log written by barehand track --states-log");
   }
   if (poses.empty())
-    return fail("holds no hand state with a pose", log_path, "give a log written by barehand track --states-log");
+    return fail("holds no hand state with a pose", log_path,
+                "give a log written by barehand track --states-log or --mcap");
   return poses;
 }
 

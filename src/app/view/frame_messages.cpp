@@ -58,12 +58,13 @@ ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {
 }
 
 ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
-                                 const GivenIntrinsics& foreign) {
+                                 const GivenIntrinsics& foreign, FramePtr image) {
   ViewFrame::Content content;
+  content.frame = std::move(image);
   FrameVector<Eigen::Vector3d> places;
   std::map<std::int32_t, HandParts> parts;  // by hand_id
 
-  // States and glove values are passed on as received; an image is decoded.
+  // The messages of hands are passed on as received; an image is decoded.
   for (const LcmMessage& message : messages) {
     const MessageKind kind = kind_of(message_hash(message.bytes));
     if (kind == MessageKind::hand_state) {
@@ -81,7 +82,10 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
       add(content, "GLOVE_STATE", message);
       parts[glove->hand_id].glove = *glove;
     } else if (kind == MessageKind::hand_joints) {
-      if (const auto joints = decode_message<hand_joints_t>(message.bytes)) parts[joints->hand_id].joints = *joints;
+      const auto joints = decode_message<hand_joints_t>(message.bytes);
+      if (!joints) continue;
+      add(content, "HAND_JOINTS", message);
+      parts[joints->hand_id].joints = *joints;
     } else if (kind == MessageKind::frame && !content.frame) {
       if (const auto frame = decode_frame_message(message.bytes, foreign, content.number)) content.frame = *frame;
     }

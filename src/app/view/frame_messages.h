@@ -40,8 +40,8 @@ class ShownHands {
 };
 
 /// Collects what the messages of one frame contain; damaged messages are left out. `foreign`: intrinsics of frames
-/// whose type carries none.
+/// whose type carries none. `image`: the frame's images if they are in no message; null: they may be.
 ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
-                                 const GivenIntrinsics& foreign);
+                                 const GivenIntrinsics& foreign, FramePtr image = nullptr);
 
 }  // namespace barehand

@@ -5,7 +5,6 @@
 
 #include "drivers/lcm/layouts.h"
 #include "io/lcm/log_names.h"
-#include "io/mcap/mcap_reader.h"
 
 namespace barehand {
 
@@ -16,14 +15,8 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     const auto files = find_logs(path);
     if (!files) return tl::unexpected(files.error());
-    for (const std::string& file : files->files) {
-      if (mcap::is_mcap(file))
-        return fail("is an MCAP file, which this page does not play", file,
-                    "open it in Foxglove or Lichtblick, or convert it to an LCM log: barehand convert");
-      auto log = LcmLogReader::open(file);
-      if (!log) return tl::unexpected(log.error());
-      index.logs_.push_back(std::move(*log));
-    }
+    for (const std::string& file : files->files)
+      if (const auto added = index.add(file); !added) return tl::unexpected(added.error());
     names.append(names.empty() ? "" : ", ").append(path);
   }
 
@@ -31,27 +24,50 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
   index.find_frames();
   if (index.frames_.empty())
     return fail("it holds neither hand states nor frames", names,
-                "write a log of states with barehand track --states-log FILE");
+                "write a log of states with barehand track --states-log FILE, or --mcap FILE");
   index.find_lost();
   return index;
 }
 
+Result<void> LogIndex::add(const std::string& path) {
+  auto log = MessageLog::open(path);
+  if (!log) return tl::unexpected(log.error());
+  doubts_.insert(doubts_.end(), log->doubts().begin(), log->doubts().end());
+
+  // An MCAP file may have images without hands, such as a bag of ROS, or hands without images.
+  std::unique_ptr<McapSource> images;
+  if (log->is_mcap()) {
+    auto source = McapSource::open(path);
+    if (!source && log->entries().empty()) return tl::unexpected(source.error());
+    if (source) images = std::move(*source);
+  }
+  logs_.push_back({std::move(*log), std::move(images)});
+  return {};
+}
+
 /// Finds the frames: all times with a hand state, or, if there are no states, all times with an image or glove values.
 void LogIndex::find_frames() {
-  std::map<std::int64_t, std::vector<Place>> of_time;
+  // Collect what the logs hold, by time.
+  std::map<std::int64_t, Frame> of_time;
   for (std::size_t log = 0; log < logs_.size(); ++log) {
-    const std::vector<LogEntry>& entries = logs_[log].entries();
+    const std::vector<LogEntry>& entries = logs_[log].messages.entries();
     for (std::size_t k = 0; k < entries.size(); ++k) {
       const MessageKind kind = kind_of(entries[k].hash);
-      any_states_ |= kind == MessageKind::hand_state;
-      if (kind != MessageKind::other && kind != MessageKind::health) of_time[entries[k].utime].push_back({log, k});
+      if (kind == MessageKind::other || kind == MessageKind::health) continue;
+      Frame& frame = of_time[entries[k].utime];
+      frame.places.push_back({log, k});
+      frame.any_state |= kind == MessageKind::hand_state;
+      any_states_ |= frame.any_state;
     }
+    const std::int64_t images = logs_[log].images ? logs_[log].images->frames() : 0;
+    for (std::int64_t k = 0; k < images; ++k) of_time[logs_[log].images->utime(k)].image = {log, k};
   }
-  for (auto& [utime, places] : of_time) {
-    const auto is_state = [&](const Place& place) {
-      return kind_of(logs_[place.log].entries()[place.entry].hash) == MessageKind::hand_state;
-    };
-    if (!any_states_ || std::ranges::any_of(places, is_state)) frames_.push_back({utime, std::move(places)});
+
+  // Keep the frames that are to be shown.
+  for (auto& [utime, frame] : of_time) {
+    if (any_states_ && !frame.any_state) continue;
+    frame.utime = utime;
+    frames_.push_back(std::move(frame));
   }
 }
 
@@ -67,9 +83,9 @@ void LogIndex::find_lost() {
 
 bool LogIndex::has_pose(const Frame& frame) {
   for (const Place& place : frame.places) {
-    const LogEntry& entry = logs_[place.log].entries()[place.entry];
+    const LogEntry& entry = logs_[place.log].messages.entries()[place.entry];
     if (kind_of(entry.hash) != MessageKind::hand_state) continue;
-    const auto bytes = logs_[place.log].read(entry);
+    const auto bytes = logs_[place.log].messages.read(entry);
     const auto state = bytes ? decode_message<hand_state_t>(*bytes) : tl::unexpected(bytes.error());
     if (state && state->has_pose) return true;
   }
@@ -83,10 +99,18 @@ double LogIndex::seconds(std::int64_t frame) const {
 std::vector<LcmMessage> LogIndex::messages(std::int64_t frame) {
   std::vector<LcmMessage> messages;
   for (const Place& place : frames_[static_cast<std::size_t>(frame)].places) {
-    const LogEntry& entry = logs_[place.log].entries()[place.entry];
-    if (auto bytes = logs_[place.log].read(entry)) messages.push_back({entry.channel, std::move(*bytes)});
+    const LogEntry& entry = logs_[place.log].messages.entries()[place.entry];
+    if (auto bytes = logs_[place.log].messages.read(entry)) messages.push_back({entry.channel, std::move(*bytes)});
   }
   return messages;
+}
+
+FramePtr LogIndex::image(std::int64_t frame) {
+  const auto& place = frames_[static_cast<std::size_t>(frame)].image;
+  if (!place) return nullptr;
+  const SourceEvent event = logs_[place->log].images->read(place->frame);
+  const auto* image = std::get_if<FramePtr>(&event);
+  return image ? *image : nullptr;
 }
 
 }  // namespace barehand

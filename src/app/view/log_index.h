@@ -1,17 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/view/frame_messages.h"
-#include "io/lcm/lcm_log_reader.h"
+#include "drivers/mcap/mcap_source.h"
+#include "io/lcm/message_log.h"
 #include "io/web/view_status.h"
 
 namespace barehand {
 
-/// The frames of one or more LCM logs. Messages with the same time stamp belong to one frame; its states may be in one
-/// log and its image in another.
+/// The frames of one or more logs (LCM or MCAP). Messages with the same time stamp belong to one frame; its states may
+/// be in one log and its image in another.
 class LogIndex {
  public:
   /// Errors: a log cannot be read; none of the logs holds states or images.
@@ -24,20 +27,36 @@ class LogIndex {
   const std::vector<LostFrames>& lost() const { return lost_; }
   /// The messages of a frame; those that cannot be read are left out.
   std::vector<LcmMessage> messages(std::int64_t frame);
+  /// The images of a frame where they are ROS messages of an MCAP file; null: there are none, or none that can be read.
+  FramePtr image(std::int64_t frame);
+  /// Sentences that say what was left out of the logs because it is damaged or cut off.
+  const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
+  struct Log {
+    MessageLog messages;
+    std::unique_ptr<McapSource> images;  // null: it is an LCM log, or has no depth images
+  };
   struct Place {
     std::size_t log, entry;
   };
-  struct Frame {
-    std::int64_t utime;
-    std::vector<Place> places;
+  struct ImagePlace {
+    std::size_t log;
+    std::int64_t frame;
   };
+  struct Frame {
+    std::int64_t utime = 0;
+    std::vector<Place> places;
+    std::optional<ImagePlace> image = {};
+    bool any_state = false;
+  };
+  Result<void> add(const std::string& path);
   void find_frames();
   void find_lost();
   bool has_pose(const Frame& frame);
 
-  std::vector<LcmLogReader> logs_;
+  std::vector<Log> logs_;
+  std::vector<std::string> doubts_;
   std::vector<Frame> frames_;  // in the order of time
   std::vector<LostFrames> lost_;
   bool any_states_ = false;

@@ -11,7 +11,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   ViewOptions& o = *options;
   CLI::App* view = app.add_subcommand("view", "Serve a page that shows the states of another tracker, or a log");
-  view->add_option("LOG", o.logs, "LCM logs; states and images of one frame may be in different ones");
+  view->add_option("LOG", o.logs, "LCM logs or MCAP files; states and images of one frame may be in different ones");
   view->add_flag("--lcm", o.lcm, "show what trackers send on the LCM network now");
   view->add_option("--lcm-url", o.lcm_url, "LCM network");
   view->add_option("--prefix", o.prefix, "channel prefix of the tracker");

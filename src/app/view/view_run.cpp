@@ -106,7 +106,8 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
     // Reading and showing take a while, during which commands may arrive.
     lock.unlock();
     if (moved) {
-      ViewFrame::Content content = frame_content(index_.messages(state.position), shown_.hands, {});
+      ViewFrame::Content content =
+          frame_content(index_.messages(state.position), shown_.hands, {}, index_.image(state.position));
       content.T_world_camera = shown_.T_world_camera;
       server.show(std::make_shared<const ViewFrame>(std::move(content)));
     }
@@ -122,6 +123,7 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
 int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
   if (!index) return tell(index.error(), kExitUsage);
+  for (const std::string& doubt : index->doubts()) std::cerr << "barehand view: " << doubt << "\n";
   std::string name;
   for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
   const SystemClock clock;

@@ -18,6 +18,12 @@ namespace {
 // bytes, big endian), then the channel and the message (LCM's log file format).
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
 
+std::int64_t big_endian(const std::uint8_t* bytes, int count) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
+  return static_cast<std::int64_t>(value);
+}
+
 /// Finds the complete events of a log.
 class Scanner {
  public:
@@ -48,12 +54,6 @@ class Scanner {
   bool read(std::int64_t at, void* bytes, std::size_t count) {
     return fseeko(file_, at, SEEK_SET) == 0 && std::fread(bytes, 1, count, file_) == count;
   }
-  static std::int64_t big_endian(const std::uint8_t* bytes, int count) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
-    return static_cast<std::int64_t>(value);
-  }
-
   static std::int64_t end_of(const LogEntry& entry) {
     return entry.position + kEventHeader + static_cast<std::int64_t>(entry.channel.size()) + entry.size;
   }
@@ -83,12 +83,10 @@ class Scanner {
     if (size_ - at < kEventHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
     entry.channel.resize(channel_size);
     if (!read(at + kEventHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
-    std::array<std::uint8_t, 24> start{};
+    std::array<std::uint8_t, LogEntry::kStart> start{};
     const auto known = std::min<std::size_t>(start.size(), static_cast<std::size_t>(entry.size));
     if (std::fread(start.data(), 1, known, file_) != known) return std::nullopt;
-    if (known >= 8) entry.hash = big_endian(&start[0], 8);
-    if (known >= 16) entry.utime = big_endian(&start[8], 8);
-    if (known >= 24) entry.third = big_endian(&start[16], 8);
+    entry.read_start(std::span(start).first(known));
     return entry;
   }
 
@@ -110,6 +108,12 @@ class Scanner {
 };
 
 }  // namespace
+
+void LogEntry::read_start(std::span<const std::uint8_t> message) {
+  if (message.size() >= 8) hash = big_endian(&message[0], 8);
+  if (message.size() >= 16) utime = big_endian(&message[8], 8);
+  if (message.size() >= 24) third = big_endian(&message[16], 8);
+}
 
 Result<LcmLogReader> LcmLogReader::open(const std::string& path) {
   std::error_code error;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct LogEntry {
   std::int64_t hash = 0;   ///< the message's type fingerprint; 0 if it is shorter than 8 bytes
   std::int64_t utime = 0;  ///< the message's second 64-bit word: its time stamp [us] in every type that is read here
   std::int64_t third = 0;  ///< the message's third 64-bit word: `seq` in rgbd_frame_t
+
+  static constexpr std::size_t kStart = 24;  ///< size of the beginning that read_start() looks at [bytes]
+  /// Sets hash, utime and third from the beginning of the message.
+  void read_start(std::span<const std::uint8_t> message);
 };
 
 /// Random access to an LCM log. Every length in the file is checked, and damage is survived; liblcm's reader loses the

@@ -5,8 +5,9 @@
 
 namespace barehand::mcap {
 
-/// Writes all messages of a scene, with its time stamp and its frame number as the sequence number. Errors: the file
-/// cannot be written, or ROS cannot express the time.
+/// Writes all messages of a scene, with its time stamp and its frame number as the sequence number, and the LCM
+/// messages of its hands on topics below /lcm, for MessageLog. Errors: the file cannot be written, or ROS cannot
+/// express the time.
 Result<void> write_scene(McapWriter& file, const ros::Scene& scene);
 
 }  // namespace barehand::mcap

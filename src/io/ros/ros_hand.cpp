@@ -104,6 +104,14 @@ void add_ellipsoid(const segment_state_t& segment, int s, Drawing& drawing) {
   ellipsoid.color = {0.2F, 0.4F, 1, 0.3F};
 }
 
+template <class M>
+LcmMessage lcm_message(const HandState& hand, const char* channel, const M& message) {
+  LcmMessage out{header_of(hand.state), channel, {}};
+  out.data.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(out.data.data(), 0, static_cast<int>(out.data.size()));
+  return out;
+}
+
 KeyValue value(std::string key, double number) { return {std::move(key), formatted("%.6g", number)}; }
 KeyValue value(std::string key, std::int64_t number) { return {std::move(key), std::to_string(number)}; }
 
@@ -167,6 +175,11 @@ DiagnosticStatus diagnostic(const HandState& hand) {
     message.values.push_back({name + " seen", segment.seen ? "true" : "false"});
   }
   return message;
+}
+
+std::vector<LcmMessage> lcm_messages(const HandState& hand) {
+  return {lcm_message(hand, "HAND_STATE", hand.state), lcm_message(hand, "GLOVE_STATE", hand.glove),
+          lcm_message(hand, "HAND_JOINTS", hand.joints)};
 }
 
 DiagnosticStatus diagnostic(const health_t& health) {

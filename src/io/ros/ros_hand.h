@@ -36,6 +36,8 @@ void add_transforms(const HandState& hand, TFMessage& message);
 MarkerArray markers(const HandState& hand);
 /// The status of the hand and the confidence of each segment.
 DiagnosticStatus diagnostic(const HandState& hand);
+/// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE and HAND_JOINTS.
+std::vector<LcmMessage> lcm_messages(const HandState& hand);
 /// The counters of the pipeline.
 DiagnosticStatus diagnostic(const health_t& health);
 

@@ -254,4 +254,14 @@ struct DiagnosticArray {
   static void fields(auto& v, auto& m) { v("header", m.header), v("status", m.status); }
 };
 
+/// A message of the LCM network as it stands there: lcmtypes/*.lcm say what `data` holds. This type is not one of ROS;
+/// it keeps in a file what the types of ROS have no fields for, such as raw poses and covariances.
+struct LcmMessage {
+  Header header;
+  std::string channel;  ///< without a prefix: "HAND_STATE"
+  std::vector<std::uint8_t> data;
+  static constexpr const char* kType = "barehand_msgs/LcmMessage";
+  static void fields(auto& v, auto& m) { v("header", m.header), v("channel", m.channel), v("data", m.data); }
+};
+
 }  // namespace barehand::ros

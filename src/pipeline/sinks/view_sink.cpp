@@ -71,6 +71,7 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, std::span<const H
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
     content.messages.push_back(encoded("HAND_STATE", hands[k].state));
     content.messages.push_back(encoded("GLOVE_STATE", hands[k].glove));
+    content.messages.push_back(encoded("HAND_JOINTS", hands[k].joints));
     content.hands.push_back({hands[k].state, hands[k].glove, hands[k].joints});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }

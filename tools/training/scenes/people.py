@@ -7,7 +7,7 @@ from torch import Tensor
 
 from .chance import Chance
 from .rotations import about, apply, frame_along, unit
-from .shapes import FAR, hit_capsule, hit_ellipsoid, only
+from .shapes import hit_capsule, hit_ellipsoid, only
 
 
 @dataclass
@@ -94,8 +94,3 @@ def bodies(chance: Chance, rays: Tensor, shoulder: Tensor) -> Tensor:
     body = torch.minimum(body, hit_ellipsoid(rays, on_face(0.07, -0.045), face, 0.55 * ball))
     nose = chance.uniform(0.012, 0.02, count)
     return torch.minimum(body, hit_capsule(rays, on_face(-0.01, -0.09), on_face(0.025, -0.115), 0.6 * nose, nose))
-
-
-def nobody(rays: Tensor) -> Tensor:
-    """The depth of an empty scene [B, H, W]."""
-    return torch.full(rays.shape[:3], FAR, device=rays.device)
