@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""The live page in a headless Chromium, with hands of the simulator.
+  page_test.py BAREHAND"""
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import cv2
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools/browser"))
+from chromium import Chromium  # noqa: E402
+
+BAREHAND = sys.argv.pop(1)
+LONG = 120  # seconds; never waited for when all is well
+SMALL = "width=320,height=240"
+HAND = f"sim:grasp_ball,{SMALL},live=true,loop=true"
+STAGE = {"light": (230, 234, 237), "dark": (13, 16, 18)}  # background of the view, as in web/style.css
+
+
+class Program:
+    """A running `barehand` that serves the page at `url`."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([BAREHAND, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.PIPE, text=True)
+        said = ""
+        for line in self.process.stderr:
+            said += line
+            if found := re.search(r"open (http://\S+)", line):
+                self.url = found[1]
+                break
+        else:
+            raise AssertionError(f"no address of a page: {said}")
+        self.reader = threading.Thread(target=self.process.stderr.read)  # so that the program never waits for us
+        self.reader.start()
+
+    @property
+    def port(self):
+        return self.url.rsplit(":", 1)[1]
+
+    def end(self, number=signal.SIGTERM):
+        if self.process.poll() is None:
+            self.process.send_signal(number)
+        self.process.wait(LONG)
+        self.reader.join()
+        self.process.stderr.close()
+        return self.process.returncode
+
+
+def text(element):
+    return f"document.getElementById('{element}').textContent"
+
+
+def hidden(element):
+    return f"document.getElementById('{element}').hidden"
+
+
+def pressed(name, value):
+    return f"document.querySelector('[data-{name}={value}]').getAttribute('aria-pressed') === 'true'"
+
+
+def setUpModule():
+    Page.browser = unittest.enterModuleContext(Chromium(LONG))
+
+
+class Page(unittest.TestCase):
+    """Tests of the page in one browser. Each ends with an empty console."""
+
+    browser = None
+
+    def setUp(self):
+        self.browser.open("about:blank")
+        self.browser.problems.clear()
+        self.browser.size(900, 560)
+        self.browser.theme("light")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.problems, [])
+
+    @classmethod
+    def start(cls, *arguments):
+        """Starts the program; it ends with the tests of the class."""
+        program = Program(*arguments)
+        cls.addClassCleanup(program.end)
+        return program
+
+    @classmethod
+    def track(cls, source, *more):
+        return cls.start("track", "--source", source, "--no-publish", "--view=0", *more)
+
+    def wait_for(self, expression):
+        return self.browser.wait_for(expression)
+
+    def press(self, key, expected, shift=False):
+        self.browser.key(key, shift)
+        self.wait_for(expected)
+
+    def open_with_hand(self, program):
+        self.browser.open(program.url)
+        self.wait_for(f"{text('hands')}.includes('segments seen') && {hidden('notice')}")
+
+    def view(self):
+        """What the 3D view shows as RGB, without the buttons and texts over it."""
+        left, top, width, height = self.browser.value(
+            "(() => { const b = document.getElementById('scene').getBoundingClientRect();"
+            " return [b.left, b.top, b.width, b.height].map(Math.round); })()")
+        cover = "document.querySelectorAll('#bottom, #frozen, #notice').forEach((e) => { e.style.visibility = '%s'; })"
+        self.browser.value(cover % "hidden")
+        page = cv2.imdecode(np.frombuffer(self.browser.picture(), np.uint8), cv2.IMREAD_COLOR)[:, :, ::-1].astype(int)
+        self.browser.value(cover % "")
+        return page[top:top + height, left:left + width]
+
+    def shares(self, theme="light"):
+        """The fractions of the view that have the colours of a confident hand (teal), and of the background."""
+        view = self.view()
+        red, green, blue = view[..., 0], view[..., 1], view[..., 2]
+        teal = (green > red + 30) & (blue > red + 25) & (abs(green - blue) < 40)
+        ground = (abs(view - STAGE[theme]) <= 2).all(axis=2)
+        return teal.mean(), ground.mean()
+
+    def until(self, is_so, what):
+        """Looks again and again until something is so: a browser draws when it comes to it."""
+        deadline = time.monotonic() + LONG
+        while not is_so():
+            self.assertLess(time.monotonic(), deadline, what)
+
+    def wait_for_hand(self, theme="light"):
+        self.until(lambda: (shares := self.shares(theme))[0] > 0.01 and shares[1] > 0.3, "a hand before the background")
+
+
+class Live(Page):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.takes = pathlib.Path(folder.name)
+        cls.program = cls.track(HAND, "--view-record", folder.name)
+
+    def wait_until_more_is_captured(self):
+        captured = "Number(document.querySelector('#health td:nth-child(2)').textContent)"
+        self.wait_for(f"{captured} > {self.browser.value(captured)}")
+
+    def test_a_hand_is_seen_and_the_counters_move(self):
+        self.open_with_hand(self.program)
+        self.wait_for_hand()
+        self.wait_for(f"Number({text('rate')}) > 0 && Number({text('latency')}) > 0")
+        self.wait_until_more_is_captured()
+
+    def test_a_system_that_is_dark_gets_a_dark_page(self):
+        self.browser.theme("dark")
+        self.open_with_hand(self.program)
+        self.wait_for_hand("dark")
+        self.press("t", "document.documentElement.dataset.theme === 'light'")
+        self.wait_for_hand("light")
+
+    def test_a_phone_shows_all_in_its_width(self):
+        self.browser.size(360, 740, phone=True)
+        self.open_with_hand(self.program)
+        self.wait_for_hand()
+        self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 360)
+        outside = ("[...document.querySelectorAll('button, canvas')].filter((e) => e.offsetParent &&"
+                   " (e.getBoundingClientRect().right > 360 || e.getBoundingClientRect().left < 0)).map((e) => e.outerHTML)")
+        self.assertEqual(self.browser.value(outside), [])
+
+    def test_the_keyboard_does_what_the_buttons_do(self):
+        self.open_with_hand(self.program)
+        self.wait_for_hand()
+        _, ground = self.shares()
+        self.press("c", pressed("cloud", "scene"))
+        for key, expected in [("2", pressed("view", "orbit")), ("3", pressed("view", "camera")),
+                              ("1", pressed("view", "follow")), ("e", pressed("toggle", "ellipsoids")),
+                              ("r", pressed("toggle", "raw")), ("p", pressed("picture", "depth")),
+                              ("?", "document.getElementById('shortcuts').open"),
+                              ("Escape", "!document.getElementById('shortcuts').open")]:
+            self.press(key, expected)
+        self.until(lambda: self.shares()[1] < 0.8 * ground, "the whole scene covers more of the view")
+
+    def test_a_frozen_page_stands_still(self):
+        self.open_with_hand(self.program)
+        self.wait_for_hand()
+        self.press("f", f"!{hidden('frozen')}")
+        self.until(lambda: (self.view() == self.view()).all(), "it stands still")
+        still = self.view()
+        self.wait_until_more_is_captured()
+        self.assertTrue((self.view() == still).all())
+        self.press("f", hidden("frozen"))
+        self.until(lambda: (self.view() != still).any(), "it moves again")
+
+    def test_the_button_records(self):
+        self.open_with_hand(self.program)
+        self.press("v", "document.getElementById('record').getAttribute('aria-pressed') === 'true'")
+        self.wait_for(f"/[1-9]/.test({text('recording')})")
+        self.press("v", "document.getElementById('record').getAttribute('aria-pressed') === 'false'")
+        self.wait_for(f"!{hidden('recording')} && /lcmlog/.test({text('recording')})")
+        self.assertEqual([path.suffix for path in self.takes.iterdir()], [".lcmlog"])
+
+
+class Trouble(Page):
+    def test_no_hand(self):
+        self.browser.open(self.track(f"sim:empty_desk,{SMALL},live=true,loop=true").url)
+        self.wait_for(f"{text('notice')}.includes('No hand in view') && Number({text('rate')}) > 0")
+        self.press("c", pressed("cloud", "scene"))
+        self.press("c", pressed("cloud", "none"))
+        self.until(lambda: self.shares()[1] > 0.99, "nothing is drawn")
+
+    def test_nobody_sends(self):
+        self.browser.open(self.start("view", "--lcm", "--lcm-url", "memq://", "--port", "0").url)
+        self.wait_for(f"{text('notice')}.includes('No tracker has sent states')")
+
+    def test_no_connection_and_again_by_itself(self):
+        program = self.track(HAND)
+        self.open_with_hand(program)
+        program.end()
+        self.wait_for(f"{text('notice')}.includes('No connection to Barehand')")
+        self.assertEqual(self.browser.value(text("connection")), "no connection")
+        self.start("track", "--source", HAND, "--no-publish", f"--view={program.port}")
+        self.wait_for(f"{text('connection')} === 'connected' && {text('hands')}.includes('segments seen') && {hidden('notice')}")
+        self.wait_for_hand()
+        refused = [problem for problem in self.browser.problems if "WebSocket" in problem]
+        self.assertEqual(refused, self.browser.problems)
+        self.browser.problems.clear()
+
+
+class Log(Page):
+    """A log in which the hand leaves the view three times."""
+
+    def setUp(self):
+        super().setUp()
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        states, take = f"{folder.name}/states.lcmlog", f"{folder.name}/take.lcmlog"
+        scene = f"sim:returns,{SMALL},noise=kinect,speed=4,frames=60"
+        for command in (["track", "--source", scene, "--no-publish", "--states-log", states],
+                        ["record", "--source", scene, "--out", take]):
+            subprocess.run([BAREHAND, *command], check=True, capture_output=True, timeout=LONG)
+        self.program = self.start("view", states, take, "--port", "0")
+
+    def frame(self):
+        return int(re.match(r"frame (\d+) of 60", self.browser.value(text("log_time")))[1])
+
+    def at(self, frame):
+        return f"{text('log_time')}.startsWith('frame {frame} of 60')"
+
+    def test_the_time_line_plays_steps_and_jumps(self):
+        self.browser.open(self.program.url)
+
+        # It plays by itself, and pauses.
+        self.wait_for(f"!{hidden('timeline')} && {text('log_time')}.startsWith('frame ') && !{self.at(1)}")
+        self.press(" ", f"{text('play')} === '▶'")
+        here = self.frame()
+
+        # Steps, and a jump to the beginning, where there is a hand.
+        self.press("ArrowLeft" if here == 60 else "ArrowRight", f"!{self.at(here)}")
+        self.assertEqual(abs(self.frame() - here), 1)
+        self.browser.value("(() => { const p = document.getElementById('position'); p.value = 9; p.oninput(); })()")
+        self.wait_for(f"{self.at(10)} && {hidden('notice')}")
+        self.wait_for_hand()
+
+        # Jumps to frames without a hand, forwards and backwards.
+        self.press("ArrowRight", f"{text('notice')} === 'No hand in this frame of the log.'", shift=True)
+        first = self.frame()
+        self.assertLess(self.shares()[0], 0.001, "no hand is drawn")
+        self.press("ArrowRight", f"!{self.at(first)}", shift=True)
+        self.assertGreater(self.frame(), first + 1)
+        self.press("ArrowLeft", self.at(first), shift=True)
+
+        # Other speeds, and playing on.
+        self.browser.value("(() => { const s = document.getElementById('speed'); s.value = '4'; s.onchange(); })()")
+        self.press(" ", f"{self.at(60)} && {text('play')} === '▶'")
+
+
+class Calibration(Page):
+    def test_what_is_still_to_be_shown_and_what_was_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = self.start("calibrate", "--source", "sim:scan,width=160,height=120,live=true", "--out",
+                                 f"{folder}/hand.json", "--view=0")
+            self.browser.open(program.url)
+
+            # While the hand is shown: what is missing, and bars that fill.
+            self.wait_for(f"!{hidden('scan')} && parseInt({text('scan_state')}) > 20")
+            self.assertEqual(self.browser.value("document.querySelectorAll('#scan .cell').length"), 16)
+            self.assertRegex(self.browser.value("document.querySelector('#scan .advice').textContent"), "^Show|^Bend")
+            self.wait_for("[...document.querySelectorAll('#scan .cell b')].some((bar) => bar.style.width !== '0%')")
+
+            # After Ctrl-C the lengths are measured. The program ends, and the page keeps the result.
+            program.end(signal.SIGINT)
+            self.wait_for(f"{text('scan_state')} === 'done' && {text('notice')}.includes('The calibration is done')")
+            self.assertEqual(self.browser.value("document.querySelectorAll('#scan tr').length"), 17)
+            self.assertTrue(pathlib.Path(folder, "hand.json").exists())
+        self.browser.problems.clear()  # the page tries to connect again
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
