@@ -1,6 +1,6 @@
-// Writes the expected results of the clients' tests: FOLDER/states.lcmlog and FOLDER/hands.mcap, hand states as the tracker
-// publishes them, and FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here with
-// Eigen.
+// Writes the expected results of the clients' tests: FOLDER/states.lcmlog and FOLDER/hands.mcap, hand states as the
+// tracker publishes them, and FOLDER/golden.csv, the same hands in the conventions of other consumers, computed here
+// with Eigen.
 //   write_client_golden FOLDER
 #include <Eigen/SVD>
 #include <cstdio>
