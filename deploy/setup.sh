@@ -7,7 +7,9 @@ cd "$(dirname "$0")/.."
 
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
 
-mapfile -t packages <deploy/packages.txt
+lists=(deploy/packages.txt)
+[ "${1:-}" != --tests ] || lists+=(deploy/packages_tests.txt)
+mapfile -t packages < <(cat "${lists[@]}")
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
