@@ -1,3 +1,4 @@
+// Reads an open OpenNI2 sensor: pairs depth with colour, and converts and checks the time stamps.
 #include "drivers/openni2/live_session.h"
 
 #include <algorithm>

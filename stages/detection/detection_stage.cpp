@@ -1,3 +1,4 @@
+// Decides in which frames the networks look for hands.
 #include "stages/detection/detection_stage.h"
 
 #include <algorithm>

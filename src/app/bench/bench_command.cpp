@@ -1,3 +1,4 @@
+// The command `barehand bench`: its options.
 #include "app/bench/bench_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Runs an experiment: renders its sequences, tracks them with every variant and compares the results.
 #include "app/experiment/experiment_run.h"
 
 #include <atomic>

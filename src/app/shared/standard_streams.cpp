@@ -1,3 +1,4 @@
+// Opens standard streams that are closed, so that no output file gets their numbers.
 #include "app/shared/standard_streams.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Finds the frames of hand states in logs.
 #include "app/view/log_index.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes the names of a hand's segments next to the hand in an image.
 #include "io/overlay/segment_labels.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Bends the hidden fingers of a found pose like a hand at rest.
 #include "tracking/hypotheses/neutral_pose.h"
 
 #include <algorithm>
