@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// The search for the start pose of a hand.
+
 /// Effort of a search: the number of templates that are scored on the coarse grid, and the numbers of those that the
 /// two later rounds improve.
 struct SearchEffort {

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// A reader of LCM logs that survives damage.
+
 /// A complete event of an LCM log.
 struct LogEntry {
   std::int64_t position = 0;   ///< byte offset of the event's header in the file

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// The part of the comparison of samples that runs on a graphics device.
+
 /// What the shader compares in one dispatch, besides the contents of the buffers. Sizes are counts.
 struct ShaderJob {
   /// For each segment, the index of its first skin point and the number of its points.
