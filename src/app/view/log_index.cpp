@@ -28,7 +28,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
     names.append(names.empty() ? "" : ", ").append(path);
   }
 
-  // Find what can be shown.
+  // Find the frames that can be shown.
   index.find_frames();
   if (index.frames_.empty())
     return fail("it holds neither hand states nor frames", names,

@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-// A reader of LCM logs that survives damage.
+// A reader of LCM logs, which skips damaged parts.
 
 /// A complete event of an LCM log.
 struct LogEntry {
@@ -23,8 +23,8 @@ struct LogEntry {
   std::int64_t third = 0;  ///< the message's third 64-bit word: `seq` in rgbd_frame_t
 };
 
-/// Random access to an LCM log. Every length in the file is checked, and damage is survived; liblcm's reader loses the
-/// event before a damaged one and allocates as much memory as a damaged length states.
+/// Random access to an LCM log. Every length in the file is checked, and damaged events are skipped; liblcm's reader
+/// loses the event before a damaged one and allocates as much memory as a damaged length states.
 class LcmLogReader {
  public:
   /// Finds every complete event in one pass over the headers, without reading the messages. There may be none. Errors:
