@@ -42,7 +42,7 @@ class DeviceComparison {
 
   /// Fails if there is no such device, or if it lacks OpenGL ES 3.1 or has fewer than five storage buffers.
   Result<void> open();
-  /// Enlarges the buffers for the job where they are too small.
+  /// Enlarges every buffer that is too small for the job.
   Result<void> reserve();
   /// Whether all buffers are large enough for the job.
   bool has_room() const;
