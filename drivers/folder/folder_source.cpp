@@ -1,3 +1,4 @@
+// Plays a recording folder as a source of frames.
 #include "drivers/folder/folder_source.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// Decodes the commands that a running tracker receives over LCM.
 #include "drivers/lcm/command.h"
 
 #include <cmath>

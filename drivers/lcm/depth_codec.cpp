@@ -1,3 +1,4 @@
+// Encodes and decodes the depth images of rgbd_frame_t without loss.
 #include "drivers/lcm/depth_codec.h"
 
 #include <zlib.h>

@@ -1,3 +1,4 @@
+// Decodes the frame messages of other projects (kinect.frame_msg_t and bot_core.images_t).
 #include "drivers/lcm/foreign_frames.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Converts frames to rgbd_frame_t messages and back.
 #include "drivers/lcm/frame_codec.h"
 
 #include <cstring>

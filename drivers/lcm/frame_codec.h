@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// Conversion of frames to rgbd_frame_t messages and back.
+
 /// The encodings of colour in rgbd_frame_t, with the values of the message type. Only JPEG is lossy.
 enum class ColourEncoding : std::int8_t { none = 0, raw_rgb = 1, jpeg = 2, png = 3 };
 

@@ -1,3 +1,4 @@
+// Decodes a message of any type that carries frames, by its fingerprint.
 #include "drivers/lcm/frame_message.h"
 
 #include "drivers/lcm/frame_codec.h"

@@ -1,3 +1,4 @@
+// The layouts of the LCM types, with which the lengths in a message are checked before it is decoded.
 #include "drivers/lcm/layouts.h"
 
 namespace barehand {

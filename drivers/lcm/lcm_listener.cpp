@@ -1,3 +1,4 @@
+// Receives the messages of an LCM bus on a thread of its own.
 #include "drivers/lcm/lcm_listener.h"
 
 #include <lcm/lcm-cpp.hpp>

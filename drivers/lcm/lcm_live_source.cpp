@@ -1,3 +1,4 @@
+// Delivers the frames that arrive on a live LCM bus.
 #include "drivers/lcm/lcm_live_source.h"
 
 #include "barehand/rgbd_frame_t.hpp"

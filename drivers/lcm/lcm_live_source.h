@@ -16,6 +16,8 @@
 
 namespace barehand {
 
+// A source of the frames that arrive on a live LCM bus.
+
 struct LcmLiveOptions {
   std::string channel = {};  ///< glob; "": the first channel like *RGBD_FRAME on which a frame arrives
   GivenIntrinsics foreign = {};

@@ -1,3 +1,4 @@
+// Replays the frames of LCM logs.
 #include "drivers/lcm/lcm_log_source.h"
 
 #include <algorithm>

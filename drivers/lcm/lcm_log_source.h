@@ -14,6 +14,8 @@
 
 namespace barehand {
 
+// A source that replays the frames of LCM logs.
+
 struct LcmLogOptions {
   std::string channel = {};  ///< a name, or a glob (matches_glob) like "CAM_*"; "": the only channel with frames
   std::optional<std::int64_t> start = {};  ///< index of the first frame; none: the first or, backwards, the last

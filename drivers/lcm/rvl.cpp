@@ -1,3 +1,4 @@
+// The RVL code for depth images: run lengths of zeros and variable-length differences.
 #include "drivers/lcm/rvl.h"
 
 namespace barehand {

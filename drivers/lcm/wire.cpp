@@ -1,3 +1,4 @@
+// Checks the lengths in an encoded LCM message before it is decoded.
 #include "drivers/lcm/wire.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// Replays the depth and colour images of an MCAP file.
 #include "drivers/mcap/mcap_source.h"
 
 #include <algorithm>

@@ -14,6 +14,8 @@
 
 namespace barehand {
 
+// A source that replays the depth and colour images of an MCAP file.
+
 /// What is replayed of an MCAP file, and how.
 struct McapOptions {
   std::string channel = {};  ///< topic of the depth images, or a pattern (matches_glob); "": the only such topic

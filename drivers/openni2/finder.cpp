@@ -1,3 +1,4 @@
+// Finds the OpenNI2 sensors that are plugged in, and loads OpenNI2 again if the USB devices change.
 #include "drivers/openni2/finder.h"
 
 #include <algorithm>

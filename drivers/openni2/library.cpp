@@ -1,3 +1,4 @@
+// Loads and unloads OpenNI2, of which a process can have only one instance.
 #include "drivers/openni2/library.h"
 
 #include <sched.h>

@@ -1,3 +1,4 @@
+// The output of a live sensor's thread: numbered frames, and notices about them.
 #include "drivers/openni2/live_output.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// The thread of a live OpenNI2 source: finds a sensor, reads it, and recovers it after faults.
 #include "drivers/openni2/live_reader.h"
 
 #include <algorithm>

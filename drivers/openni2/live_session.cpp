@@ -1,3 +1,4 @@
+// Reads an open OpenNI2 sensor: pairs depth with colour, and converts and checks the time stamps.
 #include "drivers/openni2/live_session.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ constexpr double kFirstDepth = 3;                // time that a sensor may need 
 constexpr double kPeriods = 5;                   // frame periods that a stall lasts at least, for slow sensors
 constexpr std::int64_t kColourGone = 1'000'000;  // time without colour after which colour counts as stopped [us]
 constexpr int kOutOfStep = 10;  // frames in a row without their colour that prove that pairing does not work
-constexpr int kDepthAlone = 5;  // depth images without colour; fewer may arrive together after a stall
+constexpr int kDepthAlone = 5;  // depth images after which colour is missing; fewer may just have come after a stall
 constexpr std::int64_t kSayAfter = 1'000'000;  // a fault of the images is reported when it has lasted this long [us]
 constexpr std::int64_t kClockSet = 100'000;    // a larger change of the host's clock means that it was set [us]
 
@@ -144,8 +145,8 @@ void LiveSession::add_colour(const std::optional<openni::VideoFrameRef>& picture
 }
 
 void LiveSession::verify_step(bool matched) {
-  // OpenNI2 pairs images by their numbers, and reports them as paired even if the driver cannot expose at the same
-  // time.
+  // OpenNI2 may report the streams as paired although the two cameras do not expose together, so count the frames with
+  // and without their colour.
   const bool colour_runs = now_us_ - last_colour_us_ < kColourGone / 4;
   in_step_ += matched && sensor_->paired();
   out_of_step_ = matched || !colour_runs || !sensor_->paired() ? 0 : out_of_step_ + 1;

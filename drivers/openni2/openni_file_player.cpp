@@ -1,3 +1,5 @@
+// OpenNiFilePlayer reads an .oni file image by image, each exactly once, and pairs depth with colour.
+// OpenNiFileSource adds the first frame to play and the step between frames.
 #include "drivers/openni2/openni_file_player.h"
 
 #include <fcntl.h>
@@ -18,8 +20,6 @@
 namespace barehand {
 namespace {
 
-// OpenNiFilePlayer reads an .oni file image by image, each exactly once, and pairs depth with colour; OpenNiFileSource
-// adds the first frame to play and the step between frames.
 constexpr std::chrono::milliseconds kPatience{10'000};  // longest wait for an image from a slow disk
 constexpr std::string_view kMagic = "NI10";
 constexpr const char* kRemedyIncomplete =

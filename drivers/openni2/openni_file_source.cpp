@@ -1,3 +1,4 @@
+// Plays an .oni recording as a source of frames.
 #include "drivers/openni2/openni_file_source.h"
 
 #include "drivers/openni2/openni_file_player.h"

@@ -1,3 +1,4 @@
+// Delivers the frames of a live OpenNI2 sensor.
 #include "drivers/openni2/openni_live_source.h"
 
 #include "drivers/openni2/live_reader.h"

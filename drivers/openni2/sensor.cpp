@@ -1,3 +1,4 @@
+// Opens an OpenNI2 sensor or .oni file, and reads its streams.
 #include "drivers/openni2/sensor.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// A driver to copy: simulates the depth of a wall that swings back and forth.
 #include "drivers/sample/plane_source.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Renders the frames of a simulated sequence with their ground truth.
 #include "drivers/synthetic/simulator.h"
 
 #include <algorithm>

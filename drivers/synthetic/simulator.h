@@ -13,6 +13,8 @@
 
 namespace barehand::synthetic {
 
+// The simulator: renders the frames of a sequence with their ground truth.
+
 /// Parameters of a simulation; visit() states the meaning of each.
 struct SimulatorParams {
   std::string sequence = "fist";  ///< a name of sequence_list()

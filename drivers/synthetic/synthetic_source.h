@@ -11,6 +11,8 @@
 
 namespace barehand::synthetic {
 
+// A source that delivers the frames of the simulator.
+
 /// A simulated hand, and the truth about it in the frame that was delivered last.
 struct SimulatedHand {
   HandProfile profile;                   ///< profile measured on the simulated hand

@@ -1,3 +1,4 @@
+// The USB bus of this machine, accessed through libusb.
 #include "drivers/usb/libusb_bus.h"
 
 #include <algorithm>

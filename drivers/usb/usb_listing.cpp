@@ -1,3 +1,4 @@
+// Lists the devices that are on the USB bus now.
 #include "drivers/usb/usb_listing.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Calls a function whenever a USB device is plugged in or unplugged.
 #include "drivers/usb/usb_watch.h"
 
 #include <libusb.h>

@@ -1,3 +1,4 @@
+// The command line of `barehand`: calls the subcommand and returns its exit code.
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Matches names with patterns that contain `*` and `?`.
 #include "core/glob.h"
 
 namespace barehand {

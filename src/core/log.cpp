@@ -1,3 +1,4 @@
+// Creates the program's logger, for a terminal or for systemd's journal.
 #include "core/log.h"
 
 #include <spdlog/sinks/null_sink.h>

@@ -1,3 +1,4 @@
+// CPU time and memory of this process, as the system reports them.
 #include "core/process_usage.h"
 
 #include <sys/resource.h>

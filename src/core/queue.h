@@ -14,6 +14,8 @@
 
 namespace barehand {
 
+// The bounded queue between two stages of the pipeline.
+
 /// What happens when an item is pushed into a full queue.
 enum class Overflow {
   block,        ///< the producer waits; nothing is dropped (replay)

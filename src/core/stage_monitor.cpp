@@ -1,3 +1,4 @@
+// Measures the calls of a pipeline stage and counts its failures.
 #include "core/stage_monitor.h"
 
 #include <exception>

@@ -1,3 +1,4 @@
+// Draws box plots and line charts into PNG files.
 #include "evaluation/chart.h"
 
 #include <algorithm>

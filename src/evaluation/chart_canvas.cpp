@@ -1,3 +1,4 @@
+// The canvas of a chart: axes, scales, text and colours.
 #include "evaluation/chart_canvas.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Computes summary statistics of a set of values.
 #include "evaluation/distribution.h"
 
 #include <algorithm>

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Comparison of tracked fingertips with fingertips labelled in images.
+
 inline constexpr std::array<std::string_view, kFingerCount> kFingerNames = {"thumb", "index", "middle", "ring",
                                                                             "little"};
 

@@ -1,3 +1,4 @@
+// Converts between segment poses and joint angles.
 #include "hand/articulated_pose.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Solves the normal equations of a kinematic tree by elimination from the leaves to the root.
 #include "hand/gaussian_tree.h"
 
 #include <Eigen/Cholesky>

@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// The hand as an implicit surface: a signed distance to blended elliptic tubes.
+
 /// Elliptic cross-section of a tube: half axes and centre along x and y [m].
 struct EllipticSection {
   double half_x = 0, half_y = 0, centre_x = 0, centre_y = 0;

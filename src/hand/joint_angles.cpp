@@ -1,3 +1,4 @@
+// Joint angles, their limits, and forward kinematics.
 #include "hand/joint_angles.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The derivatives of a joint's gap and angles with respect to the poses of its two segments.
 #include "hand/joint_linearisation.h"
 
 #include <algorithm>

@@ -4,6 +4,8 @@
 
 namespace barehand {
 
+// Derivatives of a joint's gap and angles with respect to the poses of its segments.
+
 /// Jacobians of a quantity of a joint with respect to the boxplus twists (v, w) of the joint's segment and of its
 /// parent.
 struct JointJacobians {

@@ -1,3 +1,4 @@
+// Operations on hand profiles, such as scaling and mirroring.
 #include "hand/profile.h"
 
 #include "hand/skin.h"

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// The hand profile: segments, joints and sizes of a person's hand.
+
 /// One rotational degree of freedom of a joint, as a hand profile states it.
 struct JointDof {
   std::string name;                                  ///< for example "index_mcp_flex"

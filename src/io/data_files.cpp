@@ -1,3 +1,4 @@
+// Finds the shipped files (configurations, hands, networks) of an installed program or a source tree.
 #include "io/data_files.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Reads whole files and pipes into memory.
 #include "io/file_bytes.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Locks a file, so that only one process writes to a set of logs.
 #include "io/file_lock.h"
 
 #include <fcntl.h>

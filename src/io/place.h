@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// The identity of the file at a path, and how an output to a path must be opened.
+
 /// The destination of what is written to a path; needed to decide how to open an output.
 struct Target {
   std::string path;     ///< the path after all symbolic links

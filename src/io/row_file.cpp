@@ -1,3 +1,4 @@
+// Writes a table of text rows that stays readable if the disk is full or the program crashes.
 #include "io/row_file.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// Writes a file as a draft that gets its name when it is complete.
 #include "io/whole_file.h"
 
 #include <fcntl.h>

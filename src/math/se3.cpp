@@ -1,3 +1,4 @@
+// Rigid motions: exponential map, logarithm and derivatives.
 #include "math/se3.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Adapts a mean hand to the tracked person.
 #include "person/person_fit.h"
 
 namespace barehand {

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Scans the skin of the tracked hand in the background.
+
 /// The parameters of the tracker that a scan uses.
 struct PersonScanParams {
   RefinementParams refinement;

@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 
 // Standard deviations of single residuals. A frame has thousands of them, whose errors are correlated.
 constexpr double kSigmaSkin = 0.00045;         // part of a surface distance that is due to the skin's shape [m]
-constexpr double kSigmaNoise = 2;              // part that is due to the sensor, relative to the sensor's noise
+constexpr double kSigmaNoise = 2;              // part that is due to the sensor, in units of the sensor's noise
 constexpr double kSigmaGap = 0.00011;          // joint gap (paper, Eq. 5) [m]
 constexpr double kSigmaAngle = 0.6 * kDegree;  // angles beyond the limits, and twist (paper, Eq. 6)
 constexpr double kSigmaTurn = 4.5 * kDegree;   // rotation of a joint in one step, so that a hidden joint stays in place

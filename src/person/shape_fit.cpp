@@ -1,3 +1,4 @@
+// A running Gaussian estimate of the person's hand shape.
 #include "person/shape_fit.h"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// Fits the cross-sections of a segment to its skin.
 #include "person/skin_sections.h"
 
 #include <Eigen/QR>

@@ -1,3 +1,4 @@
+// Runs source, preprocessing, tracking and sinks, on one thread or on several.
 #include "pipeline/pipeline.h"
 
 #include <bit>

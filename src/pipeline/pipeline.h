@@ -1,3 +1,4 @@
+// Passes frames from a source through preprocessing and tracking to the sinks, on one thread or on several.
 #pragma once
 
 #include <array>
@@ -19,8 +20,6 @@
 #include "sensor/frame_source.h"
 
 namespace barehand {
-
-// Passes frames from a source through preprocessing and tracking to the sinks, on one thread or on several.
 
 /// Preprocessing of frame k gets the estimates of exactly frame k - kFeedbackLag, so that the threaded and the inline
 /// runner give identical results. With 1, preprocessing would wait until the previous frame is tracked, and nothing

@@ -1,3 +1,4 @@
+// Prints the progress of a run and counts the status of each hand.
 #include "pipeline/progress.h"
 
 #include <ostream>

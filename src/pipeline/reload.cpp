@@ -1,3 +1,4 @@
+// Applies a changed configuration to a running pipeline.
 #include "pipeline/reload.h"
 
 #include <algorithm>

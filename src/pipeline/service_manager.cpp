@@ -1,3 +1,4 @@
+// Notifies systemd of the program's state.
 #include "pipeline/service_manager.h"
 
 #include <systemd/sd-daemon.h>

@@ -21,7 +21,7 @@ class Sink {
   virtual ~Sink() = default;
   virtual std::string name() const = 0;
   virtual Result<void> consume(const TrackedFrame& tracked) = 0;
-  /// Does what is due by the clock. Called repeatedly while no frame arrives.
+  /// Does work that depends on the time, such as periodic messages. Called repeatedly while no frame arrives.
   virtual Result<void> idle() { return {}; }
   /// Called after the last frame, also if the run failed. When it returns, everything written is on disk.
   virtual Result<void> finish() { return {}; }

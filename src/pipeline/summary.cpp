@@ -1,3 +1,4 @@
+// Formats the counts and times at the end of a run.
 #include "pipeline/summary.h"
 
 #include "core/format.h"

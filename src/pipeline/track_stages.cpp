@@ -1,3 +1,4 @@
+// Builds the stages that find and track hands from the configuration.
 #include "pipeline/track_stages.h"
 
 #include "io/data_files.h"

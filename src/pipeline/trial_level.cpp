@@ -1,3 +1,4 @@
+// Measures on a synthetic frame how fast the CPU and a GPU compare the samples of one level.
 #include "pipeline/trial_level.h"
 
 #include "io/data_files.h"

@@ -1,3 +1,4 @@
+// Reads and checks the camera's pose in the room, as a user gives it.
 #include "sensor/camera_placement.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Removes the lens distortion of depth and colour images.
 #include "sensor/undistortion.h"
 
 #include <algorithm>

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Removal of the lens distortion of images.
+
 /// Lens distortion in OpenCV's rational form and order (k1, k2, p1, p2, k3, k4, k5, k6), which is also ROS' plumb_bob
 /// and rational_polynomial, and the Azure Kinect's. All 0: a pinhole.
 struct Distortion {

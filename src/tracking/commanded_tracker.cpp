@@ -1,3 +1,4 @@
+// Executes commands between the frames of a tracker.
 #include "tracking/commanded_tracker.h"
 
 #include <algorithm>

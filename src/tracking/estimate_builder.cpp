@@ -1,3 +1,4 @@
+// Builds the published estimate of a hand from the tracker's pose: covariances, confidences and velocities.
 #include "tracking/estimate_builder.h"
 
 #include <algorithm>

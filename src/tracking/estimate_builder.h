@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// Builds the published estimate of a hand from the tracker's pose.
+
 /// The ids that a tracker gives to the hands that it finds: `first`, then `step` more for each new hand, so that two
 /// trackers never give the same id.
 struct HandIds {

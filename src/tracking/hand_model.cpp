@@ -1,3 +1,4 @@
+// Builds the parts of the tracker that belong to one hand.
 #include "tracking/hand_model.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// Checks by scaled copies whether the profile has the size of the observed hand.
 #include "tracking/hand_size_verifier.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tracks one hand: follows or searches it in each frame, and chooses one of the hypotheses.
 #include "tracking/hand_tracker.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Learns the tracked person's hand: fits its shape, scans its skin and checks its size.
 #include "tracking/person_model.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// Checks by mirrored and scaled copies whether the profile has the side and size of the observed hand.
 #include "tracking/profile_verifier.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The data that a tracker keeps from frame to frame about its hand.
 #include "tracking/track.h"
 
 #include <utility>

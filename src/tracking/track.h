@@ -19,7 +19,7 @@ struct Track {
   MotionModel motion;
   TrackState state;
   BaselineScore baseline;
-  HandEvidence evidence;              ///< evidence that a detection which was not followed yet is a hand
+  HandEvidence evidence;              ///< evidence, for each place, that a detection that is not tracked yet is a hand
   std::optional<HandPose> last_good;  ///< T_camera_segment of the last frame that was explained well
   int ambiguous_frames = 0;           ///< number of ambiguous frames since the track began
   int search_frames = 0;              ///< number of frames with a search since the hand was last followed well

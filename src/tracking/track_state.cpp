@@ -1,3 +1,4 @@
+// Decides whether a hand is tracked, held or lost.
 #include "tracking/track_state.h"
 
 #include <algorithm>

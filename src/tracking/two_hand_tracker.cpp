@@ -1,3 +1,4 @@
+// Tracks up to two hands, and assigns the observed hands to their trackers.
 #include "tracking/two_hand_tracker.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Resamples a frame's depth as the input of a network.
 #include "stages/detection/depth_view.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Decides in which frames the networks look for hands.
 #include "stages/detection/detection_stage.h"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
     return nullptr;
   }
   // While a hand is missing, whole_frame is set even in frames in which only windows were searched, so that
-  // preprocessing takes nothing undetected for the missing hand.
+  // preprocessing does not mistake undetected data for the missing hand.
   detection->whole_frame = !all_tracked;
   return std::make_shared<const Detection>(std::move(*detection));
 }

@@ -1,3 +1,4 @@
+// Detects hands in a depth image with the networks.
 #include "stages/detection/hand_detector.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the peaks of a network's heat map.
 #include "stages/detection/heat_map.h"
 
 #include <algorithm>

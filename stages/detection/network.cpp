@@ -1,3 +1,4 @@
+// Runs one network with OpenCV, and reads its outputs.
 #include "stages/detection/network.h"
 
 #include <algorithm>

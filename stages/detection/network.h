@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// A detection network that OpenCV runs.
+
 /// The input of a network: a part of a depth image in two channels of equal size.
 struct NetworkInput {
   Image<float> depth;  ///< scaled and clipped as in the training

@@ -1,3 +1,4 @@
+// Makes the inputs of the two detection networks from depth, and converts their outputs to joints and labels.
 #include "stages/detection/networks.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads the files of the networks, and checks them by their checksums.
 #include "stages/detection/weights.h"
 
 #include <zlib.h>

@@ -1,3 +1,4 @@
+// Belief propagation on the tree of segments, with log values in single precision.
 #include "stages/fusion/belief_propagation.h"
 
 #include <algorithm>

@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// Belief propagation on the tree of segments.
+
 /// -log psi (paper, Eq. 4), >= 0, of all pairs of a child's and its parent's samples.
 struct EdgeEnergy {
   std::size_t parents = 0, children = 0;  ///< numbers of samples

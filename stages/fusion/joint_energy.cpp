@@ -1,3 +1,4 @@
+// The energy of a joint for pairs of samples (paper, Eq. 4-6).
 #include "stages/fusion/joint_energy.h"
 
 #include <numbers>

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// The energy of a joint for pairs of samples (paper, Eq. 4-6).
+
 /// The limits of one joint and the cost of violating them (paper, Eq. 4-6), prepared for single precision.
 struct JointModel {
   Eigen::Vector3d joint_in_parent = Eigen::Vector3d::Zero();    ///< position of the joint in the parent [m]

@@ -1,3 +1,4 @@
+// Selects samples of high belief that differ from each other, and averages those near the best one.
 #include "stages/fusion/mode.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Corrects poses in which two fingers cross, by exchanging them.
 #include "stages/pose_prior/crossed_fingers.h"
 
 #include <algorithm>

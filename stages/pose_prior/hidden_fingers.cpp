@@ -1,3 +1,4 @@
+// Infers the poses of hidden fingers from those of their neighbours.
 #include "stages/pose_prior/hidden_fingers.h"
 
 #include <algorithm>

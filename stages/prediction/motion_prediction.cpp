@@ -1,3 +1,4 @@
+// Predicts the next pose of a hand from its velocity and by ICP.
 #include "stages/prediction/motion_prediction.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Removes flying pixels from a frame's depth, and marks depth edges.
 #include "stages/preprocess/depth_cleaner.h"
 
 #include <algorithm>

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// Finds the hands in the coarse grid of a frame.
+
 /// One hand in the coarse grid.
 struct CoarseHand {
   bool found = false;

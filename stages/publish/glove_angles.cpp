@@ -1,3 +1,4 @@
+// Computes the angles that a data glove would measure from a hand pose.
 #include "stages/publish/glove_angles.h"
 
 #include <cmath>

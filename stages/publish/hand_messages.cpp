@@ -1,3 +1,4 @@
+// Converts an estimate to the LCM messages of a hand.
 #include "stages/publish/hand_messages.h"
 
 #include <cassert>

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// The publish stage: converts estimates to LCM messages.
+
 /// The messages about one hand in one frame.
 struct HandMessages {
   hand_state_t state;

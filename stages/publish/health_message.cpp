@@ -1,3 +1,4 @@
+// Converts the pipeline's health to an LCM message.
 #include "stages/publish/health_message.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// The One-Euro filter for positions and orientations.
 #include "stages/publish/one_euro.h"
 
 #include <cassert>

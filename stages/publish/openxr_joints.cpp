@@ -1,3 +1,4 @@
+// Computes the joints of OpenXR's hand tracking from a hand pose.
 #include "stages/publish/openxr_joints.h"
 
 #include <algorithm>

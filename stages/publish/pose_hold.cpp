@@ -1,3 +1,4 @@
+// Holds the last pose of a hand for some time after it is lost.
 #include "stages/publish/pose_hold.h"
 
 #include <cmath>

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Holds the last pose of a hand for some time after it is lost.
+
 /// The state of a hand in one frame as it is published.
 struct PublishedTrack {
   TrackStatus status = TrackStatus::searching;

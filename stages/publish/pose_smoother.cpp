@@ -1,3 +1,4 @@
+// Smooths the published pose of a hand over time.
 #include "stages/publish/pose_smoother.h"
 
 #include <cmath>

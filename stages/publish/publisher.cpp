@@ -1,3 +1,4 @@
+// Sends the messages of hands, and of the pipeline's health, to the bus and to logs.
 #include "stages/publish/publisher.h"
 
 namespace barehand {

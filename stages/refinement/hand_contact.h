@@ -9,9 +9,9 @@
 namespace barehand {
 
 /// Keeps fingers and palm from passing through one another. Every phalanx, and the part of the palm that leads to each
-/// finger, carries a capsule within its skin (a "rod" in names). Capsules of different fingers may touch but not
-/// overlap; pairs that overlap in every real hand, such as neighbouring proximal phalanges joined by the web, are left
-/// out.
+/// finger, carries a capsule within its skin (called "rod" in the code). Capsules of different fingers may touch but
+/// not overlap; pairs that overlap in every real hand, such as neighbouring proximal phalanges joined by the web, are
+/// left out.
 class HandContact {
  public:
   explicit HandContact(const HandProfile& profile);

@@ -4,6 +4,8 @@
 
 namespace barehand {
 
+// The covariances of a refined pose.
+
 /// Standard deviations of the errors that a pose has even at the minimum of the energy, and factors on them. Their
 /// causes are errors of the model and joints that were not seen.
 struct UncertaintyParams {

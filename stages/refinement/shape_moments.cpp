@@ -1,3 +1,4 @@
+// The normal equations of a hand's shape together with its pose.
 #include "stages/refinement/shape_moments.h"
 
 #include "hand/joint_linearisation.h"

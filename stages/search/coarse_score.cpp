@@ -1,3 +1,4 @@
+// Scores a pose on the coarse grid.
 #include "stages/search/coarse_score.h"
 
 #include <algorithm>

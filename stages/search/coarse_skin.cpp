@@ -1,3 +1,4 @@
+// Thins a hand's skin for the search, and adds a piece of forearm.
 #include "stages/search/coarse_skin.h"
 
 #include <algorithm>

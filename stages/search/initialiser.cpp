@@ -1,3 +1,4 @@
+// Searches for the start pose of a hand: scores templates coarsely and refines the best ones.
 #include "stages/search/initialiser.h"
 
 #include <algorithm>

@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// The search for the start pose of a hand.
+
 /// Effort of a search: the number of templates that are scored on the coarse grid, and the numbers of those that the
 /// two later rounds improve.
 struct SearchEffort {
@@ -109,8 +111,9 @@ class Initialiser {
                                       Workers& workers, Hiding hiding = Hiding::costs,
                                       const HandPose* last_good = nullptr) const;
 
-  /// Returns start poses near `followed`, best first. The palm of `followed` must be about right: tried are the pose
-  /// itself and the pose with a single finger bent as in a template; the best are improved on the fine grid.
+  /// Returns start poses near `followed`, best first. The palm of `followed` must be about right, since the search
+  /// tries only this pose and poses in which one finger is bent as in a template. It improves the best on the fine
+  /// grid.
   std::vector<StartCandidate> propose_near(const HandObservation& observation, const HandPose& followed,
                                            std::uint64_t seed, Workers& workers) const;
 

@@ -1,3 +1,4 @@
+// Fits a hand profile to the detected joints of a hand (inverse kinematics).
 #include "stages/search/inverse_kinematics.h"
 
 #include <Eigen/LU>

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Fits a hand profile to detected joints.
+
 /// The joints of a detected hand, in the order of landmarks (detection.h).
 using DetectedJoints = std::array<DetectedJoint, kLandmarkCount>;
 

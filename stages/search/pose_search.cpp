@@ -1,3 +1,4 @@
+// Improves a pose by a random local search over the palm's pose and the joint angles.
 #include "stages/search/pose_search.h"
 
 #include <cmath>

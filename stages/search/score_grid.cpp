@@ -1,3 +1,4 @@
+// Samples an observation into the grid on which poses are scored.
 #include "stages/search/score_grid.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The hand shapes and orientations that a search tries.
 #include "stages/search/start_templates.h"
 
 #include <algorithm>

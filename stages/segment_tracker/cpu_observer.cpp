@@ -1,3 +1,4 @@
+// Compares samples of segment poses with the depth image on the CPU.
 #include "stages/segment_tracker/cpu_observer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The distance between a segment's skin and the data (paper, Sec. 4).
 #include "stages/segment_tracker/patch_distance.h"
 
 #include <algorithm>

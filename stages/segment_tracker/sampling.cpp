@@ -1,3 +1,4 @@
+// Draws samples of segment poses in boxes.
 #include "stages/segment_tracker/sampling.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// Draws samples of all segments and computes their likelihoods (paper, Sec. 4).
 #include "stages/segment_tracker/segment_tracker.h"
 
 #include <algorithm>

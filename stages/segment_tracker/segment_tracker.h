@@ -13,6 +13,8 @@
 
 namespace barehand {
 
+// The local trackers of the segments: samples and their likelihoods (paper, Sec. 4).
+
 /// Data of one frame that all search levels share: the pixel map, which also marks the pixels where the hand hides its
 /// own segments at the predicted pose.
 struct PreparedObservation {

@@ -1,3 +1,4 @@
+// Predicts which pixels of a segment other segments hide.
 #include "stages/segment_tracker/self_occlusion.h"
 
 #include <algorithm>

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Finds pixels where the hand hides its own segments.
+
 /// The predicted depth of one segment's skin on a coarse grid around it. Beyond the outline, a cell has the depth of
 /// the nearest skin point, so that samples outside the outline find a value, too. The buffers are kept between calls.
 struct PredictedPatch {

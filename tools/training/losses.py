@@ -60,7 +60,7 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     bumps = bumps / bumps.sum((2, 3), keepdim=True).clamp_min(1e-6)
     peaked = mean(-(bumps * (share + 1e-9).log()).sum((2, 3)))
 
-    # Compute the loss of the side; the rarer side gets a larger weight.
+    # Compute the loss of left against right hands; left hands are rarer, so they get a larger weight.
     seen = truth.seen[:, 0].float()
     rarer = torch.where(truth.right, 0.25, 1.0) * seen
     sides = functional.binary_cross_entropy_with_logits(side[:, 0], truth.right.float(), reduction="none")

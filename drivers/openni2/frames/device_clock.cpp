@@ -1,3 +1,4 @@
+// Converts a sensor's time stamps to the host's clock.
 #include "drivers/openni2/frames/device_clock.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Copies OpenNI2's depth and colour images into frames.
 #include "drivers/openni2/frames/pixels.h"
 
 #include <algorithm>

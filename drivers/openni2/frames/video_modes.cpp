@@ -1,3 +1,4 @@
+// Chooses the video modes of an OpenNI2 sensor.
 #include "drivers/openni2/frames/video_modes.h"
 
 #include <array>

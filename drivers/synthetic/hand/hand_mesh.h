@@ -11,6 +11,8 @@
 
 namespace barehand::synthetic {
 
+// The rigged mesh of the simulated hand.
+
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// The joints, up to four, that a vertex follows, and its weights, which sum to 1.

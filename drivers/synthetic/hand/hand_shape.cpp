@@ -1,3 +1,4 @@
+// Changes the shape of a simulated hand's mesh, such as its size and the lengths of its fingers.
 #include "drivers/synthetic/hand/hand_shape.h"
 
 namespace barehand::synthetic {

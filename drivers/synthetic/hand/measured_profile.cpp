@@ -1,3 +1,4 @@
+// Measures a hand profile on a simulated hand's mesh.
 #include "drivers/synthetic/hand/measured_profile.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Deforms a hand mesh with its segments by linear blend skinning.
 #include "drivers/synthetic/hand/skinning.h"
 
 #include <algorithm>

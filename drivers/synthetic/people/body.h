@@ -11,6 +11,8 @@
 
 namespace barehand::synthetic {
 
+// The body of a simulated person.
+
 /// The dimensions of a clothed body [m].
 struct BodySize {
   double shoulder = 0.19;  ///< distance from the middle of the body to a shoulder joint

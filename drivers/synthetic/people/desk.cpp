@@ -1,3 +1,4 @@
+// The desk with its objects, the wall and the floor of simulated scenes.
 #include "drivers/synthetic/people/desk.h"
 
 #include <algorithm>

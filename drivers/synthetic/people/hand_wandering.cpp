@@ -1,3 +1,4 @@
+// Random keyframes for the motion of a simulated person's hand.
 #include "drivers/synthetic/people/hand_wandering.h"
 
 #include <algorithm>

@@ -8,6 +8,8 @@
 
 namespace barehand::synthetic {
 
+// A simulated scene of objects, people and, optionally, one hand.
+
 /// An object that stands still. World frame: z up, y away from the camera, x to the right; the camera looks at the
 /// origin, or near it.
 struct PlacedObject {

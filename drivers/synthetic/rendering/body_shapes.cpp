@@ -1,3 +1,4 @@
+// Meshes of a simulated person's body parts.
 #include "drivers/synthetic/rendering/body_shapes.h"
 
 #include <cmath>

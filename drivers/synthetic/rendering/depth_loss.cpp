@@ -1,3 +1,4 @@
+// Simulates which pixels of a structured-light sensor have no depth.
 #include "drivers/synthetic/rendering/depth_loss.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Simulates the noise of depth sensors.
 #include "drivers/synthetic/rendering/depth_noise.h"
 
 #include <algorithm>

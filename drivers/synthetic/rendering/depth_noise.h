@@ -9,6 +9,8 @@
 
 namespace barehand::synthetic {
 
+// The noise of depth sensors, which the simulator adds to its images.
+
 /// Noise of a structured-light camera (Kinect class).
 struct KinectNoise {
   double axial = 0.0012;         ///< m, sigma along the line of sight at 0.4 m (Nguyen et al., 3DIMPVT 2012)

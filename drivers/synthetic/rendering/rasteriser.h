@@ -11,6 +11,8 @@
 
 namespace barehand::synthetic {
 
+// Draws triangles into a z-buffer.
+
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 /// The front-most triangle at every pixel, and its distance as 1 / z. On a plane, 1 / z is linear in the image under

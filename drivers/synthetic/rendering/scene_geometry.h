@@ -7,6 +7,8 @@
 
 namespace barehand::synthetic {
 
+// The triangles of a simulated scene, and their surfaces.
+
 /// The appearance of a surface.
 struct Material {
   Rgb colour;

@@ -1,3 +1,4 @@
+// Computes depth, viewing angle and colour of the pixels of a rendered image.
 #include "drivers/synthetic/rendering/shading.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Meshes of simple solids, such as balls, boxes and tubes.
 #include "drivers/synthetic/rendering/shapes.h"
 
 #include <cmath>

@@ -7,6 +7,8 @@
 
 namespace barehand::synthetic {
 
+// Meshes of simple solids for simulated scenes.
+
 /// A smooth patch of rows x columns quadrilaterals: `point(u, v)` for u, v in [0, 1], where du x dv points outward. A
 /// patch that is closed in u or v (point(0, v) = point(1, v)) shares the vertices at its seam.
 TriangleMesh make_patch(int columns, int rows, const std::function<Eigen::Vector3d(double, double)>& point,

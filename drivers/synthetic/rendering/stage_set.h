@@ -5,6 +5,8 @@
 
 namespace barehand::synthetic {
 
+// Parts that several simulated scenes use: camera, table, and a hand that moves in the air.
+
 /// T_camera_world of a scene on a table. World frame: origin on the table, z up, y away from the camera, x to the
 /// right. The camera looks at the point `height` [m] above the origin from the distance `distance` [m]; it looks `tilt`
 /// [rad] below the horizon (pi / 2: straight down).

@@ -1,3 +1,4 @@
+// Closes the fingers of a simulated hand around an object until they touch it.
 #include "drivers/synthetic/sequences/grasp_planner.h"
 
 #include <algorithm>

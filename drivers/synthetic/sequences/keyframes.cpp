@@ -1,3 +1,4 @@
+// Smooth curves through keyframes, and the tremor of a hand.
 #include "drivers/synthetic/sequences/keyframes.h"
 
 #include <algorithm>

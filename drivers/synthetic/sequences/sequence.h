@@ -11,6 +11,8 @@
 
 namespace barehand::synthetic {
 
+// The interface of simulated sequences.
+
 /// The hand for which sequences are made, always a right one; a left hand is simulated by mirroring.
 struct HandRig {
   HandMesh mesh;

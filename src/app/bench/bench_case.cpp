@@ -1,3 +1,4 @@
+// Runs one case of `barehand bench`: tracks stored frames and measures time and memory.
 #include "app/bench/bench_case.h"
 
 #include <algorithm>

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// One case of `barehand bench`, and its measurement.
+
 // Bytes per megabyte.
 inline constexpr double kMegabyte = 1e6;
 

@@ -1,3 +1,4 @@
+// The command `barehand bench`: its options.
 #include "app/bench/bench_command.h"
 
 #include <CLI/CLI.hpp>
@@ -24,7 +25,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
-  // Add options for the frames that count.
+  // Add options for the frames that are used.
   bench->add_option("--store", o.store, "frames to keep in memory; they are played back and forth")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -1,3 +1,4 @@
+// Times the comparison of samples with the depth image on the CPU and on a GPU.
 #include "app/bench/bench_observers.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs the cases of `barehand bench` and writes their figures.
 #include "app/bench/bench_run.h"
 
 #include <fstream>

@@ -1,3 +1,4 @@
+// The parameters that `barehand bench` can vary, and the cases that follow from them.
 #include "app/bench/bench_sweep.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Plays frames that were read into memory before, so that `barehand bench` measures tracking alone.
 #include "app/bench/memory_source.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// The command `barehand calibrate`, which measures the profile of a user's hand.
 #include "app/calibrate/calibrate_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Shows the state of a scan of the hand on the live page.
 #include "app/calibrate/scan_page.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// Determines which sides and joints of the hand a scan has not seen yet.
 #include "app/calibrate/scan_report.h"
 
 #include <algorithm>

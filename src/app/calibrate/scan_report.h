@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The report of which parts of the hand a scan has not seen yet.
+
 /// What was seen of one segment during a scan.
 struct ScannedSegment {
   int seen = 0;                      ///< number of tracked frames in which the segment was seen

@@ -1,3 +1,4 @@
+// The checks of `barehand doctor`: processor, graphics, network, sensors and installed files.
 #include "app/doctor/doctor_checks.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// The command `barehand doctor`, which reports what is missing on this machine.
 #include "app/doctor/doctor_command.h"
 
 #include <CLI/CLI.hpp>

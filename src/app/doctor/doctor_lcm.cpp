@@ -1,3 +1,4 @@
+// Checks for `barehand doctor` whether LCM messages arrive.
 #include <unistd.h>
 
 #include <chrono>

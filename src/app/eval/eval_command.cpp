@@ -1,3 +1,4 @@
+// The command `barehand eval`, which compares results with the truth.
 #include "app/eval/eval_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Writes the results of `barehand eval` as JSON for programs.
 #include "app/eval/eval_report.h"
 #include "io/hand/json_fields.h"
 

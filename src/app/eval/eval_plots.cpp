@@ -60,7 +60,7 @@ BoxChart fingertips_chart(const FingertipEvaluation& fingertips) {
   return chart;
 }
 
-/// Actual against stated values, with the diagonal of a perfect statement.
+/// A chart of the actual over the stated values. If they agreed perfectly, all points would be on its diagonal.
 LineChart reliability_chart(const std::vector<ReliabilityBin>& bins, ChartText text, double scale) {
   LineChart chart;
   chart.text = std::move(text);

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// The results of `barehand eval`.
+
 /// One result that was compared with its truth.
 struct EvaluatedRun {
   std::string label, truth_path, result_path;

@@ -1,3 +1,4 @@
+// Reads poses and their covariances from a log of hand states.
 #include "app/eval/stated_poses.h"
 
 #include <algorithm>

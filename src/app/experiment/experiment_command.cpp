@@ -1,3 +1,4 @@
+// The command `barehand experiment`, which repeats the paper's experiments on the simulator.
 #include "app/experiment/experiment_command.h"
 
 #include <CLI/CLI.hpp>

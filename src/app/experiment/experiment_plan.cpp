@@ -1,3 +1,4 @@
+// The sequences and variants of each experiment of the paper.
 #include "app/experiment/experiment_plan.h"
 
 #include <algorithm>

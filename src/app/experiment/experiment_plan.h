@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The experiments of the paper: their sequences and the variants of the tracker.
+
 /// One configuration of the tracker that an experiment compares with others.
 struct ExperimentVariant {
   std::string label;

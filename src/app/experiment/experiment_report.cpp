@@ -1,3 +1,4 @@
+// Writes the results of an experiment as a text table, CSV, JSON and a chart.
 #include "app/experiment/experiment_report.h"
 
 #include <algorithm>

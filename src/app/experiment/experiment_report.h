@@ -7,6 +7,8 @@
 
 namespace barehand {
 
+// The results of an experiment, and their output.
+
 /// The result of one variant on one sequence.
 struct ExperimentRow {
   std::string sequence;

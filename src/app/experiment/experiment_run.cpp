@@ -1,3 +1,4 @@
+// Runs an experiment: renders its sequences, tracks them with every variant and compares the results.
 #include "app/experiment/experiment_run.h"
 
 #include <atomic>
@@ -42,7 +43,8 @@ class ExperimentRun {
  private:
   // Checks the input before anything is written.
   Step check() const;
-  // Removes what an earlier experiment left, and marks the folder as an experiment's.
+  // Creates the output folder and marks it as made by an experiment; with `overwrite`, first removes the output of an
+  // earlier experiment.
   Step take_folder() const;
   Step make_folders() const;
   // Renders a sequence into a recording; returns its number of frames.

@@ -1,3 +1,4 @@
+// The command `barehand listen`, which prints the hand states that it receives over LCM.
 #include "app/listen/listen_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// The command `barehand convert`, which copies a recording to another format.
 #include "app/record/convert_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Copies frames from a source to a log or folder, and reports the progress.
 #include "app/record/copy_frames.h"
 
 #include <algorithm>

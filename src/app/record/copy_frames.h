@@ -13,6 +13,8 @@
 
 namespace barehand {
 
+// Copies frames from a source to a log or folder, for `barehand record` and `barehand convert`.
+
 struct CopyOptions {
   std::int64_t frames = 0;                    ///< stop after this many frames; 0 = no limit
   double seconds = 0;                         ///< stop after this time [s]; 0 = no limit

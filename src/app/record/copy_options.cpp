@@ -1,3 +1,4 @@
+// The command-line options that `barehand record` and `barehand convert` have in common.
 #include <CLI/CLI.hpp>
 
 #include "app/record/run_copy.h"

@@ -1,3 +1,4 @@
+// Opens the destination of recorded frames: an LCM log, an MCAP file or a recording folder.
 #include "app/record/frame_writer.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// The command `barehand record`, which writes the frames of any source to a file or folder.
 #include "app/record/record_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Runs `barehand record` and `barehand convert`: opens source and destination and copies the frames.
 #include "app/record/run_copy.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// Warns if no depth of a camera lies in the range in which hands are searched for.
 #include "app/shared/depth_range.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Waits for the signals that stop the program (Ctrl-C, SIGTERM, SIGHUP) on a thread of its own.
 #include "app/shared/interrupt.h"
 
 #include <pthread.h>

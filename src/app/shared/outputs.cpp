@@ -1,3 +1,4 @@
+// Checks that no output of a run replaces one of its inputs or another output.
 #include "app/shared/outputs.h"
 
 #include <sys/stat.h>

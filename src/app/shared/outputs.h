@@ -12,6 +12,8 @@ class App;
 
 namespace barehand {
 
+// A check that outputs of a run replace none of its inputs.
+
 /// A file that a run reads besides its source.
 struct InputFile {
   std::string option;  ///< such as "--hand"

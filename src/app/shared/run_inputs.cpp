@@ -1,3 +1,4 @@
+// Loads the configuration and the hand profiles of a run.
 #include "app/shared/run_inputs.h"
 
 #include "io/data_files.h"

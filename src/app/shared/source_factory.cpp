@@ -1,3 +1,4 @@
+// Opens the source of frames that the user asks for with --source.
 #include "app/shared/source_factory.h"
 
 #include "app/shared/watched_source.h"

@@ -1,3 +1,4 @@
+// Lists the files that a source reads, so that outputs do not replace them.
 #include "app/shared/source_files.h"
 
 #include <algorithm>

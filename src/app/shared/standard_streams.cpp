@@ -1,3 +1,4 @@
+// Opens standard streams that are closed, so that no output file gets their file descriptors.
 #include "app/shared/standard_streams.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Checks the frames of a source and reports what looks wrong in them.
 #include "app/shared/watched_source.h"
 
 #include "core/format.h"

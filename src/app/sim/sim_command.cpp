@@ -1,3 +1,4 @@
+// The command `barehand sim`, which renders simulated sequences.
 #include "app/sim/sim_command.h"
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// Runs `barehand sim`: renders a sequence into a recording or a log, with its truth.
 #include "app/sim/sim_run.h"
 
 #include <filesystem>

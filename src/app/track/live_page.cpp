@@ -1,3 +1,4 @@
+// The live page of a run, with the recorder that its button starts.
 #include "app/track/live_page.h"
 
 namespace barehand {

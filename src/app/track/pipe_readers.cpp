@@ -1,3 +1,4 @@
+// Waits, until it is stopped, for readers of named pipes to which a run writes.
 #include "app/track/pipe_readers.h"
 
 #include <fcntl.h>

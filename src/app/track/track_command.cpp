@@ -1,3 +1,4 @@
+// The command `barehand track`: its options and their conversion to a run.
 #include "app/track/track_command.h"
 
 #include <CLI/CLI.hpp>

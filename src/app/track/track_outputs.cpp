@@ -1,3 +1,4 @@
+// Checks the outputs of `barehand track`, and chooses free names for those of a live run.
 #include "app/track/track_outputs.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs `barehand track`: opens all inputs and outputs, tracks, and reports the result.
 #include "app/track/track_run.h"
 
 #include <unistd.h>

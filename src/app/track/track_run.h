@@ -13,6 +13,8 @@
 
 namespace barehand {
 
+// The run of `barehand track`.
+
 /// Why nothing was tracked.
 struct TrackFailure {
   Error error;

@@ -1,3 +1,4 @@
+// Combines the LCM messages of one frame for the live page.
 #include "app/view/frame_messages.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Shows on the live page what trackers send over LCM.
 #include "app/view/live_view.h"
 
 #include <algorithm>

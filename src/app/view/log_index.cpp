@@ -1,3 +1,4 @@
+// Finds the frames of hand states in logs.
 #include "app/view/log_index.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
     names.append(names.empty() ? "" : ", ").append(path);
   }
 
-  // Find what can be shown.
+  // Find the frames that can be shown.
   index.find_frames();
   if (index.frames_.empty())
     return fail("it holds neither hand states nor frames", names,

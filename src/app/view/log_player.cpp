@@ -1,3 +1,4 @@
+// Plays a log of hand states for the live page, with pauses and jumps.
 #include "app/view/log_player.h"
 
 #include <algorithm>

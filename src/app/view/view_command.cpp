@@ -1,3 +1,4 @@
+// The command `barehand view`: its options.
 #include "app/view/view_command.h"
 
 #include <CLI/CLI.hpp>

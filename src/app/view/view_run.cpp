@@ -1,3 +1,4 @@
+// Runs `barehand view`, which shows the states of another tracker, or a log, on the live page.
 #include "app/view/view_run.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs loops and background tasks on a limited number of threads.
 #include "core/parallel/parallel.h"
 
 #include <sched.h>

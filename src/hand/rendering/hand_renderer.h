@@ -10,6 +10,8 @@
 
 namespace barehand {
 
+// A renderer for the skin of a posed hand, which gives the depth and the nearest vertex of each cell.
+
 /// Every `stride`-th pixel of a rectangle of the camera image: cell (i, j) is pixel (u0 + i stride, v0 + j stride).
 struct CellGrid {
   int u0 = 0, v0 = 0, stride = 1, width = 0, height = 0;

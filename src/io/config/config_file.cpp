@@ -1,3 +1,4 @@
+// Reads a configuration file into parameter structs, and checks its keys and values.
 #include "io/config/config_file.h"
 
 #include <yaml-cpp/yaml.h>

@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The interface of visitors of parameter structs, to which every key is presented.
+
 /// For whom a key is meant. Users set the keys that fit a sensor, a network or a machine; the others belong to the
 /// method and are for experts. The level only decides which keys are shown: files may contain every key.
 enum class ConfigLevel { user, expert };

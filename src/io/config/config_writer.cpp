@@ -1,3 +1,4 @@
+// Writes parameters as the text of a configuration file.
 #include "io/config/config_writer.h"
 
 namespace barehand {

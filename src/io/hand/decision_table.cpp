@@ -1,3 +1,4 @@
+// Writes the decisions of a tracker to a table.
 #include "io/hand/decision_table.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Reads and writes hand profiles (hand.json), and checks them.
 #include "io/hand/hand_json.h"
 
 #include <cmath>

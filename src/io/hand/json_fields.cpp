@@ -1,3 +1,4 @@
+// Reads fields of JSON objects, with error messages that name file, object and key.
 #include "io/hand/json_fields.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Reads and writes hand poses as joint angles (pose.json).
 #include "io/hand/pose_json.h"
 
 #include "hand/joint_angles.h"

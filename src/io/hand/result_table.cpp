@@ -1,3 +1,4 @@
+// Reads and writes tables of hand poses: results and ground truth.
 #include "io/hand/result_table.h"
 
 #include <cassert>

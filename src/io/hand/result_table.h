@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// Tables of hand poses, such as results and ground truth, in CSV files.
+
 /// One row of a truth or result table. Camera frame, metres.
 struct TableRow {
   Eigen::Vector3d proximal = Eigen::Vector3d::Zero(), distal = Eigen::Vector3d::Zero();

@@ -1,3 +1,4 @@
+// Reads and writes the scanned skin in a hand profile's JSON.
 #include "io/hand/skin_json.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Connects to an LCM network and sends messages.
 #include "io/lcm/lcm_bus.h"
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// Reads the events of an LCM log, even if it is truncated or damaged.
 #include "io/lcm/lcm_log_reader.h"
 
 #include <algorithm>

@@ -11,6 +11,8 @@
 
 namespace barehand {
 
+// A reader of LCM logs, which skips damaged parts.
+
 /// A complete event of an LCM log.
 struct LogEntry {
   std::int64_t position = 0;   ///< byte offset of the event's header in the file
@@ -26,8 +28,8 @@ struct LogEntry {
   void read_start(std::span<const std::uint8_t> message);
 };
 
-/// Random access to an LCM log. Every length in the file is checked, and damage is survived; liblcm's reader loses the
-/// event before a damaged one and allocates as much memory as a damaged length states.
+/// Random access to an LCM log. Every length in the file is checked, and damaged events are skipped; liblcm's reader
+/// loses the event before a damaged one and allocates as much memory as a damaged length states.
 class LcmLogReader {
  public:
   /// Finds every complete event in one pass over the headers, without reading the messages. There may be none. Errors:

@@ -1,3 +1,4 @@
+// Writes an LCM log that stays readable if the disk is full or the program crashes.
 #include "io/lcm/lcm_log_writer.h"
 
 #include <fcntl.h>

@@ -29,8 +29,8 @@ class LcmLogWriter : public MessageSink {
   LcmLogWriter(const LcmLogWriter&) = delete;
   LcmLogWriter& operator=(const LcmLogWriter&) = delete;
 
-  /// Appends one event with `utime` as its time stamp. If a failed write could not be cut off, every later call fails,
-  /// too.
+  /// Appends one event with `utime` as its time stamp. If the incomplete event of a failed write
+  /// could not be cut off, every later call fails, too.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
   /// Closes the log and gives it its name, even if it has no events. Nothing can be sent afterwards.
   Result<void> finish() override;
@@ -39,7 +39,7 @@ class LcmLogWriter : public MessageSink {
   std::int64_t bytes() const { return good_; }
   /// Whether the last event failed because the disk was full; there may be room again.
   bool disk_full() const { return disk_full_; }
-  /// Whether a failed write could not be cut off, so that nothing more is written.
+  /// Whether the incomplete event of a failed write could not be cut off, so that nothing more is written.
   bool failed() const { return failed_; }
 
  private:

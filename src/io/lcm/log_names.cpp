@@ -1,3 +1,4 @@
+// Finds the LCM logs that a path stands for: a file, a folder or a set.
 #include "io/lcm/log_names.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Records frames to LCM logs when a user of the live page asks for it.
 #include "io/lcm/log_recorder.h"
 
 #include <unistd.h>

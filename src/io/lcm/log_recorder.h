@@ -16,6 +16,8 @@
 
 namespace barehand {
 
+// The recorder of the live page.
+
 /// The state of a LogRecorder and of its current or last recording.
 struct RecorderState {
   std::string folder;        ///< folder of the recordings; "": there is none, so nothing can be recorded

@@ -1,3 +1,4 @@
+// Writes an LCM log as a set of files, whose oldest ones are removed.
 #include "io/lcm/rotating_log.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads an MCAP file: its channels, its messages and their positions.
 #include "io/mcap/mcap_reader.h"
 
 #include <zlib.h>

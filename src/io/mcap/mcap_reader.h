@@ -14,6 +14,8 @@
 
 namespace barehand::mcap {
 
+// A reader of MCAP files.
+
 /// A channel of the file: a topic and how its messages are encoded.
 struct Channel {
   std::string topic, encoding;        ///< such as "/camera/depth" and "cdr"

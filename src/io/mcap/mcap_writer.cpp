@@ -1,3 +1,4 @@
+// Writes an MCAP file with compressed chunks and an index.
 #include "io/mcap/mcap_writer.h"
 
 #include <fcntl.h>

@@ -12,6 +12,8 @@
 
 namespace barehand::mcap {
 
+// A writer of MCAP files.
+
 /// A message to be written, with its topic, type and schema.
 struct NewMessage {
   std::string topic, type, schema;  ///< such as "/camera/depth", "sensor_msgs/msg/Image" and a text in ros2msg

@@ -1,3 +1,4 @@
+// Converts depth images to colours.
 #include "io/overlay/colour_map.h"
 
 #include <algorithm>

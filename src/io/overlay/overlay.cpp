@@ -1,3 +1,4 @@
+// Writes images of tracked hands over their frames to a folder or a video.
 #include "io/overlay/overlay.h"
 
 #include <algorithm>

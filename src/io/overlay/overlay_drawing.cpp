@@ -1,3 +1,4 @@
+// Draws tracked hands over the images of a frame.
 #include "io/overlay/overlay_drawing.h"
 
 #include <algorithm>

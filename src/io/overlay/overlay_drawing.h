@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Draws tracked hands over the images of a frame.
+
 /// Height of the caption below the images [px].
 inline constexpr int kCaptionHeight = 28;
 /// The factor by which small frames are enlarged, so that lines stay legible.

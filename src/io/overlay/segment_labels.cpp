@@ -1,3 +1,4 @@
+// Writes the names of a hand's segments next to the hand in an image.
 #include "io/overlay/segment_labels.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace barehand {
 namespace {
 
 constexpr int kLineHeight = 15;  // distance of two labels in a column [px]
-constexpr int kGap = 28;         // distance of the labels from the outermost middle of a segment [px]
+constexpr int kGap = 28;  // horizontal distance of the labels from the leftmost or rightmost middle of a segment [px]
 constexpr double kFontScale = 0.38;
 
 struct Label {

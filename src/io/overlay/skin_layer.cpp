@@ -1,3 +1,4 @@
+// Draws the skin of tracked hands over an image.
 #include "io/overlay/skin_layer.h"
 
 #include <algorithm>

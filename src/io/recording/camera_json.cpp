@@ -1,3 +1,4 @@
+// Reads the intrinsics and the distortion of a recording's camera from camera.json.
 #include "io/recording/camera_json.h"
 
 #include <algorithm>

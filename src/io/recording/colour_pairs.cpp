@@ -1,3 +1,4 @@
+// Pairs the depth images of a recording with its colour images.
 #include "io/recording/colour_pairs.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Decodes PNG and JPEG images in memory, after a check of their size.
 #include "io/recording/image_codec.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads and writes the depth and colour images of a recording.
 #include "io/recording/image_file.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Decodes and encodes JPEG images with libjpeg.
 #include "io/recording/jpeg_codec.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Encodes and decodes PNG images with libpng.
 #include "io/recording/png_codec.h"
 
 #include <png.h>

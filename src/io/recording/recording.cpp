@@ -1,3 +1,4 @@
+// Opens a recording folder: its camera, its images and their time stamps.
 #include "io/recording/recording.h"
 
 #include <filesystem>

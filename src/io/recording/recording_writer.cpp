@@ -1,3 +1,4 @@
+// Writes a recording folder.
 #include "io/recording/recording_writer.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Reads the lists of images and time stamps of a recording (depth.txt and rgb.txt).
 #include "io/recording/stamped_list.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Encodes and decodes ROS 2 messages in CDR.
 #include "io/ros/cdr.h"
 
 #include <fastcdr/Cdr.h>

@@ -1,3 +1,4 @@
+// Converts frames to ROS image messages and back.
 #include "io/ros/ros_frame.h"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Converts the LCM messages of a hand to ROS messages.
 #include "io/ros/ros_hand.h"
 
 #include <Eigen/Eigenvalues>

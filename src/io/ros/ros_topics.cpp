@@ -1,3 +1,4 @@
+// The ROS topics and messages of a frame and its hands.
 #include "io/ros/ros_topics.h"
 
 #include <algorithm>

@@ -13,6 +13,8 @@
 
 namespace barehand::ros {
 
+// The ROS topics of a frame and its hands.
+
 /// Everything that is published about one frame.
 struct Scene {
   std::int64_t utime = 0;   ///< time stamp of the depth image [us since the epoch]

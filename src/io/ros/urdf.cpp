@@ -1,3 +1,4 @@
+// Writes a hand profile as a robot description (URDF).
 #include "io/ros/urdf.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Rewrites a fragmented MP4 file, so that players show its duration.
 #include "io/video/libav.h"
 
 namespace barehand {

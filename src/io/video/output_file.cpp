@@ -1,3 +1,4 @@
+// The file that libav writes a video to.
 #include "io/video/libav.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// Encodes images as a video with libav.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

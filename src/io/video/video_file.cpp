@@ -1,3 +1,4 @@
+// Writes images to a video file, by a module that is loaded for the first video.
 #include "io/video/video_file.h"
 
 #include <dlfcn.h>

@@ -35,7 +35,7 @@ class FoxgloveClient : public WebPeer {
   /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
   /// dropped.
   void post(ViewFramePtr frame);
-  /// Counts the frames of this client, as of a queue with a capacity of one.
+  /// The counts of this client's frames, like those of a queue that holds one frame.
   QueueHealth health() const;
 
  private:

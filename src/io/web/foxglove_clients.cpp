@@ -1,3 +1,4 @@
+// The connected Foxglove viewers.
 #include "io/web/foxglove_clients.h"
 
 #include "io/ros/urdf.h"

@@ -1,3 +1,4 @@
+// Parses the requests of Foxglove viewers.
 #include "io/web/foxglove_request.h"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// The queue of one client of the live page, which keeps only the newest frame.
 #include "io/web/newest_frame.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// Decides whether a request comes from the program's own page, to refuse those of other web sites.
 #include "io/web/own_origin.h"
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// The connection to one live page in a browser.
 #include "io/web/view_client.h"
 
 #include <chrono>

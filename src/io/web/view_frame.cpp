@@ -1,3 +1,4 @@
+// Encodes a frame and its hands for the live page.
 #include "io/web/view_frame.h"
 
 #include <algorithm>

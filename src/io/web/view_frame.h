@@ -17,6 +17,8 @@
 
 namespace barehand {
 
+// A frame and its hands, encoded for the live page.
+
 /// An encoded LCM message. The page gets the same messages as the LCM network.
 struct ViewMessage {
   const char* channel = "";  ///< without a prefix: "HAND_STATE"

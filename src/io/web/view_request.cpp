@@ -1,3 +1,4 @@
+// Parses the requests of the live page.
 #include "io/web/view_request.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Serves the live page and its data, and executes the users' requests.
 #include "io/web/view_server.h"
 
 #include <algorithm>

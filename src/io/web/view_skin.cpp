@@ -1,3 +1,4 @@
+// Encodes the skin of a hand profile for the live page.
 #include "io/web/view_skin.h"
 
 #include "hand/skin.h"

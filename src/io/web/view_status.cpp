@@ -1,3 +1,4 @@
+// Encodes the status of the program for the live page.
 #include "io/web/view_status.h"
 
 #include <nlohmann/json.hpp>

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// The status of the program, as the live page shows it.
+
 /// A sequence of frames without a pose: positions of the first and the last one in the log.
 struct LostFrames {
   std::int64_t first = 0, last = 0;

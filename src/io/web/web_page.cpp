@@ -1,3 +1,4 @@
+// Serves the files of the live page.
 #include "io/web/web_page.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// An HTTP and WebSocket server on top of civetweb.
 #include "io/web/web_server.h"
 
 #include <civetweb.h>

@@ -16,6 +16,8 @@ struct mg_connection;
 
 namespace barehand {
 
+// An HTTP and WebSocket server.
+
 /// Sends messages to one connected client. Not thread-safe.
 class WebSocket {
  public:

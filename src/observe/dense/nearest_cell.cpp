@@ -1,3 +1,4 @@
+// Finds the nearest occupied cell of an image for a few query cells.
 #include "observe/dense/nearest_cell.h"
 
 #include <limits>

@@ -1,3 +1,4 @@
+// The source of the compute shader that compares samples with the depth image.
 #include "observe/egl/compare_shader.h"
 
 namespace barehand {

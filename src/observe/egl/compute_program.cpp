@@ -1,3 +1,4 @@
+// Compiles a compute shader to a program.
 #include "observe/egl/compute_program.h"
 
 namespace barehand {

@@ -1,3 +1,4 @@
+// Compares batches of samples with depth data by a compute shader.
 #include "observe/egl/device_comparison.h"
 
 #include <algorithm>

@@ -12,6 +12,8 @@
 
 namespace barehand {
 
+// The part of the comparison of samples that runs on a graphics device.
+
 /// What the shader compares in one dispatch, besides the contents of the buffers. Sizes are counts.
 struct ShaderJob {
   /// For each segment, the index of its first skin point and the number of its points.
@@ -40,7 +42,7 @@ class DeviceComparison {
 
   /// Fails if there is no such device, or if it lacks OpenGL ES 3.1 or has fewer than five storage buffers.
   Result<void> open();
-  /// Enlarges the buffers for the job where they are too small.
+  /// Enlarges every buffer that is too small for the job.
   Result<void> reserve();
   /// Whether all buffers are large enough for the job.
   bool has_room() const;

@@ -1,3 +1,4 @@
+// Loads the functions of OpenGL ES.
 #include "observe/egl/gl_functions.h"
 
 #include "core/format.h"

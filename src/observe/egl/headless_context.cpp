@@ -1,3 +1,4 @@
+// Creates an OpenGL ES context without a window.
 #include "observe/egl/headless_context.h"
 
 #include <optional>

@@ -1,3 +1,4 @@
+// An index of the observed points for nearest-neighbour queries.
 #include "observe/registration/observed_cloud.h"
 
 #include <cassert>

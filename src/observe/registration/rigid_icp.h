@@ -68,7 +68,7 @@ inline MotionBound motion_bound(const IcpParams& p, double dt) {
 struct IcpResult {
   SE3 motion;
   double rms = 0;         ///< root mean square point-to-plane distance of the matching points [m]
-  double inliers = 0;     ///< fraction of the model points not hidden by objects that match
+  double inliers = 0;     ///< matching model points, as a fraction of those that no object hides
   bool reliable = false;  ///< false: `motion` is the identity (the pose is held)
 };
 

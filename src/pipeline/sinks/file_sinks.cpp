@@ -1,3 +1,4 @@
+// The sinks that write result tables, decisions and overlay images.
 #include "pipeline/sinks/file_sinks.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// The sink that writes frames and hands to an MCAP file.
 #include "pipeline/sinks/mcap_sink.h"
 
 #include "io/mcap/mcap_scene.h"

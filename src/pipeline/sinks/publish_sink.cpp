@@ -1,3 +1,4 @@
+// The sinks that publish hand states on LCM or write them to a log.
 #include "pipeline/sinks/publish_sink.h"
 
 #include "stages/publish/health_message.h"

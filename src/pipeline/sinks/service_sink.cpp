@@ -1,3 +1,4 @@
+// The sink that notifies systemd's watchdog while the pipeline makes progress.
 #include "pipeline/sinks/service_sink.h"
 
 #include "core/format.h"

@@ -1,3 +1,4 @@
+// The sink that passes frames and hands to the live page and its recorder.
 #include "pipeline/sinks/view_sink.h"
 
 #include <limits>

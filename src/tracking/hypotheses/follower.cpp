@@ -1,3 +1,4 @@
+// Follows a hand into the next frame: predicts, samples and refines its pose.
 #include "tracking/hypotheses/follower.h"
 
 #include <algorithm>

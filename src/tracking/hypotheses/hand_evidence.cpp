@@ -1,3 +1,4 @@
+// Decides from several cues whether a detection is a hand.
 #include "tracking/hypotheses/hand_evidence.h"
 
 #include <algorithm>

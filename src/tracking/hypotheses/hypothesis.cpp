@@ -1,3 +1,4 @@
+// Names of the origins of hypotheses, and a measure of their joints' gaps.
 #include "tracking/hypotheses/hypothesis.h"
 
 #include "hand/joint_angles.h"

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Hypotheses: poses that may explain a frame.
+
 /// How a hypothesis was found.
 enum class Origin {
   followed,   ///< by refining the prediction

@@ -1,3 +1,4 @@
+// Bends the hidden fingers of a found pose like a hand at rest.
 #include "tracking/hypotheses/neutral_pose.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& 
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = found.visible[s] > kObserved;
 
-  // Set the others to neutral angles and refine.
+  // Set the unobserved joints to neutral angles and refine.
   RefinedPose neutral = found;
   for (int pass = 0; pass < kPasses; ++pass) {
     const HandPose pose = with_hidden_neutral(profile, neutral.pose, seen);

@@ -1,3 +1,4 @@
+// Decides when the poses that repeated searches have found are enough.
 #include "tracking/hypotheses/restart_consensus.h"
 
 #include <algorithm>

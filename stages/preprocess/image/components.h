@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+// Splits cells of the coarse grid into connected surfaces.
+
 /// Surfaces of the coarse grid: sets of cells joined through neighbours without a depth step.
 struct Components {
   struct Part {

@@ -1,3 +1,4 @@
+// Finds the nearest set pixel of a mask for every pixel.
 #include "stages/preprocess/image/distance_transform.h"
 
 #include <cstdlib>

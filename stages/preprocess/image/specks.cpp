@@ -1,3 +1,4 @@
+// Removes the small components of a mask.
 #include "stages/preprocess/image/specks.h"
 
 #include <algorithm>
