@@ -12,7 +12,8 @@ missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
 done
-# npm only fetches the hand mesh and the tests' readers; a Node.js from elsewhere brings its own, which Debian's would conflict with.
+# npm only fetches the hand mesh and the readers of the tests; a Node.js from elsewhere brings its own, which Debian's would
+# conflict with.
 command -v npm >/dev/null || missing+=(npm)
 if [ ${#missing[@]} -gt 0 ]; then
   as_root apt-get update
@@ -21,7 +22,7 @@ fi
 deploy/fetch_hand_mesh.sh
 
 if [ "${1:-}" = --tests ]; then
-  # Readers of other people. Without the network, the tests with them are skipped and say so.
+  # Programs of other people that read what Barehand writes. Without the network, the tests with them are skipped and say so.
   npm ci --prefix tests/readers --ignore-scripts --no-audit --no-fund --prefer-offline ||
     echo "cannot fetch the readers of tests/readers/package.json: is the network there? The tests readers.* will be skipped" >&2
   cmake --preset release -DBAREHAND_TESTS=ON -DBAREHAND_WERROR=ON

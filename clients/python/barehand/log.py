@@ -17,9 +17,9 @@ _HEADER = struct.Struct(">IqqII")
 
 
 def events(path, counts):
-    """An iterator over all complete events of a log, or over the LCM messages of an MCAP file: (time [us], channel, data), the last two as bytes. Damaged or
-    truncated parts are skipped up to the next event and counted in `counts.damaged`. Raises Error if the file is no
-    log."""
+    """An iterator over all complete events of a log, or over the LCM messages of an MCAP file: (time [us], channel, data),
+    the last two as bytes. Damaged or truncated parts are skipped up to the next event and counted in `counts.damaged`.
+    Raises Error if the file is no log."""
     data = _map(path)  # here, so that a missing file is reported at once
     return mcap.events(data, path, counts) if data[:len(mcap.MAGIC)] == mcap.MAGIC else _scan(data, path, counts)
 
