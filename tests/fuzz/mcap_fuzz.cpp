@@ -1,8 +1,9 @@
 #include "drivers/mcap/mcap_source.h"
 #include "fuzz/memory_file.h"
+#include "io/lcm/message_log.h"
 #include "sensor/camera_limits.h"
 
-/// Input: an MCAP file. Every message is read, and the depth images in it are played.
+/// Input: an MCAP file. Every message is read, those of hands too, and the depth images are played.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);
@@ -18,6 +19,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CHECK(bytes && bytes->size() == message.size);
   }
 
+  // The LCM messages of hands.
+  auto log = MessageLog::open(file.path());
+  CHECK(log);
+  for (const LogEntry& entry : log->entries()) {
+    const auto message = log->read(entry);
+    CHECK(message && message->size() == static_cast<std::size_t>(entry.size));
+  }
+
+  // The frames of all topics with depth.
   McapOptions options;
   options.channel = "*";
   options.foreign = {500, 500, 3, 2};

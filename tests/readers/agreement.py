@@ -104,21 +104,23 @@ def main(barehand, lcmtypes, config):
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as here:
         states, gloves = agreement.track(barehand, lcmtypes, config, here, FRAMES)
-        subprocess.run([barehand, "convert", "take", "take.lcmlog"], check=True, cwd=here, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.PIPE)
+        for recording in ("take.lcmlog", "take.mcap"):
+            subprocess.run([barehand, "convert", "take", recording], check=True, cwd=here, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.PIPE)
         file = read_file(here + "/hands.mcap")
         check_that_changes_are_noticed(file, states, gloves, here + "/take")
         check_damage(here + "/hands.mcap")
 
         problems = [*agreement.disagreements(file, states, gloves),
                     *agreement.image_disagreements(file, here + "/take")]
-        for logs in (["states.lcmlog", "take.lcmlog"], ["hands.mcap"]):
+        for logs in (["states.lcmlog", "take.lcmlog"], ["states.lcmlog", "take.mcap"], ["hands.mcap"]):
             for subprotocol in ("foxglove.sdk.v1", "foxglove.websocket.v1"):
                 live = read_live(barehand, here, logs, subprotocol)
                 found = [*agreement.disagreements(live, states, gloves),
                          *agreement.image_disagreements(live, here + "/take", live=True)]
                 problems += [f"{subprotocol}, {logs}: {problem}" for problem in found]
-        print("\n".join(problems) or f"{len(states)} states and {FRAMES} frames agree, in the file and live under both names")
+        print("\n".join(problems) or
+              f"{len(states)} states and {FRAMES} frames agree, in the file and live under both names")
         sys.exit(1 if problems else 0)
 
 

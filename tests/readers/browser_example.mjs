@@ -11,7 +11,7 @@ globalThis.WebSocket = class extends WS {
 const {connect, rows} = await import("../../clients/javascript/live_hands.mjs");
 
 const [port, frames] = process.argv.slice(2);
-const player = new WS(`ws://localhost:${port}/live`);
+const player = new WS(`ws://127.0.0.1:${port}/live`);
 await once(player, "open");
 player.send('{"type": "pause"}');
 
@@ -21,7 +21,7 @@ function finish() {
   end();
   player.close();
 }
-const end = connect(`ws://localhost:${port}/live`, (hands) => {
+const end = connect(`ws://127.0.0.1:${port}/live`, (hands) => {
   if (hands[0].frame !== wanted) return;
   console.log(JSON.stringify({hands, rows: rows(hands)}));
   if (++wanted < Number(frames)) seek();

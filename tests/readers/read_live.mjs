@@ -9,7 +9,7 @@ const [port, subprotocol, frames] = process.argv.slice(2);
 const heard = new EventEmitter(), channels = new Map(), wanted = new Map();
 let messages = new Map();  // of the frame that is shown, by topic
 
-const viewer = new protocol.FoxgloveClient({ws: new WebSocket(`ws://localhost:${port}`, [subprotocol])});
+const viewer = new protocol.FoxgloveClient({ws: new WebSocket(`ws://127.0.0.1:${port}`, [subprotocol])});
 viewer.on("error", (error) => { throw error; });
 viewer.on("status", (status) => { throw new Error(status.message); });
 viewer.on("advertise", (added) => {
@@ -25,7 +25,7 @@ viewer.on("message", ({subscriptionId, timestamp, data}) => {
 });
 
 // Shows a frame through the connection of a page, and waits until the viewer has it.
-const player = new WebSocket(`ws://localhost:${port}/live`);
+const player = new WebSocket(`ws://127.0.0.1:${port}/live`);
 await once(player, "open");
 player.send(JSON.stringify({type: "pause"}));
 function shown() {

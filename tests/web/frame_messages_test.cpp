@@ -150,6 +150,25 @@ TEST(LogIndex, ShowsTheImagesOfAnMcapFileWithoutHands) {
   EXPECT_EQ(frame_content(index->messages(0), hands, {}, index->image(0)).utime, 7);
 }
 
+TEST(LogIndex, SaysWhyThereAreNoImages) {
+  const test::TempFolder folder;
+  const std::string path = folder / "hands.mcap";
+  auto file = mcap::McapWriter::create(path, false);
+  ASSERT_TRUE(file);
+  const HandMessages made = messages_at(1'000'000);
+  ros::Scene scene;
+  scene.utime = made.state.utime;
+  scene.hands = {{made.state, made.glove, made.joints}};
+  ASSERT_TRUE(mcap::write_scene(**file, scene));
+  ASSERT_TRUE((*file)->finish());
+  auto index = LogIndex::open({path});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 1);
+  EXPECT_EQ(index->image(0), nullptr);
+  ASSERT_EQ(index->doubts().size(), 1u);
+  EXPECT_NE(index->doubts()[0].find("holds no depth images"), std::string::npos);
+}
+
 TEST(LogIndex, SaysWhatIsCutOff) {
   const test::TempFolder folder;
   const std::string path = mcap_file(folder);

@@ -46,26 +46,41 @@ class _Fields:
 def events(data, path, counts):
     """An iterator over the LCM messages in `data`, the content of the file `path`: (time [us], channel, data), the last two
     as bytes. Damaged parts are left out and counted in `counts.damaged`. Raises Error without libzstd."""
-    types, lcm_channels = {}, set()
+    file = _File()
     for kind, content in _records(data, len(MAGIC)):
         if kind == _DATA_END:
             return
         try:
-            inner = _records(_unpacked(_Fields(content), path), 0) if kind == _CHUNK else [(kind, content)]
-            for inner_kind, record in inner:
-                fields = _Fields(record)
-                if inner_kind == _SCHEMA:
-                    number, types[number] = fields.number("H"), fields.bytes()
-                elif inner_kind == _CHANNEL:
-                    channel, schema = fields.number("H"), fields.number("H")
-                    if types.get(schema) == _TYPE:
-                        lcm_channels.add(channel)
-                elif inner_kind == _MESSAGE and fields.number("H") in lcm_channels:
-                    _, time, _ = fields.number("I"), fields.number("Q"), fields.number("Q")
-                    yield (time // 1000, *_lcm_message(fields.rest()))
+            inside = _records(_unpacked(_Fields(content), path), 0) if kind == _CHUNK else [(kind, content)]
+            for record in inside:
+                if message := file.take(*record):
+                    yield message
         except Damaged:
             counts.damaged += 1
     counts.damaged += 1  # the end is missing, as after a crash
+
+
+class _File:
+    """What the records so far have said of the file."""
+
+    def __init__(self):
+        self._types = {}        # of schemas, by their number
+        self._channels = set()  # numbers of those with LCM messages
+
+    def take(self, kind, content):
+        """(time [us], channel, data) if the record is an LCM message; otherwise None."""
+        fields = _Fields(content)
+        if kind == _SCHEMA:
+            number = fields.number("H")
+            self._types[number] = fields.bytes()
+        elif kind == _CHANNEL:
+            number, schema = fields.number("H"), fields.number("H")
+            if self._types.get(schema) == _TYPE:
+                self._channels.add(number)
+        elif kind == _MESSAGE and fields.number("H") in self._channels:
+            _, time, _ = fields.number("I"), fields.number("Q"), fields.number("Q")
+            return (time // 1000, *_lcm_message(fields.rest()))
+        return None
 
 
 def _records(data, at):
@@ -107,8 +122,8 @@ def _unzstd(packed, size, path):
 
 
 def _lcm_message(data):
-    """(channel, message) of a barehand_msgs/LcmMessage in CDR, little endian: header, channel, data; lengths lie at multiples
-    of 4 after the first 4 bytes."""
+    """(channel, message) of a barehand_msgs/LcmMessage in CDR, little endian: header, channel, data. Every length lies at a
+    multiple of 4 bytes."""
     if data[:4] != b"\0\1\0\0":
         raise Damaged("no CDR")
     at = 12  # after the marks of CDR and the time stamp

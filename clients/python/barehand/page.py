@@ -45,8 +45,8 @@ class Page:
         self._retry_at = 0.0
         self._connect()
         if not self._socket:
-            raise Error(f"cannot connect to the live page: {self._reason}", url,
-                        "start `barehand track --view`; names other than localhost, an address or the machine's own are refused")
+            raise Error(f"cannot connect to the live page: {self._reason}", url, "start `barehand track --view`; it refuses "
+                        "names other than localhost, an address or the machine's own")
 
     @property
     def remedy(self):

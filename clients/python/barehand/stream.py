@@ -24,15 +24,16 @@ def hands(source=None, prefix="", timeout=None, newest=False):
 
     source: an LCM network, such as udpm://239.255.76.67:7667?ttl=0; the live page of `barehand track --view` or
     `barehand view`, such as ws://localhost:8765; the name of a log that `barehand track --states-log` or `--mcap`,
-    `barehand record` or `lcm-logger` wrote; or None for the network in the environment variable LCM_DEFAULT_URL, or LCM's default network.
+    `barehand record` or `lcm-logger` wrote; or None for the network in the environment variable LCM_DEFAULT_URL, or LCM's
+    default network.
     prefix: the channel prefix of the tracker (`run.channel_prefix`); a live page has none.
     timeout: for a network or a page: seconds without a hand state after which Error is raised; None waits for ever, with
     one warning. A page that ends and comes back is connected to again.
     newest: for a network or a page: skips frames if newer ones have arrived, for consumers that are slower than the
     tracker.
 
-    Returns a HandStream. Raises Error if the network, the page or the log cannot be opened, or if a log holds no hand states.
-    Damaged and foreign messages are left out, and hands may be incomplete; all of these are counted, with one warning
+    Returns a HandStream. Raises Error if the network, the page or the log cannot be opened, or if a log holds no hand
+    states. Damaged and foreign messages are left out, and hands may be incomplete; all of these are counted, with one warning
     for each kind.
     """
     return HandStream(source, prefix, timeout, newest)

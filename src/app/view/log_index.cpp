@@ -40,7 +40,10 @@ Result<void> LogIndex::add(const std::string& path) {
   if (log->is_mcap()) {
     auto source = McapSource::open(path);
     if (!source && log->entries().empty()) return tl::unexpected(source.error());
-    if (source) images = std::move(*source);
+    if (source)
+      images = std::move(*source);
+    else
+      doubts_.push_back("no images are shown: " + source.error().message());
   }
   logs_.push_back({std::move(*log), std::move(images)});
   return {};

@@ -29,7 +29,7 @@ class LogIndex {
   std::vector<LcmMessage> messages(std::int64_t frame);
   /// The images of a frame where they are ROS messages of an MCAP file; null: there are none, or none that can be read.
   FramePtr image(std::int64_t frame);
-  /// Sentences that say what was left out of the logs because it is damaged or cut off.
+  /// Sentences that say what of the logs is not shown, such as what is damaged or cut off.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
