@@ -21,8 +21,8 @@ namespace barehand {
 class OpenNiSensor {
  public:
   /// `where`: the address of a sensor or the path of a file. Errors: it cannot be opened, has no depth, an unknown
-  /// depth format or no intrinsics, or does not start. The error for a file that OpenNI2 cannot play has no remedy;
-  /// the file's player adds it.
+  /// depth format or no intrinsics, or does not start. For a file that OpenNI2 cannot play, Error::remedy is left
+  /// empty, and OpenNiFilePlayer fills it in.
   static Result<std::unique_ptr<OpenNiSensor>> open(const std::string& where, const OpenNiParams& params);
   ~OpenNiSensor();
   OpenNiSensor(const OpenNiSensor&) = delete;

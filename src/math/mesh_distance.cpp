@@ -90,7 +90,7 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
     for (const Vector3d& corner : corners(order_[i]))
       node.radius = std::max(node.radius, (corner - node.centre).norm());
 
-  // Make a leaf, or split the triangles in halves along the longest side.
+  // Make a leaf, or split the list of triangles into halves along the longest side.
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
   if (count <= kLeaf) {

@@ -18,7 +18,7 @@ struct BodySize {
   double shoulder = 0.19;  ///< distance from the middle of the body to a shoulder joint
   double depth = 0.12;     ///< half of the chest's thickness
   double torso = 0.55;     ///< distance from the shoulders to the hips
-  double head = 1;         ///< factor on the head's size
+  double head = 1;         ///< scale of the head, without unit; 1 = standard size
   ArmSize arm;
 };
 /// The dimensions of a random adult.

@@ -11,7 +11,7 @@ namespace barehand::synthetic {
 
 /// A person who faces the camera and moves one hand.
 std::unique_ptr<Sequence> make_person(std::uint64_t seed);
-/// A hand above a desk, seen from the side of the desk opposite to the person.
+/// A hand above a desk, seen from across the desk, opposite the person.
 std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed);
 /// A hand above a desk, seen from the person's eyes.
 std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed);

@@ -21,7 +21,8 @@ struct CopyOptions {
   std::optional<std::int64_t> expected = {};  ///< number of frames to come, if known, shown with the progress
   bool terminal = false;                      ///< show the progress in one line, which is rewritten
   bool quiet = false;                         ///< report only problems, no progress
-  std::function<void(const struct CopyResult&)> on_step = {};  ///< called after every answer of the source
+  std::function<void(const struct CopyResult&)> on_step =
+      {};  ///< called after every event of the source, timeouts included
 };
 
 struct CopyResult {

@@ -69,8 +69,8 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   return {};
 }
 
-/// Refuses a folder with images of any recording: they are named like the images of an earlier run, and would be
-/// removed with those.
+/// Refuses an output folder that holds the images of a recording: --overwrite would delete them, since they are named
+/// like the images of an earlier run.
 Result<void> check_images(const Output& output, const Place& place) {
   const fs::path folder = fs::path(target_of(output.path).path) / "";
   const std::string recording = folder.parent_path().parent_path().string();

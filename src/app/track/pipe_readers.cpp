@@ -1,4 +1,4 @@
-// Waits, until it is stopped, for readers of named pipes to which a run writes.
+// Waits until the named pipes to which a run writes have readers, or until it is told to stop.
 #include "app/track/pipe_readers.h"
 
 #include <fcntl.h>

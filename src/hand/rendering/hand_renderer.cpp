@@ -65,7 +65,7 @@ class Rasteriser {
     const Vertex low = a.min(b).min(c), high = a.max(b).max(c);
     if (!(area < 0) || low.w() < kNear) return;
 
-    // Draw the cells within its bounding box, one strip of columns after the other.
+    // Draw the cells within the triangle's bounding box, one strip of columns after the other.
     const Eigen::Array4i first = low.ceil().cast<int>(), last = high.floor().cast<int>();
     const Box box{std::max(0, first.x()), std::min(out_.grid.width - 1, last.x()), std::max(0, first.y()),
                   std::min(out_.grid.height - 1, last.y())};

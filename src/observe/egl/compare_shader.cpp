@@ -27,7 +27,8 @@ shared vec3 partial[LANES];
 
 const float kNearest = 0.01;  // skin nearer to the camera than this [m] is not seen by any depth sensor
 
-// Distance, counted and total weight of one skin point; T: rows of (R | t), origin: R^T t.
+// Returns weight times distance, the weight if the point is seen (else 0), and the weight of one skin point. T: rows of
+// (R | t); origin: R^T t.
 vec3 compare_point(int i, mat3x4 T, vec3 origin, int segment) {
   vec4 point = skin[2 * i];
   vec3 p = vec4(point.xyz, 1.0) * T;

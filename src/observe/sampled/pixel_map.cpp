@@ -11,7 +11,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr PixelMap::Cell kSilent{0, 0, -1, -kInfinity};  // a cell that gives no evidence
 
-/// Computes the cells of one frame.
+/// Computes the cells of a PixelMap from one observation.
 class Cells {
  public:
   Cells(const HandObservation& observation, const PixelRays& rays, bool missing_is_background)
