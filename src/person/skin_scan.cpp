@@ -11,7 +11,7 @@
 namespace barehand {
 namespace {
 
-// Runs the Gauss-Newton rounds of a scan.
+// Fits a personal hand (skin, joints) and all poses to the frames of a scan, in rounds of Gauss-Newton.
 
 constexpr int kRounds = 40, kRoundsOfSkin = 16;  // number of rounds of a scan, and of a scan with fixed joints
 constexpr int kSkinRounds = 2;                   // the first rounds move only the skin, which has the largest errors
