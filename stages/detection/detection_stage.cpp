@@ -17,7 +17,7 @@ constexpr double kLongestPrediction = 0.2;  // longest time over which a palm's 
 bool is_tracked(const HandEstimatePtr& earlier) { return earlier && earlier->status == TrackStatus::tracking; }
 
 /// Predicts where the palm of a tracked hand is in a frame, by constant velocity.
-HandDetector::Expected expected(const HandEstimate& earlier, const RgbdFrame& frame) {
+ExpectedHand expected(const HandEstimate& earlier, const RgbdFrame& frame) {
   const SegmentState& palm = earlier.segments[kPalm];
   const Eigen::Vector3d bone = earlier.profile ? earlier.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
   const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - earlier.utime)) * 1e-6);
@@ -30,8 +30,8 @@ HandDetector::Expected expected(const HandEstimate& earlier, const RgbdFrame& fr
 }  // namespace
 
 DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
-                               std::shared_ptr<spdlog::logger> log)
-    : params_(params), use_colour_(use_colour), log_(std::move(log)) {
+                               Workers& workers, std::shared_ptr<spdlog::logger> log)
+    : params_(params), use_colour_(use_colour), workers_(workers), log_(std::move(log)) {
   if (!params.enabled) return;
   auto detector = HandDetector::load(folder, params);
   if (!detector) {
@@ -57,7 +57,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
 
   Result<Detection> detection = Detection{};
   if (whole)
-    detection = detector_->detect(frame);
+    detection = detector_->detect(frame, workers_);
   else if (windows)
     detection = detect_tracked(frame, feedback);
   if (!detection) {
@@ -75,10 +75,10 @@ Result<Detection> DetectionStage::detect_tracked(const RgbdFrame& frame, std::sp
   places_.clear();
   for (const HandEstimatePtr& earlier : feedback) {
     if (!is_tracked(earlier)) continue;
-    const HandDetector::Expected place = expected(*earlier, frame);
+    const ExpectedHand place = expected(*earlier, frame);
     if (place.centre.z() > 0) places_.push_back(place);
   }
-  return detector_->detect_at(frame, places_);
+  return detector_->detect_at(frame, places_, workers_);
 }
 
 }  // namespace barehand

@@ -19,7 +19,7 @@ namespace barehand {
 class DetectionStage {
  public:
   /// `folder`: contains the networks. `use_colour`: whether preprocessing uses colour if the frame has it.
-  DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
+  DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour, Workers& workers,
                  std::shared_ptr<spdlog::logger> log);
 
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
@@ -32,10 +32,11 @@ class DetectionStage {
 
   DetectionParams params_;
   bool use_colour_;
+  Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
-  std::optional<HandDetector> detector_;        // none: detection is off
-  std::int64_t frame_ = 0;                      // number of valid frames so far
-  std::vector<HandDetector::Expected> places_;  // scratch
+  std::optional<HandDetector> detector_;  // none: detection is off
+  std::int64_t frame_ = 0;                // number of valid frames so far
+  std::vector<ExpectedHand> places_;      // scratch
 };
 
 }  // namespace barehand

@@ -11,10 +11,8 @@
 namespace barehand {
 namespace {
 
-constexpr int kPalmRadius = 8;            // half the size of the square around a peak that gives the palm's depth [px]
-constexpr double kApart = 0.09;           // minimum distance between two hands' palms [m]
-constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
-constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
+constexpr int kPalmRadius = 8;   // half the size of the square around a peak that gives the palm's depth [px]
+constexpr double kApart = 0.09;  // minimum distance between two hands' palms [m]
 
 /// Median depth [m] of the pixels near a peak that are labelled as hand; 0 if there are none.
 double palm_depth(const Image<float>& depth, const NetworkOutput& output, double u, double v) {
@@ -36,33 +34,24 @@ double palm_depth(const Image<float>& depth, const NetworkOutput& output, double
   return *middle;
 }
 
-/// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
-double hand_area(const LabelMap& labels, const DepthView& view, const Image<float>& depth, const Intrinsics& camera) {
-  double area = 0;
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) {
-      const double z = depth.at(u, v);
-      if (z <= 0) continue;
-      const Eigen::Vector2d pixel = view.frame_pixel(u, v);
-      if (labels.covers(pixel.x(), pixel.y()) && labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand)
-        area += z * z / (camera.fx * camera.fy) * view.step_u * view.step_v;
-    }
-  return area;
-}
-
 }  // namespace
 
-HandDetector::HandDetector(Network full, Network crop, std::string version, const DetectionParams& params)
-    : full_(std::move(full)), crop_(std::move(crop)), version_(std::move(version)), params_(params) {}
+HandDetector::HandDetector(Network full, std::vector<WindowExaminer> examiners, std::string version,
+                           const DetectionParams& params)
+    : full_(std::move(full)), examiners_(std::move(examiners)), version_(std::move(version)), params_(params) {}
 
 Result<HandDetector> HandDetector::load(const std::string& folder, const DetectionParams& params) {
   const auto weights = load_weights(folder);
   if (!weights) return tl::unexpected(weights.error());
   auto full = Network::load(weights->full.bytes, weights->full.path, kFullShape);
   if (!full) return tl::unexpected(full.error());
-  auto crop = Network::load(weights->crop.bytes, weights->crop.path, kCropShape);
-  if (!crop) return tl::unexpected(crop.error());
-  return HandDetector(std::move(*full), std::move(*crop), weights->version, params);
+  std::vector<WindowExaminer> examiners;
+  for (int i = 0; i < kAtOnce; ++i) {
+    auto crop = Network::load(weights->crop.bytes, weights->crop.path, kCropShape);
+    if (!crop) return tl::unexpected(crop.error());
+    examiners.emplace_back(std::move(*crop));
+  }
+  return HandDetector(std::move(*full), std::move(examiners), weights->version, params);
 }
 
 void HandDetector::add_palms(const RgbdFrame& frame, const DepthView& view, const NetworkOutput& output) {
@@ -90,83 +79,68 @@ Result<void> HandDetector::find_palms(const RgbdFrame& frame, Detection& out) {
   return {};
 }
 
-/// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
-/// into a right one; the network was trained with right hands.
-Result<HandDetector::Window> HandDetector::look(const RgbdFrame& frame, const Eigen::Vector3d& centre, bool mirrored) {
-  const DepthView view = window_around(centre, frame.camera);
-  sample_depth(frame, view, depth_);
-  fill_crop(depth_, centre.z(), mirrored, input_);
-  const auto output = crop_.run(input_);
-  if (!output) return tl::unexpected(output.error());
-
-  Window window;
-  DetectedHand& hand = window.hand;
-  for (int k = 0; k < kLandmarkCount; ++k)
-    hand.joints[k] = read_joint(*output, k, view, centre.z(), mirrored, frame.camera);
-  hand.centre = 0.5 * (hand.joints[kWristLandmark].position + hand.joints[kMiddleKnuckleLandmark].position);
-  hand.right_log_odds = mirrored ? -output->side : output->side;
-  read_labels(*output, view, mirrored, hand.labels);
-  window.hand_area = hand_area(hand.labels, view, depth_, frame.camera);
-  return window;
+bool HandDetector::is_new(const Eigen::Vector3d& centre, const Detection& out) {
+  return std::ranges::none_of(out.hands, [&](const auto& hand) { return (hand.centre - centre).norm() < kApart; });
 }
 
-/// Runs the second network at a place, and once more if the hand is off the window's centre or of the other side than
-/// the window was mirrored for.
-Result<std::optional<DetectedHand>> HandDetector::examine(const RgbdFrame& frame, const Expected& place) {
-  bool mirrored = place.side == Handedness::left;
-  auto window = look(frame, place.centre, mirrored);
-  if (!window) return tl::unexpected(window.error());
-  const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
-  const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
-  if (aside || other_side()) {
-    if (window->hand.centre.z() <= 0) return std::nullopt;
-    mirrored = mirrored != other_side();
-    window = look(frame, window->hand.centre, mirrored);
-    if (!window) return tl::unexpected(window.error());
-  }
-
-  // If the window still shows the other side, try the other mirroring, too. The average of the log odds decides the
-  // side, and the window of that side gives the joints.
-  if (other_side() && window->hand.centre.z() > 0) {
-    auto other = look(frame, window->hand.centre, !mirrored);
-    if (!other) return tl::unexpected(other.error());
-    const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
-    if ((right < 0) != mirrored) *window = std::move(*other);
-    window->hand.right_log_odds = right;
-  }
-  if (window->hand_area < kSmallestHand) return std::nullopt;
-  return std::move(window->hand);
-}
-
-Result<void> HandDetector::add(const RgbdFrame& frame, const Expected& place, double palm, Detection& out) {
-  auto hand = examine(frame, place);
-  if (!hand) return tl::unexpected(hand.error());
-  if (!*hand) return {};
-  const auto same = [&](const DetectedHand& other) { return (other.centre - (*hand)->centre).norm() < kApart; };
-  if (std::ranges::any_of(out.hands, same)) return {};
-  (*hand)->palm = palm;
-  out.hands.push_back(std::move(**hand));
+Result<void> HandDetector::examine(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers) {
+  workers.for_each_index(static_cast<int>(places.size()),
+                         [&](int i) { found_[i] = examiners_[i].examine(frame, places[i]); });
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!found_[i]) return tl::unexpected(found_[i].error());
   return {};
 }
 
-Result<Detection> HandDetector::detect(const RgbdFrame& frame) {
+void HandDetector::add(std::optional<DetectedHand> hand, double palm, Detection& out) {
+  if (!hand || !is_new(hand->centre, out) || out.hands.size() == kMostHands) return;
+  hand->palm = palm;
+  out.hands.push_back(std::move(*hand));
+}
+
+void HandDetector::choose_palms(const Detection& out) {
+  chosen_.clear();
+  for (; next_ < palms_.size() && chosen_.size() < kAtOnce; ++next_) {
+    const Palm& palm = palms_[next_];
+    const auto near = [&](const Palm& other) { return (other.centre - palm.centre).norm() < 2 * kApart; };
+    if (!is_new(palm.centre, out)) continue;
+    if (std::ranges::any_of(chosen_, near)) return;
+    chosen_.push_back(palm);
+  }
+}
+
+Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers) {
   Detection out;
   out.whole_frame = true;
   if (const auto found = find_palms(frame, out); !found) return tl::unexpected(found.error());
-  for (const Palm& palm : palms_) {
-    if (out.hands.size() == kMostHands) break;
-    const auto same = [&](const DetectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };
-    if (std::ranges::any_of(out.hands, same)) continue;
-    if (const auto added = add(frame, {palm.centre, {}}, palm.probability, out); !added)
-      return tl::unexpected(added.error());
+  known_.begin_frame();
+  std::erase_if(palms_, [&](const Palm& palm) { return known_.may_wait(palm.centre, palm.probability); });
+
+  for (next_ = 0; next_ < palms_.size() && out.hands.size() < kMostHands;) {
+    // Examine the next palms at the same time.
+    choose_palms(out);
+    places_.clear();
+    for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}});
+    if (const auto done = examine(frame, places_, workers); !done) return tl::unexpected(done.error());
+
+    // Add what was found.
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      auto& hand = *found_[i];
+      known_.examined(chosen_[i].centre, chosen_[i].probability, hand ? &*hand : nullptr);
+      add(std::move(hand), chosen_[i].probability, out);
+    }
   }
   return out;
 }
 
-Result<Detection> HandDetector::detect_at(const RgbdFrame& frame, std::span<const Expected> places) {
+Result<Detection> HandDetector::detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> places,
+                                          Workers& workers) {
   Detection out;
-  for (const Expected& place : places)
-    if (const auto added = add(frame, place, 1, out); !added) return tl::unexpected(added.error());
+  while (!places.empty()) {
+    const auto some = places.first(std::min<std::size_t>(kAtOnce, places.size()));
+    places = places.subspan(some.size());
+    if (const auto done = examine(frame, some, workers); !done) return tl::unexpected(done.error());
+    for (std::size_t i = 0; i < some.size(); ++i) add(std::move(*found_[i]), 1, out);
+  }
   return out;
 }
 

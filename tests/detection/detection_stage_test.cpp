@@ -14,9 +14,9 @@ class DetectionStageTest : public ::testing::Test {
     person.hand(*profile_, pose_, pose_[kPalm].t + Eigen::Vector3d(0.05, 0.14, 0.17));
     frame_ = person.frame();
   }
-  static DetectionStage stage(DetectionParams params = {}) {
+  DetectionStage stage(DetectionParams params = {}) {
     params.enabled = true;
-    return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
+    return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", true, workers_, make_silent_logger());
   }
   HandEstimatePtr earlier(TrackStatus status) const {
     auto estimate = std::make_shared<HandEstimate>();
@@ -27,13 +27,14 @@ class DetectionStageTest : public ::testing::Test {
   }
   void paint(Rgb colour) { frame_->colour.reset(640, 480, colour); }
 
+  Workers workers_{1};
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   HandPose pose_;
   std::shared_ptr<RgbdFrame> frame_;
 };
 
 TEST_F(DetectionStageTest, SwitchedOffItFindsNothing) {
-  DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", true, make_silent_logger());
+  DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", true, workers_, make_silent_logger());
   EXPECT_EQ(off.process(*frame_, {}), nullptr);
 }
 

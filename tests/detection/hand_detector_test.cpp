@@ -29,8 +29,9 @@ class HandDetectorTest : public ::testing::Test {
     person.hand(profile, pose, pose[kPalm].t + Eigen::Vector3d(0.05, 0.14, 0.17));
   }
 
-  Detection detect(const RgbdFrame& frame) {
-    auto detection = detector_->detect(frame);
+  Detection detect(const RgbdFrame& frame) { return detect(frame, workers_); }
+  Detection detect(const RgbdFrame& frame, Workers& workers) {
+    auto detection = detector_->detect(frame, workers);
     EXPECT_TRUE(detection) << detection.error().message();
     return detection.value_or(Detection{});
   }
@@ -42,6 +43,7 @@ class HandDetectorTest : public ::testing::Test {
     return sum;
   }
 
+  Workers workers_{1};
   std::unique_ptr<HandDetector> detector_;
   std::shared_ptr<const HandProfile> right_ = test::adult_hand();
 };
@@ -171,33 +173,39 @@ TEST_F(HandDetectorTest, AnExpectedHandIsLookedAtAndAnEmptyPlaceIsNoHand) {
   add_hand(*right_, pose, person);
   const auto frame = person.frame();
   const Eigen::Vector3d centre = pose[kPalm].t + Eigen::Vector3d(0.02, -0.07, 0.03);
-  const std::vector<HandDetector::Expected> places = {{{0.4, 0, 0.6}, Handedness::right}, {centre, Handedness::right}};
-  const auto detection = detector_->detect_at(*frame, places);
+  const std::vector<ExpectedHand> places = {{{0.4, 0, 0.6}, Handedness::right}, {centre, Handedness::right}};
+  const auto detection = detector_->detect_at(*frame, places, workers_);
   ASSERT_TRUE(detection);
   EXPECT_FALSE(detection->whole_frame);
   ASSERT_EQ(detection->hands.size(), 1u);
   EXPECT_LT(mean_error(detection->hands[0], *right_, pose), 0.02);
 }
 
-TEST_F(HandDetectorTest, ThreadsOfOthersChangeNoBit) {
+TEST_F(HandDetectorTest, TheNumberOfThreadsChangesNoBit) {
+  const auto left = test::adult_hand(Handedness::left);
   test::RenderedPerson person(test::vga_camera());
   add_body(person);
-  add_hand(*right_, open_hand(*right_), person);
+  add_hand(*right_, open_hand(*right_, -0.17), person);
+  add_hand(*left, open_hand(*left, 0.17), person);
   const auto frame = person.frame();
   const Detection one = detect(*frame);
   Detection three;
   std::thread([&] {
     omp_set_num_threads(3);
-    three = detect(*frame);
+    Workers workers(3);
+    three = detect(*frame, workers);
   }).join();
-  ASSERT_EQ(one.hands.size(), 1u);
-  ASSERT_EQ(three.hands.size(), 1u);
-  for (int k = 0; k < kLandmarkCount; ++k) {
-    EXPECT_EQ(one.hands[0].joints[k].position, three.hands[0].joints[k].position);
-    EXPECT_EQ(one.hands[0].joints[k].covariance, three.hands[0].joints[k].covariance);
+
+  ASSERT_EQ(one.hands.size(), 2u);
+  ASSERT_EQ(three.hands.size(), 2u);
+  for (int i = 0; i < 2; ++i) {
+    for (int k = 0; k < kLandmarkCount; ++k) {
+      EXPECT_EQ(one.hands[i].joints[k].position, three.hands[i].joints[k].position);
+      EXPECT_EQ(one.hands[i].joints[k].covariance, three.hands[i].joints[k].covariance);
+    }
+    const Image<float>&odds = one.hands[i].labels.hand_log_odds, &other = three.hands[i].labels.hand_log_odds;
+    EXPECT_TRUE(std::equal(odds.data(), odds.data() + odds.size(), other.data(), other.data() + other.size()));
   }
-  const Image<float>&odds = one.hands[0].labels.hand_log_odds, &other = three.hands[0].labels.hand_log_odds;
-  EXPECT_TRUE(std::equal(odds.data(), odds.data() + odds.size(), other.data(), other.data() + other.size()));
 }
 
 }  // namespace

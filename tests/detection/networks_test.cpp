@@ -101,7 +101,8 @@ TEST_F(NetworksTest, WithoutThemTheStageSaysSoOnceAndDetectsNothing) {
   std::ostringstream said;
   DetectionParams params;
   params.enabled = true;
-  DetectionStage stage(params, folder_.path(), true, test::text_logger(said));
+  Workers workers(1);
+  DetectionStage stage(params, folder_.path(), true, workers, test::text_logger(said));
   const auto frame = test::RenderedPerson(test::vga_camera()).frame();
   EXPECT_EQ(stage.process(*frame, {}), nullptr);
   EXPECT_EQ(stage.process(*frame, {}), nullptr);

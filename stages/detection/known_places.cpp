@@ -1,0 +1,49 @@
+#include "stages/detection/known_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+constexpr double kSame = 0.05;    // a palm that is farther away than this is another one [m]
+constexpr double kClearSide = 2;  // log odds of the side from which on it may well be a hand: of hands they are 3 to 20
+constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
+constexpr int kDoubted = 6;           // doubt from which on a place may wait: most hands are tracked before
+constexpr int kMostDoubt = 12;
+constexpr int kRemembered = 5;  // frames without a palm after which a place is forgotten
+
+double log_odds(double probability) { return std::log(probability / (1 - probability)); }
+
+}  // namespace
+
+void KnownPlaces::begin_frame() {
+  ++frame_;
+  std::erase_if(places_, [&](const Place& place) { return frame_ - place.last_palm > kRemembered; });
+}
+
+KnownPlaces::Place* KnownPlaces::find(const Eigen::Vector3d& palm) {
+  const auto distance = [&](const Place& place) { return (place.palm - palm).norm(); };
+  const auto nearest = std::ranges::min_element(places_, {}, distance);
+  return nearest != places_.end() && distance(*nearest) < kSame ? &*nearest : nullptr;
+}
+
+bool KnownPlaces::may_wait(const Eigen::Vector3d& palm, double probability) {
+  Place* const place = find(palm);
+  if (!place || !place->unlikely || place->doubt < kDoubted || place->last_examined != frame_ - 1) return false;
+  if (std::abs(log_odds(probability) - place->log_odds) >= kSameLogOdds) return false;
+  place->last_palm = frame_;
+  return true;
+}
+
+void KnownPlaces::examined(const Eigen::Vector3d& palm, double probability, const DetectedHand* found) {
+  Place* place = find(palm);
+  if (!place) place = &places_.emplace_back();
+  place->palm = palm;
+  place->log_odds = log_odds(probability);
+  place->last_palm = place->last_examined = frame_;
+  place->unlikely = !found || std::abs(found->right_log_odds) < kClearSide;
+  place->doubt = place->unlikely ? std::min(kMostDoubt, place->doubt + 1) : place->doubt / 2;
+}
+
+}  // namespace barehand

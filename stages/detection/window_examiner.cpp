@@ -1,0 +1,78 @@
+#include "stages/detection/window_examiner.h"
+
+#include "stages/detection/networks.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
+constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
+constexpr double kNoHand = 0.0006;        // below this area in the first window, no other window is tried [m^2]
+
+/// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
+double hand_area(const LabelMap& labels, const DepthView& view, const Image<float>& depth, const Intrinsics& camera) {
+  double area = 0;
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u) {
+      const double z = depth.at(u, v);
+      if (z <= 0) continue;
+      const Eigen::Vector2d pixel = view.frame_pixel(u, v);
+      if (labels.covers(pixel.x(), pixel.y()) && labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand)
+        area += z * z / (camera.fx * camera.fy) * view.step_u * view.step_v;
+    }
+  return area;
+}
+
+}  // namespace
+
+/// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
+/// into a right one; the network was trained with right hands.
+Result<WindowExaminer::Window> WindowExaminer::look(const RgbdFrame& frame, const Eigen::Vector3d& centre,
+                                                    bool mirrored) {
+  const DepthView view = window_around(centre, frame.camera);
+  sample_depth(frame, view, depth_);
+  fill_crop(depth_, centre.z(), mirrored, input_);
+  const auto output = crop_.run(input_);
+  if (!output) return tl::unexpected(output.error());
+
+  Window window;
+  DetectedHand& hand = window.hand;
+  for (int k = 0; k < kLandmarkCount; ++k)
+    hand.joints[k] = read_joint(*output, k, view, centre.z(), mirrored, frame.camera);
+  hand.centre = 0.5 * (hand.joints[kWristLandmark].position + hand.joints[kMiddleKnuckleLandmark].position);
+  hand.right_log_odds = mirrored ? -output->side : output->side;
+  read_labels(*output, view, mirrored, hand.labels);
+  window.hand_area = hand_area(hand.labels, view, depth_, frame.camera);
+  return window;
+}
+
+/// Runs the second network at a place, and once more if the hand is off the window's centre or of the other side than
+/// the window was mirrored for.
+Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place) {
+  bool mirrored = place.side == Handedness::left;
+  auto window = look(frame, place.centre, mirrored);
+  if (!window) return tl::unexpected(window.error());
+  const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
+  if (!place.side && window->hand_area < kNoHand) return std::nullopt;
+  const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
+  if (aside || other_side()) {
+    if (window->hand.centre.z() <= 0) return std::nullopt;
+    mirrored = mirrored != other_side();
+    window = look(frame, window->hand.centre, mirrored);
+    if (!window) return tl::unexpected(window.error());
+  }
+
+  // If the window still shows the other side, try the other mirroring, too. The average of the log odds decides the
+  // side, and the window of that side gives the joints.
+  if (other_side() && window->hand.centre.z() > 0) {
+    auto other = look(frame, window->hand.centre, !mirrored);
+    if (!other) return tl::unexpected(other.error());
+    const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
+    if ((right < 0) != mirrored) *window = std::move(*other);
+    window->hand.right_log_odds = right;
+  }
+  if (window->hand_area < kSmallestHand) return std::nullopt;
+  return std::move(window->hand);
+}
+
+}  // namespace barehand

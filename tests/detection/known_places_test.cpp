@@ -1,0 +1,63 @@
+#include "stages/detection/known_places.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+namespace barehand {
+namespace {
+
+/// A palm that is seen in one frame after the other, and what is found at its place.
+class KnownPlacesTest : public ::testing::Test {
+ protected:
+  /// A frame with one palm. Returns whether its place was examined; then a hand with this log odds of a right one was
+  /// found.
+  bool frame(const std::optional<double>& right_log_odds, double probability = 0.6,
+             const Eigen::Vector3d& palm = {0, 0, 0.7}) {
+    places_.begin_frame();
+    if (places_.may_wait(palm, probability)) return false;
+    DetectedHand hand;
+    hand.centre = palm;
+    hand.right_log_odds = right_log_odds.value_or(0);
+    places_.examined(palm, probability, right_log_odds ? &hand : nullptr);
+    return true;
+  }
+  std::string frames(int n, const std::optional<double>& right_log_odds) {
+    std::string examined;
+    for (int i = 0; i < n; ++i) examined += frame(right_log_odds) ? '1' : '0';
+    return examined;
+  }
+
+  KnownPlaces places_;
+};
+
+TEST_F(KnownPlacesTest, WhatHasAClearSideIsExaminedInEveryFrame) { EXPECT_EQ(frames(10, -4), "1111111111"); }
+
+TEST_F(KnownPlacesTest, WhatIsNoHandOrHasNoClearSideForLongIsExaminedInEverySecondFrame) {
+  EXPECT_EQ(frames(11, std::nullopt), "11111101010");
+  places_ = {};
+  EXPECT_EQ(frames(11, 0.5), "11111101010");
+}
+
+TEST_F(KnownPlacesTest, AClearSideEndsTheWaiting) {
+  EXPECT_EQ(frames(7, 0.5), "1111110");
+  EXPECT_EQ(frames(4, 4), "1111");
+}
+
+TEST_F(KnownPlacesTest, APalmThatChangesOrMovesDoesNotWait) {
+  frames(6, 0.5);
+  EXPECT_TRUE(frame(0.5, 0.75));
+  EXPECT_FALSE(frame(0.5, 0.75));
+  EXPECT_TRUE(frame(0.5, 0.75));
+  EXPECT_TRUE(frame(0.5, 0.75, {0.06, 0, 0.7}));
+}
+
+TEST_F(KnownPlacesTest, ThePlaceThatAPalmLeftIsForgotten) {
+  frames(6, 0.5);
+  for (int i = 0; i < 6; ++i) places_.begin_frame();
+  EXPECT_EQ(frames(7, 0.5), "1111110");
+}
+
+}  // namespace
+}  // namespace barehand
