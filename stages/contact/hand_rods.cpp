@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCarpus = 0.3;     // start of a rod in the palm, as a fraction of the way from wrist to knuckle
-constexpr double kPalmShare = 0.9;  // radius of a rod in the palm, relative to that at the root of its finger
+constexpr double kPalmShare = 0.9;  // half width of a rod in the palm, relative to that at the root of its finger
 
 // Skin joins the segments of one finger, neighbouring fingers at their roots, and the roots with palm and thumb.
 bool joined_by_skin(int a, int b) {
@@ -43,12 +43,14 @@ HandRods::HandRods(const HandProfile& profile) {
     rods_.push_back(rod);
   }
 
-  // Make a rod in the palm towards each finger but the thumb.
+  // Make a rod in the palm towards each finger but the thumb, as thick as the palm.
+  const SegmentProfile& palm = profile.segments[kPalm];
   for (int finger = 1; finger < kFingerCount; ++finger) {
-    const SegmentProfile& root = profile.segments[segment_of(finger, 0)];
     const Vector3d knuckle = profile.rest_relative(segment_of(finger, 0)).t;
-    const double radius = kPalmShare * std::min(root.half_width[0], root.half_thickness[0]);
-    rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, {radius, radius}, {radius, radius}});
+    const double width = kPalmShare * profile.segments[segment_of(finger, 0)].half_width[0];
+    Rod rod{kPalm, {kCarpus * knuckle, knuckle}, {width, width}, palm.half_thickness};
+    for (int end = 0; end < 2; ++end) rod.axis[end].y() += palm.flesh_offset_y[end];
+    rods_.push_back(rod);
   }
 
   const int count = static_cast<int>(rods_.size());
