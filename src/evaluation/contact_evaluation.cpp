@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "io/file_bytes.h"
@@ -41,7 +40,7 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
   if (!line.starts_with("utime,segment,distance"))
     return fail("line 1 is not the header of a contact table", path, "it must begin with \"utime,segment,distance\"");
 
-  // Read line by line; places and normals are not compared.
+  // Read line by line; normals are not compared.
   ContactTruth truth;
   for (int number = 2; std::getline(file, line); ++number) {
     if (line.empty()) continue;
@@ -51,14 +50,20 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
     std::getline(fields, name, ',');
     std::getline(fields, distance_text, ',');
     std::int64_t utime = 0;
-    double distance = 0;
+    TrueContact contact;
     const auto segment = segment_from_name(name);
-    if (!segment || !parse(utime_text, utime) || !parse(distance_text, distance) || !(std::abs(distance) <= kFarthest))
+    bool good = segment && parse(utime_text, utime) && parse(distance_text, contact.distance);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string coordinate;
+      std::getline(fields, coordinate, ',');
+      good = good && parse(coordinate, contact.point[axis]) && std::abs(contact.point[axis]) <= kFarthest;
+    }
+    if (!good || !(std::abs(contact.distance) <= kFarthest))
       return fail("line " + std::to_string(number) + ": is \"" + line + "\"", path,
-                  "a line begins with utime,segment,distance");
+                  "a line begins with utime,segment,distance,x,y,z");
     auto [frame, is_new] = truth.try_emplace(utime);
-    if (is_new) frame->second.fill(std::numeric_limits<double>::infinity());  // a segment without a row touches nothing
-    frame->second[static_cast<std::size_t>(*segment)] = distance;
+    if (is_new) frame->second.fill({kFarthest, Eigen::Vector3d::Constant(kFarthest)});  // without a row: no touch
+    frame->second[static_cast<std::size_t>(*segment)] = contact;
   }
   return truth;
 }
@@ -76,8 +81,10 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
 
       // Compare segment by segment.
       for (int s = 0; s < kSegmentCount; ++s) {
-        const bool touches = is->second[s] <= kTouchDistance;
-        const StatedContact& contact = said->second[s];
+        const bool touches = is->second[s].distance <= kTouchDistance;
+        StatedContact contact = said->second[s];
+        const bool elsewhere = contact.touching && (contact.point - is->second[s].point).norm() > kSameSurface;
+        if (elsewhere && !touches) contact = {true, false, 0, contact.point};
         count(out.segments, contact, touches);
         const double visible = frame.rows[s].visible;
         if (is_tip(s))

@@ -18,22 +18,31 @@ namespace barehand {
 /// Skin at most this far from an object touches it [m].
 inline constexpr double kTouchDistance = 0.005;
 
-/// The true signed distance of every segment's skin from the object [m], by the time of the frame [us].
-using ContactTruth = std::map<std::int64_t, std::array<double, kSegmentCount>>;
+/// A touch that is stated this far from the nearest place of the object is one of something else [m].
+inline constexpr double kSameSurface = 0.02;
+
+/// How near one segment is to the object.
+struct TrueContact {
+  double distance = 0;    ///< signed, of the segment's skin [m]
+  Eigen::Vector3d point;  ///< the nearest place of the object, camera frame [m]
+};
+/// By the time of the frame [us].
+using ContactTruth = std::map<std::int64_t, std::array<TrueContact, kSegmentCount>>;
 /// Reads a contact table (docs/formats.md). Errors name the line: an unknown segment, a number that is none.
 Result<ContactTruth> read_contact_truth(const std::string& path);
 
 /// What a result states about one segment.
 struct StatedContact {
-  bool known = false;      ///< false: the state is UNKNOWN
-  bool touching = false;   ///< the state is TOUCHING
-  double probability = 0;  ///< of a touch; meaningless unless known
-  double distance = 0;     ///< [m]; NaN: not stated
+  bool known = false;                               ///< false: the state is UNKNOWN
+  bool touching = false;                            ///< the state is TOUCHING
+  double probability = 0;                           ///< of a touch; meaningless unless known
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the surface that is touched, camera frame [m]
 };
 /// By the time of the frame [us].
 using StatedContacts = std::map<std::int64_t, std::array<StatedContact, kSegmentCount>>;
 
-/// How often touches were stated rightly. A segment of unknown state counts as one of which no touch is stated.
+/// How often touches were stated rightly. A segment of unknown state counts as one of which no touch is stated, and so
+/// does one that touches something else.
 struct TouchCounts {
   std::size_t right = 0;    ///< touches that were stated
   std::size_t wrong = 0;    ///< stated touches that are none

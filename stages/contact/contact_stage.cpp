@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr int kSkinPoints = 80;            // per segment
-constexpr double kSkinCell = 0.004;        // size of the skin's triangles [m]
 constexpr double kSkinChange = 0.0005;     // change of a bone or a section that is worth a new skin [m]
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
@@ -88,7 +87,9 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
 void ContactStage::prepare(Hand& hand, const HandEstimate& estimate) {
   // Make the skin if this is another hand than before.
   if (!hand.profile || (hand.profile != estimate.profile && !alike(*hand.profile, *estimate.profile))) {
-    hand.surface = surface_points(make_skin(*estimate.profile, kSkinCell), *estimate.profile, kSkinPoints);
+    const HandProfile& profile = *estimate.profile;
+    hand.surface = profile.scanned_skin ? surface_points(*profile.scanned_skin, profile, kSkinPoints)
+                                        : make_cylinder_surface(profile, kSkinPoints);
     hand.rods.emplace(*estimate.profile);
     hand.profile = estimate.profile;
   }

@@ -27,7 +27,8 @@ class ContactStage {
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
 
  private:
-  /// The skin of one hand, made anew if the profile has changed by more than is worth it.
+  /// The skin of one hand: the scanned one, or tapered cylinders, which take no time to make. Made anew if the profile
+  /// has changed by more than fractions of a millimetre.
   struct Hand {
     std::shared_ptr<const HandProfile> profile;  // of the skin
     HandSurface surface;                         // in the frames of the segments

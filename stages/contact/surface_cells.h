@@ -27,12 +27,15 @@ class SurfaceCells {
 
  private:
   void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k);
+  void fit_planes();
   void grow(std::vector<bool>& open);
-  bool fit(const HandObservation& observation, int c, int r, SurfacePoint& point) const;
+  bool fit(int c, int r, SurfacePoint& point) const;
 
-  int step_ = 1;                   // pixels per cell
-  Image<float> z_;                 // depth of each cell that is no hand and no arm [m]; 0: none
-  Image<std::int32_t> component_;  // of each cell; kSeed: object, kOther: not reached yet
+  int step_ = 1;                            // pixels per cell
+  Image<Eigen::Vector3f> place_;            // of each cell that is no hand and no arm, camera frame [m]; z = 0: none
+  Image<Eigen::Vector3f> fitted_, normal_;  // of its plane; the normal is zero where there is none
+  Image<std::uint8_t> beyond_;              // 1: a surface that is too far away to be looked at
+  Image<std::int32_t> component_;           // of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
 };
 

@@ -8,8 +8,10 @@ namespace barehand {
 namespace {
 
 constexpr float kBandwidth = 0.006f;  // h: distance over which planes are averaged [m]
-constexpr float kBehind = -0.010f;    // skin farther inside than this is behind a surface of unknown thickness [m]
-constexpr float kEnd = 0.3f;          // how soon a surface ends where it is not seen: 0 never, 1 at once
+// The surface is known where a point of it is no farther aside than this. Skin that is farther inside than kBehind is
+// behind a surface whose far side is unknown [m].
+constexpr float kAside = 0.004f, kBehind = 0.006f;
+constexpr float kEnd = 0.2f;  // how soon a surface ends where it is not seen: 0 never, 1 at once
 
 }  // namespace
 
@@ -44,11 +46,13 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
       normal += w * close_[i]->n;
     }
     f /= weights;
-    if (f < kBehind || normal.squaredNorm() < 1e-6f) continue;
+    if (normal.squaredNorm() < 1e-6f) continue;
+    const bool known = least_sq - f * f < kAside * kAside;
+    if (known && f < -kBehind) continue;
 
-    // The surface goes on as a plane, or ends.
-    const float open = std::max(0.f, least - std::abs(f));
-    const float distance = f + kEnd * open;
+    // The surface goes on as that plane, as far as the skin leaves room for it, or ends.
+    const float plane = known ? f : std::max(f, 0.f), open = std::max(0.f, least - std::abs(plane));
+    const float distance = plane + kEnd * open;
     if (nearest && distance >= nearest->distance) continue;
     normal.normalize();
     nearest = NearestSurface{distance, kEnd * open, x - f * normal, normal, close_[best]->object, close_[best]->seen};

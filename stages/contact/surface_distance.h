@@ -31,7 +31,8 @@ struct NearestSurface {
 ///     f(x) = sum w_i n_i (x - p_i) / sum w_i,  w_i = exp(-(|x - p_i|^2 - d^2) / h^2),  d = min |x - p_i|
 ///
 /// Where skin covers the surface, the nearest known point is some way aside. The surface may go on as that plane, at
-/// the distance f, or end right there, at the distance d; the estimate lies between, with a deviation to match.
+/// the distance f, or end right there, at the distance d; the estimate lies between, with a deviation to match. It does
+/// not go on into the skin: there, 0 takes the place of a negative f.
 class SurfaceDistance {
  public:
   /// Surfaces farther from the skin than this are not measured [m].
