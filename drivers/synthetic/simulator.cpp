@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/format.h"
+#include "drivers/synthetic/hand/hand_mirror.h"
 
 namespace barehand::synthetic {
 namespace {
@@ -67,6 +68,9 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   auto sequence = make_sequence(params.sequence, rig, static_cast<std::uint64_t>(params.seed));
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
+  for (const SceneObject& object : simulator.sequence_->objects())
+    if (object.grasped)
+      simulator.grasped_.emplace(object.name, simulator.mirrors() ? mirrored(object.mesh) : object.mesh);
 
   // Compute the number of frames at this rate and speed.
   simulator.fps_ = params.fps > 0 ? params.fps : info->fps;
@@ -91,8 +95,16 @@ SceneGeometry Simulator::things(const SceneState& state) const {
   for (std::size_t i = 0; i < objects.size(); ++i)
     geometry.add(objects[i].mesh, state.T_camera_object[i],
                  static_cast<std::uint8_t>(first_surface(hands_.size()) + i));
-  if (params_.hand == "left") geometry.mirror();  // a single left hand: the whole scene is mirrored
+  if (mirrors()) geometry.mirror();
   return geometry;
+}
+
+std::optional<ObjectTruth> Simulator::object_of(const SceneState& state) const {
+  const auto& objects = sequence_->objects();
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].grasped)
+      return ObjectTruth{mirrors() ? mirrored(state.T_camera_object[i]) : state.T_camera_object[i], state.held};
+  return std::nullopt;
 }
 
 Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) const {
@@ -152,14 +164,20 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   frame->depth_unit = kDepthUnit;
   frame->depth = counts(spoil(view, number));
 
-  // Add the truth about each hand.
+  // Add the truth about the object and each hand.
   SimulatedFrame result;
+  result.object = object_of(state);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}};
+    HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}, {}};
     truth.table = table_of(i, view, hands[i], truth.pose);
     if (truth.table) {
       truth.table->number = number;
       truth.table->timestamp = 1e-6 * static_cast<double>(frame->utime);
+    }
+    if (result.object) {
+      const auto& segments = hands_[i].vertex_segments();
+      truth.contacts = grasped_->contacts(std::span(hands[i].vertices).first(segments.size()), segments,
+                                          result.object->T_camera_object);
     }
     result.hands.push_back(std::move(truth));
   }

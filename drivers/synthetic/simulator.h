@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "drivers/synthetic/grasped_object.h"
 #include "drivers/synthetic/hand/animated_hand.h"
 #include "drivers/synthetic/rendering/depth_noise.h"
 #include "io/hand/result_table.h"
@@ -45,14 +46,16 @@ void visit(V& v, SimulatorParams& p) {
 
 /// The truth about one hand in one frame.
 struct HandTruth {
-  HandPose pose;                    ///< T_camera_segment
-  std::optional<TableFrame> table;  ///< none if no part of this hand is in the image
+  HandPose pose;                         ///< T_camera_segment
+  std::optional<TableFrame> table;       ///< none if no part of this hand is in the image
+  std::optional<HandContacts> contacts;  ///< with the grasped object; none if there is none
 };
 
 /// One simulated frame and the truth about its hands.
 struct SimulatedFrame {
   FramePtr frame;
-  std::vector<HandTruth> hands;  ///< in the order of Simulator::hands()
+  std::vector<HandTruth> hands;       ///< in the order of Simulator::hands()
+  std::optional<ObjectTruth> object;  ///< of Simulator::grasped(); none if there is none
 };
 
 /// Renders a sequence: up to two animated hand meshes with sleeves, bodies and objects, as a range camera sees them.
@@ -74,16 +77,22 @@ class Simulator {
   const Intrinsics& camera() const { return rasteriser_.camera(); }
   /// No hand, one, or a right and a left one.
   const std::vector<AnimatedHand>& hands() const { return hands_; }
+  /// The object that a hand grasps; null: there is none.
+  const GraspedObject* grasped() const { return grasped_ ? &*grasped_ : nullptr; }
   const SimulatorParams& params() const { return params_; }
 
  private:
   Simulator(const SimulatorParams& params, const Intrinsics& camera);
+  // Whether the whole scene is mirrored, because it shows a single left hand.
+  bool mirrors() const { return params_.hand == "left"; }
   // The triangles of the scene's objects.
   SceneGeometry things(const SceneState& state) const;
   // The material of every surface of the scene.
   std::vector<Material> materials() const;
   // Adds the sensor's noise to an ideal depth image.
   Image<float> spoil(const RenderedView& view, std::int64_t number) const;
+  // The truth about the grasped object; none if there is none.
+  std::optional<ObjectTruth> object_of(const SceneState& state) const;
   // The truth table of one hand; none if it is not in the image.
   std::optional<TableFrame> table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,
                                      const HandPose& pose) const;
@@ -93,6 +102,7 @@ class Simulator {
   double fps_ = 30;
   std::vector<AnimatedHand> hands_;
   std::unique_ptr<Sequence> sequence_;
+  std::optional<GraspedObject> grasped_;
   DepthNoise noise_;
   Rasteriser rasteriser_;
 };

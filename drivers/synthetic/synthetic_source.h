@@ -13,9 +13,10 @@ namespace barehand::synthetic {
 
 /// A simulated hand, and the truth about it in the frame that was delivered last.
 struct SimulatedHand {
-  HandProfile profile;              ///< profile measured on the simulated hand
-  std::optional<TableFrame> truth;  ///< none if the hand is not in view
-  HandPose pose;                    ///< T_camera_segment
+  HandProfile profile;                   ///< profile measured on the simulated hand
+  std::optional<TableFrame> truth;       ///< none if the hand is not in view
+  HandPose pose;                         ///< T_camera_segment
+  std::optional<HandContacts> contacts;  ///< with the grasped object; none if there is none
 };
 
 /// The simulator as a source of frames. A replay delivers every frame once, with time stamps from 1 s on. A live source
@@ -33,6 +34,10 @@ class SyntheticSource : public FrameSource {
 
   /// No hand, one, or a right and a left one.
   const std::vector<SimulatedHand>& hands() const { return hands_; }
+  /// The object that a hand grasps; null: there is none.
+  const GraspedObject* grasped() const { return simulator_.grasped(); }
+  /// The state of the grasped object in the frame that was delivered last; none if there is none.
+  const std::optional<ObjectTruth>& object() const { return object_; }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
   /// Number of frames still to come; -1 if the sequence is repeated endlessly.
@@ -53,6 +58,7 @@ class SyntheticSource : public FrameSource {
   std::int64_t start_us_ = -1;    // steady clock at live frame 0; -1 before the first request
   std::int64_t start_utime_ = 0;  // time stamp of live frame 0 [us since the epoch]
   std::vector<SimulatedHand> hands_;
+  std::optional<ObjectTruth> object_;
 };
 
 }  // namespace barehand::synthetic

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "app/shared/source_factory.h"
 #include "drivers/lcm/lcm_log_source.h"
@@ -80,6 +82,47 @@ TEST_F(SimRun, WritesTruthAndProfileOfBothHands) {
     EXPECT_EQ(open->hands[1].load()->handedness, Handedness::left);
     EXPECT_THAT(open->hands[1].name, testing::HasSubstr("left"));
   }
+}
+
+/// The lines of a file.
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(SimRun, WritesTheGraspedObjectAndItsContacts) {
+  ASSERT_TRUE(run("grasp_mug,fps=1,width=160,height=120", path("mug")).has_value());
+
+  // The object's pose, in every frame.
+  const auto objects = lines_of(path("mug/objects.csv"));
+  ASSERT_EQ(objects.size(), 1u + 7);
+  EXPECT_EQ(objects[0], "utime,object,held,x,y,z,qw,qx,qy,qz");
+  EXPECT_THAT(objects[1], testing::StartsWith("1000000,mug,0,"));
+  EXPECT_THAT(objects[4], testing::StartsWith("4000000,mug,1,"));
+
+  // The contacts of 16 segments, in every frame that shows the hand.
+  const auto contacts = lines_of(path("mug/contacts.csv"));
+  const auto truth = read_table(path("mug/truth.csv"));
+  ASSERT_TRUE(truth.has_value());
+  ASSERT_EQ(contacts.size(), 1 + kSegmentCount * truth->frames.size());
+  EXPECT_EQ(contacts[0], "utime,segment,distance,x,y,z,nx,ny,nz");
+  EXPECT_THAT(contacts[1], testing::StartsWith("1000000,palm,0."));
+  EXPECT_FALSE(fs::exists(path("mug/contacts_left.csv")));
+
+  // The mesh: a mug of 0.11 m, closed where its vertices were doubled.
+  const auto mesh = lines_of(path("mug/mug.obj"));
+  const auto vertices = std::count_if(mesh.begin(), mesh.end(), [](const auto& l) { return l.starts_with("v "); });
+  const auto triangles = std::count_if(mesh.begin(), mesh.end(), [](const auto& l) { return l.starts_with("f "); });
+  EXPECT_GT(vertices, 500);
+  EXPECT_GT(triangles, 2 * vertices - 200);
+}
+
+TEST_F(SimRun, WritesNoObjectWhereNothingIsGrasped) {
+  ASSERT_TRUE(run("open,frames=1,width=80,height=60", path("open")).has_value());
+  EXPECT_FALSE(fs::exists(path("open/objects.csv")));
+  EXPECT_FALSE(fs::exists(path("open/contacts.csv")));
 }
 
 TEST_F(SimRun, WritesTheSameDepthIntoALog) {

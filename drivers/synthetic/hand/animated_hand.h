@@ -28,6 +28,9 @@ class AnimatedHand {
   /// Segment of every triangle of the skin.
   const std::vector<std::uint8_t>& triangle_segments() const { return skinner_.triangle_segments(); }
 
+  /// Segment of every vertex of the skin.
+  const std::vector<std::uint8_t>& vertex_segments() const { return skinner_.vertex_segments(); }
+
   /// T_camera_segment; a left hand's poses are mirrored.
   HandPose pose(const SkeletonPose& skeleton) const;
   /// Triangles in the camera frame: first the skin, in the order of triangle_segments(), then the forearm (`sleeve` is

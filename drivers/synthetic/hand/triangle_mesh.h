@@ -17,4 +17,7 @@ struct TriangleMesh {
   void append(const TriangleMesh& other);
 };
 
+/// The mirror image of a mesh in the plane x = 0.
+TriangleMesh mirrored(const TriangleMesh& mesh);
+
 }  // namespace barehand::synthetic

@@ -149,6 +149,7 @@ class GraspSequence : public Sequence {
     T_world_grasp_ = T_world_thing_ * T_palm_thing_.inverse();
     held_ = planner.close(plan.open, plan.closed, T_palm_thing_, plan.distance);
     track_ = std::make_unique<HandTrack>(T_world_grasp_.R, keys(plan.open, seed));
+    objects_.front().grasped = true;
     objects_.push_back(make_table());
   }
 
@@ -163,8 +164,8 @@ class GraspSequence : public Sequence {
 
     // Move the object with the palm while it is held.
     SceneState state;
-    const bool in_hand = time > kGrasped && time < kReleasing;
-    state.T_camera_object.push_back(T_camera_world_ * (in_hand ? T_world_palm * T_palm_thing_ : T_world_thing_));
+    state.held = time > kGrasped && time < kReleasing;
+    state.T_camera_object.push_back(T_camera_world_ * (state.held ? T_world_palm * T_palm_thing_ : T_world_thing_));
     for (const SE3& T : T_world_stand_) state.T_camera_object.push_back(T_camera_world_ * T);
     state.T_camera_object.push_back(T_camera_world_);  // the table
 

@@ -22,6 +22,7 @@ struct SceneObject {
   std::string name;
   TriangleMesh mesh;
   Material material;
+  bool grasped = false;  ///< a hand grasps it; at most one object of a sequence
 };
 
 /// The state of one hand at one time, as a right hand in the camera frame; a left hand is its mirror image in x = 0.
@@ -34,6 +35,7 @@ struct HandState {
 struct SceneState {
   std::vector<HandState> hands;      ///< as many as SequenceInfo states; of two hands the right one comes first
   std::vector<SE3> T_camera_object;  ///< one for each object of the sequence
+  bool held = false;                 ///< the grasped object moves with the hand
 };
 
 /// A motion of hands and objects, as a pure function of time.

@@ -5,6 +5,7 @@
 
 #include "app/record/frame_writer.h"
 #include "app/shared/outputs.h"
+#include "app/sim/object_files.h"
 #include "core/clock.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "io/hand/hand_json.h"
@@ -32,14 +33,31 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
   return open_frame_writer(out, options);
 }
 
+/// Where the files about the grasped object are written.
+ObjectFiles::Paths object_paths(const std::string& out, const std::string& name,
+                                const std::vector<SimulatedHand>& hands) {
+  ObjectFiles::Paths paths{beside(out, name + ".obj"), beside(out, "objects.csv"), {}};
+  for (std::size_t k = 0; k < hands.size(); ++k)
+    paths.contacts.push_back(
+        path_of_hand(beside(out, "contacts.csv"), static_cast<int>(k), hands[k].profile.handedness));
+  return paths;
+}
+
 /// Checks that the log or recording, and the files that belong to it, may be written.
-Result<void> check_written(const SimOptions& options, const std::vector<SimulatedHand>& hands) {
+Result<void> check_written(const SimOptions& options, const SyntheticSource& source) {
   std::vector<Output> outputs{
       {"--out", options.out, is_file_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
+  const std::vector<SimulatedHand>& hands = source.hands();
   for (std::size_t k = 0; k < hands.size(); ++k)
     for (const char* name : {"hand.json", "truth.csv", "start_pose.json"})
       outputs.push_back(
           {"--out", path_of_hand(beside(options.out, name), static_cast<int>(k), hands[k].profile.handedness)});
+  if (source.grasped()) {
+    ObjectFiles::Paths paths = object_paths(options.out, source.grasped()->name(), hands);
+    outputs.push_back({"--out", std::move(paths.mesh)});
+    outputs.push_back({"--out", std::move(paths.poses)});
+    for (std::string& path : paths.contacts) outputs.push_back({"--out", std::move(path)});
+  }
   return check_outputs({}, {}, outputs, options.overwrite);
 }
 
@@ -80,6 +98,13 @@ Result<std::vector<HandFiles>> create_hand_files(const SimOptions& options, cons
   return files;
 }
 
+/// The files about the grasped object; none if nothing is grasped.
+Result<std::optional<ObjectFiles>> create_object_files(const SimOptions& options, const SyntheticSource& source) {
+  if (!source.grasped()) return std::nullopt;
+  return ObjectFiles::create(object_paths(options.out, source.grasped()->name(), source.hands()), *source.grasped(),
+                             options.overwrite);
+}
+
 }  // namespace
 
 Result<std::int64_t> run_sim(const SimOptions& options,
@@ -91,11 +116,13 @@ Result<std::int64_t> run_sim(const SimOptions& options,
 
   if ((*source)->live() || (*source)->remaining() < 0)
     return fail("a recording is neither live nor endless", "sim:" + options.spec, "leave out live and loop");
-  if (const auto free = check_written(options, (*source)->hands()); !free) return tl::unexpected(free.error());
+  if (const auto free = check_written(options, **source); !free) return tl::unexpected(free.error());
   auto writer = make_writer(options.out, (*source)->fps(), options.overwrite);
   if (!writer) return tl::unexpected(writer.error());
   auto hand_files = create_hand_files(options, (*source)->hands());
   if (!hand_files) return tl::unexpected(hand_files.error());
+  auto object_files = create_object_files(options, **source);
+  if (!object_files) return tl::unexpected(object_files.error());
 
   // Render and write frame by frame.
   const std::int64_t all = (*source)->remaining();
@@ -105,11 +132,13 @@ Result<std::int64_t> run_sim(const SimOptions& options,
     const auto* frame = std::get_if<FramePtr>(&event);
     if (!frame) break;
 
-    // Write the frame, and the truth about each hand.
+    // Write the frame, and the truth about each hand and the grasped object.
     if (auto ok = (*writer)->write(**frame); !ok) return tl::unexpected(ok.error());
     for (std::size_t i = 0; i < hand_files->size(); ++i)
       if (auto ok = (*hand_files)[i].write((*source)->hands()[i], (*frame)->number); !ok)
         return tl::unexpected(ok.error());
+    if (*object_files)
+      if (auto ok = (*object_files)->write(**source, (*frame)->utime); !ok) return tl::unexpected(ok.error());
     ++done;
     if (!progress(done, all)) break;
   }
@@ -117,6 +146,7 @@ Result<std::int64_t> run_sim(const SimOptions& options,
   if (done == 0) return fail("no frame was rendered, so nothing is written", "sim:" + options.spec);
   auto finished = (*writer)->finish();
   for (HandFiles& files : *hand_files) finished = finished.and_then([&] { return files.finish(); });
+  if (*object_files) finished = finished.and_then([&] { return (*object_files)->finish(); });
   if (!finished) return tl::unexpected(finished.error());
   return done;
 }
