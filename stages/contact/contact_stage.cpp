@@ -15,6 +15,7 @@ using Eigen::Vector3f;
 constexpr int kSkinPoints = 80;            // per segment
 constexpr double kSkinChange = 0.0005;     // change of a bone or a section that is worth a new skin [m]
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
+constexpr float kWrist = 0.02f;            // skin of the palm nearer to the wrist than this lies on the sleeve [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
 constexpr float kOwnSkin = 0.004f;         // points this near to skin that faces the same way are the hand's own [m]
 
@@ -101,14 +102,16 @@ void ContactStage::prepare(Hand& hand, const HandEstimate& estimate) {
     const Eigen::Matrix3f R = hand.pose[s].R.cast<float>();
     const Vector3f t = hand.pose[s].t.cast<float>();
     PosedSkin& skin = hand.skin[s];
-    skin.points.resize(surface.size());
-    skin.normals.resize(surface.size());
+    skin.points.clear();
+    skin.normals.clear();
     skin.centre.setZero();
     for (std::size_t i = 0; i < surface.size(); ++i) {
-      skin.points[i] = R * Vector3f(surface.x[i], surface.y[i], surface.z[i]) + t;
-      skin.normals[i] = R * Vector3f(surface.nx[i], surface.ny[i], surface.nz[i]);
-      skin.centre += skin.points[i] / static_cast<float>(surface.size());
+      if (s == kPalm && surface.z[i] > -kWrist) continue;
+      skin.points.push_back(R * Vector3f(surface.x[i], surface.y[i], surface.z[i]) + t);
+      skin.normals.push_back(R * Vector3f(surface.nx[i], surface.ny[i], surface.nz[i]));
+      skin.centre += skin.points.back();
     }
+    skin.centre /= static_cast<float>(skin.points.size());
     skin.radius = 0;
     for (const Vector3f& p : skin.points) skin.radius = std::max(skin.radius, (p - skin.centre).norm());
   }

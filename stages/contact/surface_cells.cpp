@@ -18,7 +18,7 @@ constexpr std::int32_t kOther = -1, kSeed = -2;
 
 /// Whether a point belongs to the forearm, which is not tracked: behind the wrist, within a cone that an arm reaches.
 bool on_forearm(const SE3& T_palm_camera, const Eigen::Vector3d& p) {
-  constexpr double kReach = 0.16, kSlant = 0.6, kWrist = 0.045, kHand = 0.01;
+  constexpr double kReach = 0.16, kSlant = 0.3, kWrist = 0.06, kHand = 0.015;
   const Eigen::Vector3d q = T_palm_camera * p;
   if (q.z() < -kHand || q.norm() > kReach) return false;
   return q.z() > kSlant * q.norm() || q.norm() < kWrist;

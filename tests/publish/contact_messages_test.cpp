@@ -1,5 +1,6 @@
 #include "stages/publish/contact_messages.h"
 
+#include "barehand/hand_state_t.hpp"
 #include "published_hand.h"
 
 namespace barehand {
