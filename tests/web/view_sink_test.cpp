@@ -150,7 +150,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   ASSERT_TRUE(sink.consume(moved(3)));
   const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLL");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLL");
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 
