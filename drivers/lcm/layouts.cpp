@@ -57,6 +57,17 @@ void walk(WireWalker& walker, const hand_joints_t*) {
   walker.skip(26 * ((3 + 4 + 1) * kDouble + 4));
 }
 
+void walk(WireWalker& walker, const contact_state_t*) {
+  walk_hand_header(walker);
+  walker.skip(3 * 16 * (1 + 1 + (3 + 4 * 3) * kDouble + 4 + 1));
+}
+
+void walk(WireWalker& walker, const object_state_t*) {
+  walker.skip(8 + 8);
+  walker.string();
+  walker.skip(4 + (3 + 4 + 3 + 3 + 36 + 3) * kDouble + 1 + 4 + 8);
+}
+
 void walk(WireWalker& walker, const health_t*) {
   walker.skip(8);
   walker.string();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "barehand/command_t.hpp"
+#include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "barehand/health_t.hpp"
+#include "barehand/object_state_t.hpp"
 #include "barehand/rgbd_frame_t.hpp"
 #include "bot_core/images_t.hpp"
 #include "drivers/lcm/wire.h"
@@ -20,6 +22,8 @@ void walk(WireWalker& walker, const command_t*);
 void walk(WireWalker& walker, const hand_state_t*);
 void walk(WireWalker& walker, const glove_state_t*);
 void walk(WireWalker& walker, const hand_joints_t*);
+void walk(WireWalker& walker, const contact_state_t*);
+void walk(WireWalker& walker, const object_state_t*);
 void walk(WireWalker& walker, const health_t*);
 void walk(WireWalker& walker, const kinect::frame_msg_t*);
 void walk(WireWalker& walker, const bot_core::images_t*);

@@ -6,6 +6,7 @@
 #include "pipeline/run_params.h"
 #include "sensor/camera_placement.h"
 #include "sensor/given_intrinsics.h"
+#include "stages/contact/contact_params.h"
 #include "stages/detection/params.h"
 #include "stages/preprocess/params.h"
 #include "stages/publish/publish_params.h"
@@ -19,6 +20,7 @@ struct Config {
   DetectionParams detection;
   PreprocessParams preprocess;
   TrackerParams tracker;
+  ContactParams contact;
   PublishParams publish;
   CameraPlacement world;
   GivenIntrinsics foreign_camera;
@@ -30,6 +32,7 @@ void visit(V& v, Config& c) {
   v("detection", c.detection, "detection of hands by neural networks");
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
+  v("contact", c.contact, "what the hands touch");
   v("publish", c.publish, "from estimates to LCM messages");
   v("world", c.world, "the room in which the camera stands, for the live page");
   v("foreign_camera", c.foreign_camera, "intrinsics for kinect.frame_msg_t and bot_core.images_t, which carry none");

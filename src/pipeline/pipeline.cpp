@@ -32,7 +32,8 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
               Queue{"to track", capacity(stages_.source, options), Overflow::block},
               Queue{"to sinks", capacity(stages_.source, options), Overflow::block}},
       preprocess_monitor_("preprocess", clock),
-      track_monitor_("track", clock) {
+      track_monitor_("track", clock),
+      contact_monitor_("contact", clock) {
   for (const Sink* sink : stages_.sinks) sink_monitors_.push_back(std::make_unique<StageMonitor>(sink->name(), clock));
 }
 
@@ -54,7 +55,7 @@ void Pipeline::run_threaded() {
   std::jthread sinks([&] {
     while (!queues_[kToSinks].drained()) {
       if (auto item = waited_for(kToSinks, queues_[kToSinks].pop_within(options_.patience)))
-        deliver(*item);
+        deliver(std::move(*item));
       else
         idle();
     }
@@ -116,7 +117,7 @@ std::optional<Pipeline::Item> Pipeline::waited_for(QueueIndex queue, std::option
 
 void Pipeline::process(Item item) {
   const HandEstimates feedback = take_feedback();
-  if (preprocess(item, feedback) && track(item)) deliver(item);
+  if (preprocess(item, feedback) && track(item)) deliver(std::move(item));
 }
 
 HandEstimates Pipeline::take_feedback() {
@@ -198,7 +199,20 @@ bool Pipeline::track(Item& item) {
   return false;
 }
 
-void Pipeline::deliver(const Item& item) {
+/// A frame without contacts is delivered all the same: its hands are known.
+void Pipeline::find_contacts(Item& item) {
+  if (!stages_.contact) return;
+  auto contacts = contact_monitor_.run(stages_.contact, item.data.observations, item.data.estimates);
+  if (contacts)
+    item.data.contacts = std::move(*contacts);
+  else
+    report(contact_monitor_, item, contacts.error());
+}
+
+void Pipeline::deliver(Item item) {
+  find_contacts(item);
+
+  // Pass the frame to every sink.
   bool delivered = true;
   for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // if a sink fails, the others still get the frame
     StageMonitor& monitor = *sink_monitors_[i];
@@ -287,6 +301,7 @@ PipelineHealth Pipeline::counts() const {
 PipelineHealth Pipeline::health() const {
   PipelineHealth health = counts();
   health.stages = {preprocess_monitor_.health(), track_monitor_.health()};
+  if (stages_.contact) health.stages.push_back(contact_monitor_.health());
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->health());
   std::unique_lock lock(mutex_);
   health.latency = latency_.summary();
@@ -297,6 +312,7 @@ PipelineHealth Pipeline::health() const {
 PipelineHealth Pipeline::take_interval_health() {
   PipelineHealth health = counts();
   health.stages = {preprocess_monitor_.take_interval(), track_monitor_.take_interval()};
+  if (stages_.contact) health.stages.push_back(contact_monitor_.take_interval());
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->take_interval());
   std::unique_lock lock(mutex_);
 

@@ -34,6 +34,9 @@ struct PipelineStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
   std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
+  /// What the hands touch; runs before the sinks, on their thread. Empty: frames have no contacts.
+  std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)>
+      contact = {};
 };
 
 /// How the pipeline runs.
@@ -60,8 +63,8 @@ struct PipelinePulse {
   std::int64_t inside = 0;    ///< frames in the queues and stages now
 };
 
-/// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> sinks, each stage on
-/// a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue
+/// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> contact and sinks,
+/// each part on a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue
 /// drops the oldest frames; frames of a replay are never dropped. A frame on which a stage fails is counted, reported
 /// and left out. When the source ends or fails, or the run is stopped, the frames in flight are processed and every
 /// sink is finished. A stage that keeps failing ends the run, and so does a sink of a replay; a sink of a live run
@@ -111,7 +114,8 @@ class Pipeline {
   HandEstimates take_feedback();
   bool preprocess(Item& item, const HandEstimates& feedback);
   bool track(Item& item);
-  void deliver(const Item& item);
+  void find_contacts(Item& item);
+  void deliver(Item item);
   void idle();
   void finish_sinks();
 
@@ -132,7 +136,7 @@ class Pipeline {
 
   std::array<Queue, kQueueCount> queues_;
   Feedback<HandEstimates> feedback_;
-  StageMonitor preprocess_monitor_, track_monitor_;
+  StageMonitor preprocess_monitor_, track_monitor_, contact_monitor_;
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
   std::atomic<bool> stop_ = false, ending_ = false;
   std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0, answers_ = 0;

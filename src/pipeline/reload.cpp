@@ -12,7 +12,7 @@ namespace {
 /// Whether a key cannot change while the pipeline runs: sources, channels and limits of failures are set up once, and
 /// a fit to the person that has begun keeps its parameters.
 bool fixed(const std::string& key) {
-  constexpr const char* kFixed[] = {"run.",     "detection.",        "world.", "foreign_camera.",
+  constexpr const char* kFixed[] = {"run.",     "contact.",          "detection.", "world.", "foreign_camera.",
                                     "openni2.", "tracker.shape_fit."};
   return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
 }

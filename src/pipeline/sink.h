@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "hand/contacts.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 
@@ -13,6 +14,7 @@ struct TrackedFrame {
   FramePtr frame;
   HandObservations observations;
   HandEstimates estimates;
+  FrameContactsPtr contacts = {};  ///< null: nobody asked for them, or their stage failed
 };
 
 /// An output of the pipeline: the bus, a table, a log, images. Used by one thread, in the order of the frames.

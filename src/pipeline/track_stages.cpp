@@ -2,6 +2,7 @@
 #include "pipeline/track_stages.h"
 
 #include "io/data_files.h"
+#include "stages/contact/contact_stage.h"
 #include "stages/detection/detection_stage.h"
 #include "stages/preprocess/preprocess.h"
 
@@ -28,12 +29,16 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       std::make_shared<CommandedTracker>(config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers,
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
-  return {[preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
-            if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
-              *preprocessor = std::make_unique<Preprocessor>(*params, hands);
-            return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
-          },
-          std::bind_front(&CommandedTracker::process, tracker)};
+  TrackStages stages;
+  if (config.contact.enabled)
+    stages.contact = std::bind_front(&ContactStage::process, std::make_shared<ContactStage>(config.contact));
+  stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
+    if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
+      *preprocessor = std::make_unique<Preprocessor>(*params, hands);
+    return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
+  };
+  stages.track = std::bind_front(&CommandedTracker::process, tracker);
+  return stages;
 }
 
 }  // namespace barehand

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel/parallel.h"
+#include "hand/contacts.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "pipeline/config.h"
@@ -18,6 +19,8 @@ namespace barehand {
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
+  /// Empty if the configuration wants no contacts.
+  std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
 };
 
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.

@@ -6,6 +6,7 @@
 
 #include "hand/joint_angles.h"
 #include "stages/publish/glove_angles.h"
+#include "stages/publish/message_fields.h"
 #include "stages/publish/openxr_joints.h"
 
 namespace barehand {
@@ -29,20 +30,6 @@ void fill_header(Message& message, const FrameState& frame) {
   message.hand_id = frame.estimate.hand_id;
   message.handedness = frame.estimate.handedness == Handedness::left ? hand_state_t::LEFT : hand_state_t::RIGHT;
   message.status = static_cast<std::int8_t>(frame.track.status);
-}
-
-void copy(const Eigen::Vector3d& v, double (&out)[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = v[i];
-}
-
-/// Writes a rotation as the quaternion (w, x, y, z) with w >= 0, which makes it unique.
-void copy(const Eigen::Matrix3d& R, double (&out)[4]) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
-  const double sign = q.w() < 0 ? -1 : 1;
-  out[0] = sign * q.w();
-  out[1] = sign * q.x();
-  out[2] = sign * q.y();
-  out[3] = sign * q.z();
 }
 
 template <class T, std::size_t N>
@@ -79,9 +66,7 @@ segment_state_t segment_message(const FrameState& frame, int s) {
   copy(distal_end(*frame.profile, frame.smoothed, s), out.smoothed_distal);
   copy(state.velocity.head<3>(), out.linear_velocity);
   copy(state.velocity.tail<3>(), out.angular_velocity);
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) out.covariance[i][j] = state.covariance(i, j);
-  }
+  copy(state.covariance, out.covariance);
   out.confidence = state.confidence;
   out.visible = state.visible;
   out.seen = state.seen;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <optional>
 
+#include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
@@ -17,6 +18,7 @@ struct HandMessages {
   hand_state_t state;
   glove_state_t glove;
   hand_joints_t joints;
+  std::optional<contact_state_t> contact = {};  ///< none: contacts are switched off
 };
 
 /// The publish stage: converts the estimates of one hand, in order, to messages. Equal estimates give equal bytes,

@@ -7,8 +7,8 @@ Publisher::Publisher(std::string prefix, std::vector<MessageSink*> sinks)
     : prefix_(std::move(prefix)), sinks_(std::move(sinks)) {}
 
 Result<Publisher> Publisher::create(std::string prefix, std::vector<MessageSink*> sinks) {
-  const std::size_t longest = prefix.size() + std::string("GLOVE_STATE").size();
-  if (longest > kLongestChannel) return fail("the channel prefix is too long for LCM", prefix, "use at most 52 bytes");
+  const std::size_t longest = prefix.size() + std::string("CONTACT_STATE").size();
+  if (longest > kLongestChannel) return fail("the channel prefix is too long for LCM", prefix, "use at most 50 bytes");
   return Publisher(std::move(prefix), std::move(sinks));
 }
 
@@ -27,6 +27,13 @@ Result<void> Publisher::send(const HandMessages& messages) {
   send("HAND_STATE", messages.state, result);
   send("GLOVE_STATE", messages.glove, result);
   send("HAND_JOINTS", messages.joints, result);
+  if (messages.contact) send("CONTACT_STATE", *messages.contact, result);
+  return result;
+}
+
+Result<void> Publisher::send(const object_state_t& object) {
+  Result<void> result;
+  send("OBJECT_STATE", object, result);
   return result;
 }
 

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "barehand/health_t.hpp"
+#include "barehand/object_state_t.hpp"
 #include "io/lcm/message_sink.h"
 #include "stages/publish/hand_messages.h"
 
 namespace barehand {
 
-/// Sends messages to every sink (a bus, a log, or both), on the channels HAND_STATE, GLOVE_STATE, HAND_JOINTS and
-/// HEALTH with the prefix in front. The sinks must outlive this object.
+/// Sends messages to every sink (a bus, a log, or both), on the channels HAND_STATE, GLOVE_STATE, HAND_JOINTS,
+/// CONTACT_STATE, OBJECT_STATE and HEALTH with the prefix in front. The sinks must outlive this object.
 class Publisher {
  public:
   /// Errors: with this prefix, a channel name would be too long for LCM (63 bytes).
@@ -18,6 +19,7 @@ class Publisher {
 
   /// Every sink gets the messages even if another fails; the first error is returned.
   Result<void> send(const HandMessages& messages);
+  Result<void> send(const object_state_t& object);
   Result<void> send(const health_t& health);
 
  private:

@@ -3,28 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/closest_points.h"
+
 namespace barehand {
 namespace {
 
 // Penalises overlaps of capsules within the fingers and the palm.
 
 using Eigen::Vector3d;
-using Axis = std::array<Vector3d, 2>;
+using Axis = LineSegment;
 
 constexpr double kCarpus = 0.3;     // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
 constexpr double kTiny = 1e-12;     // squared lengths below this count as zero [m^2]
 constexpr double kPalmShare = 0.9;  // radius of a capsule in the palm, as a fraction of its finger's radius at the root
-
-/// The closest points of two line segments of non-zero length (Ericson, Real-Time Collision Detection, 5.1.9).
-std::array<Vector3d, 2> closest_points(const Axis& a, const Axis& b) {
-  const Vector3d d_a = a[1] - a[0], d_b = b[1] - b[0], r = a[0] - b[0];
-  const double aa = d_a.squaredNorm(), bb = d_b.squaredNorm(), ab = d_a.dot(d_b);
-  const double ar = d_a.dot(r), br = d_b.dot(r), parallel = aa * bb - ab * ab;
-  double s = parallel > kTiny * kTiny ? std::clamp((ab * br - ar * bb) / parallel, 0.0, 1.0) : 0.0;
-  const double t = std::clamp((ab * s + br) / bb, 0.0, 1.0);
-  s = std::clamp((ab * t - ar) / aa, 0.0, 1.0);
-  return {a[0] + s * d_a, b[0] + t * d_b};
-}
 
 double least_radius(const SegmentProfile& s) {
   return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});

@@ -133,4 +133,25 @@ class McapFiles(Folder):
             list(barehand.hands(self.path))
 
 
+class ContactsInLogs(Folder):
+    def test_contacts_and_objects_come_in_order_and_others_are_left_out(self):
+        path = self.folder / "take.lcmlog"
+        with open(path, "wb") as file:
+            for frame in range(3):
+                contact, thing = barehand.contact_state_t(), barehand.object_state_t()
+                contact.utime = thing.utime = frame
+                contact.object[9].state = barehand.contact_state_t.TOUCHING
+                thing.object_id = 7
+                for channel, data in (*messages_of(frame), (b"CONTACT_STATE", contact.encode()),
+                                      (b"OBJECT_STATE", thing.encode()), (b"CONTACT_STATE", contact.encode()[:-1]),
+                                      (b"DESK_CONTACT_STATE", contact.encode())):
+                    log.write_event(file, frame, frame, channel, data)
+        contacts = list(barehand.contacts(path))
+        self.assertEqual([contact.utime for contact in contacts], [0, 1, 2])
+        self.assertEqual([name for name, _ in barehand.touched(contacts[0].object)], ["middle_distal"])
+        self.assertEqual(barehand.touched(contacts[0].own), [])
+        self.assertEqual([thing.object_id for thing in barehand.objects(path)], [7, 7, 7])
+        self.assertEqual(len(list(barehand.contacts(path, prefix="DESK_"))), 3)
+
+
 unittest.main()

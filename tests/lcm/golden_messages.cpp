@@ -112,6 +112,46 @@ hand_joints_t hand_joints() {
   return m;
 }
 
+contact_state_t contact_state() {
+  contact_state_t m;
+  fill_header(m);
+  Counter counter;
+  for (auto* contacts : {&m.object, &m.own, &m.other_hand})
+    for (segment_contact_t& c : *contacts) {
+      counter.fill(c.state);
+      c.inferred = (&c - *contacts) % 2 == 0;
+      counter.fill(c.probability);
+      counter.fill(c.distance);
+      counter.fill(c.deviation);
+      counter.fill(c.point);
+      counter.fill(c.normal);
+      counter.fill(c.point_in_object);
+      counter.fill(c.normal_in_object);
+      counter.fill(c.partner);
+      counter.fill(c.segment);
+    }
+  return m;
+}
+
+object_state_t object_state() {
+  object_state_t m;
+  m.utime = kTime;
+  m.frame_number = 17;
+  m.sensor = "left camera";
+  Counter counter;
+  counter.fill(m.object_id);
+  counter.fill(m.position);
+  counter.fill(m.orientation);
+  counter.fill(m.linear_velocity);
+  counter.fill(m.angular_velocity);
+  counter.fill(m.covariance);
+  counter.fill(m.extent);
+  m.held = true;
+  counter.fill(m.hand_id);
+  m.since = kTime - 5'000'000;
+  return m;
+}
+
 health_t health() {
   health_t m;
   Counter counter;

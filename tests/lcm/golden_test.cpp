@@ -45,6 +45,14 @@ hand_joints_t fixed() {
   return golden::hand_joints();
 }
 template <>
+contact_state_t fixed() {
+  return golden::contact_state();
+}
+template <>
+object_state_t fixed() {
+  return golden::object_state();
+}
+template <>
 health_t fixed() {
   return golden::health();
 }
@@ -55,7 +63,8 @@ command_t fixed() {
 
 template <class Message>
 class GoldenMessage : public testing::Test {};
-using Types = testing::Types<rgbd_frame_t, hand_state_t, glove_state_t, hand_joints_t, health_t, command_t>;
+using Types = testing::Types<rgbd_frame_t, hand_state_t, glove_state_t, hand_joints_t, contact_state_t, object_state_t,
+                             health_t, command_t>;
 TYPED_TEST_SUITE(GoldenMessage, Types);
 
 TYPED_TEST(GoldenMessage, EncodesAndDecodesAsEver) {

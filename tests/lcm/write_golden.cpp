@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   write(argv[1], hand_state());
   write(argv[1], glove_state());
   write(argv[1], hand_joints());
+  write(argv[1], contact_state());
+  write(argv[1], object_state());
   write(argv[1], health());
   write(argv[1], command());
 }

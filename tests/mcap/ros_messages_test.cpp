@@ -205,6 +205,22 @@ TEST(RosHand, TheDrawingHasEveryJointBoneAndEllipsoid) {
   EXPECT_NEAR(bone.scale.z, 0.01, 1e-12);
 }
 
+TEST(RosHand, TouchesAreSpheresWhereTheSurfaceIs) {
+  HandState state = hand(true);
+  state.contact.emplace();
+  segment_contact_t& on_object = state.contact->object[3];
+  on_object.state = state.contact->own[6].state = contact_state_t::TOUCHING;
+  on_object.point[2] = 0.4;
+  on_object.inferred = true;
+  state.contact->object[4].state = contact_state_t::NEAR;
+  const MarkerArray drawn = contact_markers(state);
+  ASSERT_EQ(drawn.markers.size(), 3u);
+  EXPECT_EQ(drawn.markers[0].action, Marker::kDeleteAll);
+  EXPECT_EQ(drawn.markers[1].pose.position.z, 0.4);
+  EXPECT_LT(drawn.markers[1].color.a, 1) << "inferred";
+  EXPECT_GT(drawn.markers[1].color.r, drawn.markers[2].color.r) << "objects and hands have colours of their own";
+}
+
 std::vector<std::string> names_of(const std::vector<Topic>& topics) {
   std::vector<std::string> names;
   for (const Topic& topic : topics) names.push_back(topic.name);
@@ -253,15 +269,19 @@ TEST(RosTopics, EverythingThatIsKnownHasATopic) {
   Scene scene;
   scene.frame = frame;
   scene.hands = {hand(true), hand(true, hand_state_t::LEFT)};
+  scene.hands[0].contact.emplace();
+  scene.objects.emplace_back().object_id = 7;
   scene.health.emplace();
   const auto topics = topics_of(scene);
   EXPECT_THAT(names_of(topics),
               ElementsAre("/left_cam/camera_info", "/left_cam/depth", "/left_cam/colour", "/left_cam/points", "/tf",
-                          "/right_hand/joint_states", "/right_hand/markers", "/left_hand/joint_states",
-                          "/left_hand/markers", "/diagnostics"));
+                          "/right_hand/joint_states", "/right_hand/markers", "/right_hand/contacts",
+                          "/left_hand/joint_states", "/left_hand/markers", "/diagnostics"));
   EXPECT_EQ(topics[1].metadata.at(kDepthUnit), "0.0001");
   EXPECT_EQ(topics[1].metadata.at(kSensor), "left cam");
   for (const Topic& topic : topics) EXPECT_TRUE(topic.encode()) << topic.name;
+  const auto tf = decode<TFMessage>(std::ranges::find(topics, "/tf", &Topic::name)->encode().value());
+  EXPECT_EQ(tf->transforms.back().child_frame_id, "object_7");
   frame->colour = {};
   scene.cloud = false;
   EXPECT_THAT(names_of(topics_of(scene)), testing::Not(Contains("/left_cam/colour")));

@@ -74,7 +74,8 @@ struct World {
     PipelineStages stages{source,
                           [this](const FramePtr& f, const HandEstimates& before) { return preprocess(f, before); },
                           [this](const HandObservations& o) { return track(o); },
-                          {&sink}};
+                          {&sink},
+                          contact};
     pipeline = std::make_unique<Pipeline>(std::move(stages), options, clock, log);
     return pipeline->run();
   }
@@ -104,6 +105,7 @@ struct World {
   ManualClock clock;
   RepeatLog log{make_silent_logger(), clock};
   RecordingSink sink;
+  std::function<Result<FrameContactsPtr>(const HandObservations&, const HandEstimates&)> contact;
   std::function<void(const FramePtr&)> before_preprocess;
   std::function<Result<void>(const FramePtr&)> before_track;
   std::vector<int> feedback;
@@ -139,6 +141,26 @@ TEST_P(PipelineLifecycle, FinishDrainsEverything) {
   EXPECT_EQ(result.health.stages[0].time.count, 20);
   EXPECT_EQ(result.health.latency.count, 20);
   expect_balanced(result.health);
+}
+
+TEST_P(PipelineLifecycle, SinksGetTheContactsOfTheirFrameAndDoWithoutThoseThatFailed) {
+  world_.contact = [](const HandObservations&, const HandEstimates& estimates) -> Result<FrameContactsPtr> {
+    if (estimates[0]->number == 3) return fail("bad");
+    auto contacts = std::make_shared<FrameContacts>();
+    contacts->objects.emplace_back().id = static_cast<std::int32_t>(estimates[0]->number);
+    return contacts;
+  };
+  std::vector<int> got;
+  world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
+    got.push_back(tracked.contacts ? tracked.contacts->objects[0].id : -1);
+    return {};
+  };
+  ScriptedSource source(false, frames_then_end(6));
+  const RunResult result = world_.run(source);
+  EXPECT_THAT(got, ElementsAre(0, 1, 2, -1, 4, 5));
+  EXPECT_EQ(result.health.published, 6);
+  EXPECT_EQ(result.health.stages[2].name, "contact");
+  EXPECT_EQ(result.health.stages[2].failed, 1);
 }
 
 TEST_P(PipelineLifecycle, HintIsTheEstimateTwoFramesBack) {

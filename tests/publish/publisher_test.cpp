@@ -51,6 +51,21 @@ TEST(Publisher, SendsEveryMessageOnItsPrefixedChannel) {
   EXPECT_EQ(sink.stamps[0], kStart) << "the stamp is the measurement's time";
 }
 
+TEST(Publisher, SendsContactsAndObjectsWhereThereAreSome) {
+  MemorySink sink;
+  Publisher publisher = Publisher::create("", {&sink}).value();
+  HandMessages hand = messages();
+  hand.contact = contact_state_t{};
+  hand.contact->hand_id = 5;
+  ASSERT_TRUE(publisher.send(hand));
+  object_state_t object{};
+  object.object_id = 7;
+  ASSERT_TRUE(publisher.send(object));
+  ASSERT_EQ(sink.received.size(), 5u);
+  EXPECT_EQ(decode_message<contact_state_t>(sink.received.at("CONTACT_STATE"))->hand_id, 5);
+  EXPECT_EQ(decode_message<object_state_t>(sink.received.at("OBJECT_STATE"))->object_id, 7);
+}
+
 TEST(Publisher, OneBrokenSinkDoesNotSilenceTheOthers) {
   MemorySink broken, healthy;
   broken.refuse = true;
@@ -60,8 +75,8 @@ TEST(Publisher, OneBrokenSinkDoesNotSilenceTheOthers) {
 }
 
 TEST(Publisher, APrefixThatLcmCannotCarryIsAnError) {
-  EXPECT_FALSE(Publisher::create(std::string(53, 'P'), {}));
-  EXPECT_TRUE(Publisher::create(std::string(52, 'P'), {}));
+  EXPECT_FALSE(Publisher::create(std::string(51, 'P'), {}));
+  EXPECT_TRUE(Publisher::create(std::string(50, 'P'), {}));
 }
 
 TEST(Publisher, TwoRunsWriteTheSameLog) {

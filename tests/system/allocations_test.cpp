@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "stages/contact/contact_stage.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/publish/hand_messages.h"
 #include "support/adult_hand.h"
@@ -35,7 +36,7 @@ namespace barehand {
 namespace {
 
 struct Counts {
-  double preprocess = 0, track = 0, publish = 0;
+  double preprocess = 0, track = 0, contact = 0, publish = 0;
 };
 
 /// The mean number of allocations per frame while a swaying hand is tracked, after a warm-up. `hands` is the number of
@@ -51,6 +52,7 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
   Workers workers(1);
   Preprocessor preprocessor({}, hands);
   TwoHandTracker tracker(params, TwoHandTracker::Profiles(hands, profile), 1, workers);
+  ContactStage contact({});
   HandMessageMaker maker({});
   HandPose pose = test::facing_pose(*profile, 0.5, 0.4);
   tracker.hand(0).apply(StartAt{pose});
@@ -66,12 +68,15 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
     const std::int64_t preprocessed = allocations;
     estimates = tracker.process(observations);
     const std::int64_t tracked = allocations;
+    const FrameContactsPtr contacts = contact.process(observations, estimates).value();
+    const std::int64_t touched = allocations;
     for (const HandEstimatePtr& estimate : estimates) maker.process(*estimate);
     if (k < kWarmUp) continue;
     EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);
     counts.preprocess += static_cast<double>(preprocessed - start) / kCounted;
     counts.track += static_cast<double>(tracked - preprocessed) / kCounted;
-    counts.publish += static_cast<double>(allocations - tracked) / kCounted;
+    counts.contact += static_cast<double>(touched - tracked) / kCounted;
+    counts.publish += static_cast<double>(allocations - touched) / kCounted;
   }
   return counts;
 }
@@ -87,6 +92,7 @@ TEST(Allocations, AreCounted) {
 void expect_none(const Counts& counts) {
   EXPECT_LT(counts.preprocess, 0.25);
   EXPECT_LT(counts.track, 0.25);
+  EXPECT_LT(counts.contact, 0.25);
   EXPECT_LT(counts.publish, 0.25);
 }
 

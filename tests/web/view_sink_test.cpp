@@ -25,6 +25,10 @@ TrackedFrame tracked(std::int64_t utime) {
   frame->camera = {64, 48, 50, 50, 32, 24};
   frame->depth.reset(64, 48, 500);
   TrackedFrame out{frame, {}, {}};
+  const auto contacts = std::make_shared<FrameContacts>();
+  contacts->hands.resize(1);
+  contacts->objects.emplace_back().id = 7;
+  out.contacts = contacts;
   out.estimates.push_back(std::make_shared<const HandEstimate>(estimate_of(*test::adult_hand(), {}, utime)));
   return out;
 }
@@ -44,13 +48,19 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   const TrackedFrame frame = tracked(3'000'000);
   ASSERT_TRUE(sink.consume(frame));
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLLD");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLD");
   const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
   const auto state = encode_message(messages.state), glove = encode_message(messages.glove),
              joints = encode_message(messages.joints);
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
   EXPECT_EQ(chunks[3].payload, "\x0bGLOVE_STATE" + std::string(glove.begin(), glove.end()));
   EXPECT_EQ(chunks[4].payload, "\x0bHAND_JOINTS" + std::string(joints.begin(), joints.end()));
+  EXPECT_TRUE(
+      chunks[5].payload.starts_with("\x0d"
+                                    "CONTACT_STATE"));
+  EXPECT_TRUE(
+      chunks[6].payload.starts_with("\x0c"
+                                    "OBJECT_STATE"));
 
   ASSERT_TRUE(sink.consume(tracked(3'033'000)));
   EXPECT_EQ(test::kinds_of(chunks_of(client.binary().value())).find('S'), std::string::npos) << "the skin comes once";
@@ -76,7 +86,8 @@ TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
   ASSERT_TRUE(log) << log.error().message();
   std::vector<std::string> channels;
   for (const LogEntry& entry : log->entries()) channels.push_back(entry.channel);
-  const std::vector<std::string> once = {"DESK_RGBD_FRAME", "DESK_HAND_STATE", "DESK_GLOVE_STATE", "DESK_HAND_JOINTS"};
+  const std::vector<std::string> once = {"DESK_RGBD_FRAME",  "DESK_HAND_STATE",    "DESK_GLOVE_STATE",
+                                         "DESK_HAND_JOINTS", "DESK_CONTACT_STATE", "DESK_OBJECT_STATE"};
   std::vector<std::string> twice = once;
   twice.insert(twice.end(), once.begin(), once.end());
   EXPECT_EQ(channels, twice);
@@ -141,7 +152,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   ASSERT_TRUE(sink.consume(moved(3)));
   const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLL");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLL");
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 

@@ -130,9 +130,12 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   TrackStages stages = make_track_stages(bench.config, hands, std::nullopt, {}, **workers, log);
   PipelineOptions options;
   options.threaded = !conditions.inline_stages;
-  pipeline = std::make_unique<Pipeline>(
-      PipelineStages{source, std::move(stages.preprocess), std::move(stages.track), {publish->get(), &measure}},
-      options, clock, log);
+  pipeline = std::make_unique<Pipeline>(PipelineStages{source,
+                                                       std::move(stages.preprocess),
+                                                       std::move(stages.track),
+                                                       {publish->get(), &measure},
+                                                       std::move(stages.contact)},
+                                        options, clock, log);
 
   // Begin to count when the warm-up is over.
   std::int64_t dropped_before = 0;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/eval/eval_report.h"
+#include "app/eval/stated_contacts.h"
 #include "app/eval/stated_poses.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/outputs.h"
@@ -18,7 +19,7 @@ namespace barehand {
 namespace {
 
 struct EvalOptions {
-  std::vector<std::string> truths, results, labels, states;
+  std::vector<std::string> truths, results, labels, states, contacts;
   std::string hand, plots, json, fingertips, recording;
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
@@ -37,6 +38,10 @@ Result<void> check(const EvalOptions& o) {
     return fail("--states is given " + std::to_string(o.states.size()) + " times for " +
                     std::to_string(o.truths.size()) + " truths",
                 "eval", "give a log of hand states for each --truth");
+  if (!o.contacts.empty() && o.contacts.size() != o.states.size())
+    return fail("--contacts is given " + std::to_string(o.contacts.size()) + " times for " +
+                    std::to_string(o.states.size()) + " logs of states",
+                "eval", "give a contact table for each --states");
   if (!o.labels.empty() && o.labels.size() != o.results.size())
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
@@ -53,6 +58,7 @@ Result<void> check_written(const EvalOptions& o) {
   for (const std::string& path : o.results) inputs.push_back({"--result", path});
   for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
+  for (const std::string& path : o.contacts) inputs.push_back({"--contacts", path});
 
   std::vector<Output> outputs{{"--json", o.json}};
   const auto plot = [&](const char* name) {
@@ -104,6 +110,23 @@ Result<void> judge_states(const EvalOptions& o, EvalReport& report) {
   return {};
 }
 
+Result<void> judge_contacts(const EvalOptions& o, EvalReport& report) {
+  std::vector<ContactSequence> sequences;
+  for (std::size_t i = 0; i < o.contacts.size(); ++i) {
+    auto poses = read_table(o.truths[i]);
+    if (!poses) return tl::unexpected(poses.error());
+    auto truth = read_contact_truth(o.contacts[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    auto stated = read_stated_contacts(o.states[i]);
+    if (!stated) return tl::unexpected(stated.error());
+    sequences.push_back({std::move(*poses), std::move(*truth), std::move(*stated)});
+  }
+  auto contacts = evaluate_contacts(sequences);
+  if (!contacts) return tl::unexpected(contacts.error());
+  report.contacts = std::move(*contacts);
+  return {};
+}
+
 Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
                                 const HandProfile& profile, EvalReport& report) {
   const auto labels = read_fingertip_labels(o.fingertips);
@@ -126,6 +149,8 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
   if (!o.states.empty())
     if (const auto judged = judge_states(o, report); !judged) return tl::unexpected(judged.error());
+  if (!o.contacts.empty())
+    if (const auto judged = judge_contacts(o, report); !judged) return tl::unexpected(judged.error());
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());
@@ -166,6 +191,8 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
   eval->add_option("--states", o->states,
                    "log of hand states (LCM or MCAP), one for each truth, to check the stated uncertainty");
+  eval->add_option("--contacts", o->contacts,
+                   "contact table, one for each log of states, to check the stated contacts");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");

@@ -85,6 +85,25 @@ Json to_json(const Reliability& r) {
           {"within_10_mm", to_json(r.confidences, 1)}};
 }
 
+Json to_json(const TouchCounts& c) {
+  return {{"right", c.right},
+          {"wrong", c.wrong},
+          {"missed", c.missed},
+          {"unknown", c.unknown},
+          {"precision", rounded(c.precision())},
+          {"recall", rounded(c.recall())},
+          {"f1", rounded(c.f1())}};
+}
+
+Json to_json(const ContactEvaluation& e) {
+  return {{"frames", e.frames},
+          {"visible_fingertips", to_json(e.visible_tips)},
+          {"partly_visible_fingertips", to_json(e.partial_tips)},
+          {"hidden_fingertips", to_json(e.hidden_tips)},
+          {"segments", to_json(e.segments)},
+          {"touching", to_json(e.probabilities, 1)}};
+}
+
 }  // namespace
 
 Result<void> write_json_report(const EvalReport& report, const std::string& path) {
@@ -92,6 +111,7 @@ Result<void> write_json_report(const EvalReport& report, const std::string& path
   for (const EvaluatedRun& run : report.runs) json["runs"].push_back(to_json(run, report.hand_length));
   if (report.fingertips) json["fingertips"] = to_json(*report.fingertips);
   if (report.reliability) json["reliability"] = to_json(*report.reliability);
+  if (report.contacts) json["contacts"] = to_json(*report.contacts);
   return json_fields::write_json(path, json);
 }
 

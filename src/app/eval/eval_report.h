@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "evaluation/contact_evaluation.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/fingertips.h"
 #include "evaluation/reliability.h"
@@ -32,6 +33,7 @@ struct EvalReport {
   std::optional<double> hand_length;  ///< length of the hand [m], to state errors as a fraction of it
   std::optional<FingertipEvaluation> fingertips;
   std::optional<Reliability> reliability;
+  std::optional<ContactEvaluation> contacts;
 };
 
 /// The report as text tables, in millimetres and pixels.

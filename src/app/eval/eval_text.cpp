@@ -115,6 +115,22 @@ void print_reliability(std::string& out, const Reliability& r) {
   print_bins(out, "within 10 mm [%]", r.confidences, 100);
 }
 
+void print_touches(std::string& out, const char* name, const TouchCounts& c) {
+  out += formatted("  %-22s %9zu %9zu %9zu %9zu %10.3f %10.3f %10.3f\n", name, c.right, c.wrong, c.missed, c.unknown,
+                   c.precision(), c.recall(), c.f1());
+}
+
+void print_contacts(std::string& out, const ContactEvaluation& e) {
+  out += formatted("touches of an object (within %.0f mm), %zu frames\n", kTouchDistance * kMillimetre, e.frames);
+  out += formatted("  %-22s %9s %9s %9s %9s %10s %10s %10s\n", "", "right", "wrong", "missed", "unknown", "precision",
+                   "recall", "F1");
+  print_touches(out, "fingertips visible", e.visible_tips);
+  print_touches(out, "fingertips in part", e.partial_tips);
+  print_touches(out, "fingertips hidden", e.hidden_tips);
+  print_touches(out, "all segments", e.segments);
+  print_bins(out, "touching [%]", e.probabilities, 100);
+}
+
 }  // namespace
 
 std::string text_report(const EvalReport& report) {
@@ -122,6 +138,7 @@ std::string text_report(const EvalReport& report) {
   for (const EvaluatedRun& run : report.runs) print_run(out, run, report.hand_length);
   if (report.fingertips) print_fingertips(out, *report.fingertips);
   if (report.reliability) print_reliability(out, *report.reliability);
+  if (report.contacts) print_contacts(out, *report.contacts);
   return out;
 }
 

@@ -352,7 +352,8 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 
 TrackOutcome TrackRun::run() {
   TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_);
-  PipelineStages stages{*input_.source, std::move(computing.preprocess), std::move(computing.track), {}};
+  PipelineStages stages{
+      *input_.source, std::move(computing.preprocess), std::move(computing.track), {}, std::move(computing.contact)};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;
   options.threaded = !options_.single_threaded;

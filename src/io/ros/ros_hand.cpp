@@ -142,6 +142,30 @@ void add_transforms(const HandState& hand, TFMessage& message) {
   }
 }
 
+void add_transform(const object_state_t& object, TFMessage& message) {
+  TransformStamped& transform = message.transforms.emplace_back();
+  transform.header = {time_of(object.utime).value_or(Time{}), camera_frame(object.sensor)};
+  transform.child_frame_id = "object_" + std::to_string(object.object_id);
+  transform.transform = {{object.position[0], object.position[1], object.position[2]}, quaternion(object.orientation)};
+}
+
+MarkerArray contact_markers(const HandState& hand) {
+  constexpr double kSize = 0.008;  // diameter of a sphere [m]
+  Drawing drawing(hand);
+  drawing.add("contacts", Marker::kSphere, kPalm).action = Marker::kDeleteAll;
+  const auto& contact = *hand.contact;
+  for (const auto* list : {contact.object, contact.own, contact.other_hand})
+    for (int s = 0; s < kSegmentCount; ++s) {
+      if (list[s].state != contact_state_t::TOUCHING) continue;
+      Marker& sphere = drawing.add("contacts", Marker::kSphere, s);
+      sphere.pose.position = point(Eigen::Vector3d(list[s].point));
+      sphere.scale = {kSize, kSize, kSize};
+      const float alpha = list[s].inferred ? 0.4F : 1.0F;
+      sphere.color = list == contact.object ? ColorRGBA{1, 0.5F, 0, alpha} : ColorRGBA{0.2F, 0.4F, 1, alpha};
+    }
+  return drawing.take();
+}
+
 MarkerArray markers(const HandState& hand) {
   Drawing drawing(hand);
   if (!hand.state.has_pose) {

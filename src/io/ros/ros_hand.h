@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "barehand/health_t.hpp"
+#include "barehand/object_state_t.hpp"
 #include "io/ros/ros_types.h"
 
 namespace barehand::ros {
@@ -17,6 +20,7 @@ struct HandState {
   hand_state_t state;
   glove_state_t glove;
   hand_joints_t joints;
+  std::optional<contact_state_t> contact = {};  ///< none: not known
 };
 
 /// "right" or "left": the first part of the names of a hand's joints and frames, "right_palm".
@@ -30,10 +34,15 @@ std::string side_of(const hand_state_t& state);
 JointState joint_state(const HandState& hand);
 /// Adds the transform from every segment's frame to the camera's frame.
 void add_transforms(const HandState& hand, TFMessage& message);
+/// From the frame "object_ID" of an object to the camera's.
+void add_transform(const object_state_t& object, TFMessage& message);
 /// The hand as spheres at its joints and cylinders between them, coloured by confidence from red to green and
 /// translucent if inferred, and ellipsoids of two standard deviations at the proximal ends of the segments. Without a
 /// pose, a marker that deletes what was drawn before.
 MarkerArray markers(const HandState& hand);
+/// A sphere at each place where a segment touches something: orange on an object, blue on a hand, translucent if
+/// inferred. A marker before them deletes what was drawn before. `hand.contact` must be known.
+MarkerArray contact_markers(const HandState& hand);
 /// The status of the hand and the confidence of each segment.
 DiagnosticStatus diagnostic(const HandState& hand);
 /// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE and HAND_JOINTS.

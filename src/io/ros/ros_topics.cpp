@@ -64,6 +64,7 @@ TFMessage transforms_of(const Scene& scene) {
   }
   for (const HandState& hand : scene.hands)
     if (hand.state.has_pose) add_transforms(hand, message);
+  for (const object_state_t& object : scene.objects) add_transform(object, message);
   return message;
 }
 
@@ -88,6 +89,8 @@ std::vector<Topic> topics_of(const Scene& scene) {
     if (hand.state.has_pose)
       topics.push_back(topic<JointState>(space + "/joint_states", [&hand] { return joint_state(hand); }));
     topics.push_back(topic<MarkerArray>(space + "/markers", [&hand] { return markers(hand); }));
+    if (hand.contact)
+      topics.push_back(topic<MarkerArray>(space + "/contacts", [&hand] { return contact_markers(hand); }));
   }
   if (!scene.hands.empty() || scene.health)
     topics.push_back(topic<DiagnosticArray>("/diagnostics", [&scene] { return diagnostics_of(scene); }));

@@ -21,6 +21,7 @@ struct Scene {
   std::int64_t number = 0;  ///< RgbdFrame::number
   FramePtr frame;           ///< null: the images are not known
   std::vector<HandState> hands;
+  std::vector<object_state_t> objects = {};
   std::optional<health_t> health;     ///< counters of the pipeline; none: it is not their time
   double fps = 0;                     ///< nominal frame rate, stored as metadata of the depth topic; 0: unknown
   std::optional<int> jpeg_quality;    ///< JPEG quality of the colour image; none: lossless PNG

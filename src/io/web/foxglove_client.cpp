@@ -27,6 +27,7 @@ ros::Scene scene_of(const ViewFrame::Content& content) {
   scene.number = content.number;
   scene.frame = content.frame;
   scene.hands = content.hands;
+  scene.objects = content.objects;
   scene.health = content.health;
   scene.T_world_camera = content.T_world_camera;
   scene.jpeg_quality = kJpegQuality;

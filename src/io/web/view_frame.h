@@ -44,10 +44,11 @@ class ViewFrame {
     FramePtr frame;                  ///< null: there are no images
     std::optional<ViewFocus> focus;  ///< none: no hand has a pose
     FrameVector<ViewMessage> messages;
-    std::array<ViewSkinPtr, 2> skins;   ///< skins of the hands, by Handedness; null: no such hand
-    std::vector<ros::HandState> hands;  ///< the hands' messages, not encoded, for viewers of ROS messages
-    std::optional<health_t> health;     ///< counters of the pipeline; none: it is not their time
-    std::optional<SE3> T_world_camera;  ///< none: the pose of the camera in the room is unknown
+    std::array<ViewSkinPtr, 2> skins;          ///< skins of the hands, by Handedness; null: no such hand
+    std::vector<ros::HandState> hands;         ///< the hands' messages, not encoded, for viewers of ROS messages
+    std::vector<object_state_t> objects = {};  ///< messages about objects, not encoded, likewise
+    std::optional<health_t> health;            ///< counters of the pipeline; none: it is not their time
+    std::optional<SE3> T_world_camera;         ///< none: the pose of the camera in the room is unknown
   };
   explicit ViewFrame(Content content) : content_(std::move(content)) {}
   const Content& content() const { return content_; }

@@ -1,8 +1,11 @@
 #include "pipeline/sinks/hand_message_makers.h"
 
+#include "stages/publish/contact_messages.h"
+
 namespace barehand {
 
-std::span<const HandMessages> HandMessageMakers::process(const HandEstimates& estimates) {
+FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
+  const HandEstimates& estimates = tracked.estimates;
   if (const auto params = pending_ ? pending_->take() : std::nullopt) {
     params_ = *params;
     makers_.clear();
@@ -10,7 +13,15 @@ std::span<const HandMessages> HandMessageMakers::process(const HandEstimates& es
   while (makers_.size() < estimates.size()) makers_.emplace_back(params_);
   messages_.resize(estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) messages_[k] = makers_[k].process(*estimates[k]);
-  return messages_;
+
+  // Add what they touch.
+  objects_.clear();
+  if (const FrameContacts* contacts = tracked.contacts.get()) {
+    for (std::size_t k = 0; k < estimates.size(); ++k)
+      messages_[k].contact = contact_message(*estimates[k], contacts->hands[k], contacts->objects);
+    for (const SeenObject& object : contacts->objects) objects_.push_back(object_message(*estimates[0], object));
+  }
+  return {messages_, objects_};
 }
 
 }  // namespace barehand

@@ -3,26 +3,33 @@
 #include <span>
 #include <vector>
 
+#include "barehand/object_state_t.hpp"
 #include "core/slot.h"
-#include "hand/hand_pose.h"
+#include "pipeline/sink.h"
 #include "stages/publish/hand_messages.h"
 
 namespace barehand {
 
-/// Makes the messages of all hands of every frame.
+/// The messages of one frame: of the hands in the order of the estimates, and of the objects.
+struct FrameMessages {
+  std::span<const HandMessages> hands;
+  std::span<const object_state_t> objects;
+};
+
+/// Makes the messages of all hands and objects of every frame.
 class HandMessageMakers {
  public:
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
   HandMessageMakers(const PublishParams& params, Slot<PublishParams>* pending) : params_(params), pending_(pending) {}
-  /// The messages in the order of the estimates, valid until the next call. Smoothing begins anew if parameters
-  /// changed.
-  std::span<const HandMessages> process(const HandEstimates& estimates);
+  /// The messages, valid until the next call. Smoothing begins anew if parameters changed.
+  FrameMessages process(const TrackedFrame& tracked);
 
  private:
   PublishParams params_;
   Slot<PublishParams>* pending_;
   std::vector<HandMessageMaker> makers_;  // one per hand
   std::vector<HandMessages> messages_;
+  std::vector<object_state_t> objects_;
 };
 
 }  // namespace barehand

@@ -28,8 +28,10 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   scene.frame = tracked.frame;
   scene.fps = input_.fps;
   scene.T_world_camera = input_.T_world_camera;
-  for (const HandMessages& hand : makers_.process(tracked.estimates))
-    scene.hands.push_back({hand.state, hand.glove, hand.joints});
+  const FrameMessages messages = makers_.process(tracked);
+  for (const HandMessages& hand : messages.hands)
+    scene.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact});
+  scene.objects.assign(messages.objects.begin(), messages.objects.end());
   if (input_.live && clock_.steady_us() - health_us_ >= kHealthPeriodUs) {
     health_us_ = clock_.steady_us();
     scene.health = health_message(input_.health(), clock_.utime(), input_.source);

@@ -5,10 +5,13 @@
 
 namespace barehand {
 
-Result<void> StatePublisher::send(const HandEstimates& estimates) {
+Result<void> StatePublisher::send(const TrackedFrame& tracked) {
   Result<void> result;
-  for (const HandMessages& hand : makers_.process(estimates))
+  const FrameMessages messages = makers_.process(tracked);
+  for (const HandMessages& hand : messages.hands)
     if (auto sent = publisher_.send(hand); !sent && result) result = std::move(sent);
+  for (const object_state_t& object : messages.objects)
+    if (auto sent = publisher_.send(object); !sent && result) result = std::move(sent);
   return result;
 }
 
@@ -27,7 +30,7 @@ Result<std::unique_ptr<Sink>> BusSink::create(const PublishParams& params, const
 }
 
 Result<void> BusSink::consume(const TrackedFrame& tracked) {
-  auto sent = states_.send(tracked.estimates);
+  auto sent = states_.send(tracked);
   if (!sent) return sent;
   return send_health_when_due();
 }

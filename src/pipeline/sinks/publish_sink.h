@@ -14,13 +14,14 @@
 
 namespace barehand {
 
-/// Sends the states of all hands, one after the other, on the same channels. Receivers distinguish the hands by id.
+/// Sends the states of all hands, one after the other, on the same channels, and those of the objects. Receivers
+/// distinguish the hands by id.
 class StatePublisher {
  public:
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
   StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
       : makers_(params, pending), publisher_(std::move(publisher)) {}
-  Result<void> send(const HandEstimates& estimates);
+  Result<void> send(const TrackedFrame& tracked);
   Result<void> send(const health_t& health) { return publisher_.send(health); }
 
  private:
@@ -64,7 +65,7 @@ class StatesLogSink : public Sink {
                                               const std::string& path, bool overwrite,
                                               Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "states log"; }
-  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked.estimates); }
+  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked); }
   /// Writes no log if there was no state.
   Result<void> finish() override { return log_->events() > 0 ? log_->finish() : Result<void>(); }
 

@@ -7,7 +7,7 @@
 namespace barehand {
 
 Result<void> record_frame(MessageSink& log, const std::string& prefix, const RgbdFrame& frame,
-                          std::span<const HandMessages> hands) {
+                          std::span<const HandMessages> hands, std::span<const object_state_t> objects) {
   const auto image = encode_frame(frame, {});
   if (!image) return tl::unexpected(image.error());
   auto written = log.send(prefix + "RGBD_FRAME", encode_message(*image), frame.utime);
@@ -16,6 +16,8 @@ Result<void> record_frame(MessageSink& log, const std::string& prefix, const Rgb
   if (!publisher) return tl::unexpected(publisher.error());
   for (const HandMessages& hand : hands)
     if (written) written = publisher->send(hand);
+  for (const object_state_t& object : objects)
+    if (written) written = publisher->send(object);
   return written;
 }
 

@@ -36,13 +36,15 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
 
   // Make the messages even if no client is connected, so that later ones are smoothed with the same history as on the
   // bus.
-  const std::span<const HandMessages> hands = makers_.process(tracked.estimates);
-  if (server_.has_clients()) server_.show(make_frame(tracked, hands));
+  const FrameMessages messages = makers_.process(tracked);
+  if (server_.has_clients()) server_.show(make_frame(tracked, messages));
   if (input_.recorder && input_.recorder->recording())
-    input_.recorder->post(tracked.frame->utime, [frame = tracked.frame, prefix = input_.prefix,
-                                                 copies = std::vector(hands.begin(), hands.end())](auto& log) {
-      return record_frame(log, prefix, *frame, copies);
-    });
+    input_.recorder->post(tracked.frame->utime,
+                          [frame = tracked.frame, prefix = input_.prefix,
+                           hands = std::vector(messages.hands.begin(), messages.hands.end()),
+                           objects = std::vector(messages.objects.begin(), messages.objects.end())](auto& log) {
+                            return record_frame(log, prefix, *frame, hands, objects);
+                          });
   return idle();
 }
 
@@ -60,7 +62,7 @@ Result<void> ViewSink::finish() {
 /// the effect of the button.
 bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
-ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, std::span<const HandMessages> hands) {
+ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const FrameMessages& messages) {
   ViewFrame::Content content;
   content.utime = tracked.frame->utime;
   content.number = tracked.frame->number;
@@ -70,12 +72,16 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, std::span<const H
     const HandEstimate& estimate = *tracked.estimates[k];
     if (estimate.has_pose())
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
-    content.messages.push_back(encoded("HAND_STATE", hands[k].state));
-    content.messages.push_back(encoded("GLOVE_STATE", hands[k].glove));
-    content.messages.push_back(encoded("HAND_JOINTS", hands[k].joints));
-    content.hands.push_back({hands[k].state, hands[k].glove, hands[k].joints});
+    const HandMessages& hand = messages.hands[k];
+    content.messages.push_back(encoded("HAND_STATE", hand.state));
+    content.messages.push_back(encoded("GLOVE_STATE", hand.glove));
+    content.messages.push_back(encoded("HAND_JOINTS", hand.joints));
+    if (hand.contact) content.messages.push_back(encoded("CONTACT_STATE", *hand.contact));
+    content.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
+  for (const object_state_t& object : messages.objects) content.messages.push_back(encoded("OBJECT_STATE", object));
+  content.objects.assign(messages.objects.begin(), messages.objects.end());
   content.focus = focus_on(places, tracked.frame->camera);
   content.T_world_camera = input_.T_world_camera;
   if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as in the status of the page

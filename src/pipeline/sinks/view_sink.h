@@ -39,7 +39,7 @@ class ViewSink : public Sink {
   Result<void> finish() override;
 
  private:
-  ViewFramePtr make_frame(const TrackedFrame& tracked, std::span<const HandMessages> hands);
+  ViewFramePtr make_frame(const TrackedFrame& tracked, const FrameMessages& messages);
   bool recording_changed() const;
   ViewSkinPtr skin_of(const HandEstimate& estimate);
   void show_status();

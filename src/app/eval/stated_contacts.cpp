@@ -1,0 +1,43 @@
+#include "app/eval/stated_contacts.h"
+
+#include <optional>
+
+#include "barehand/contact_state_t.hpp"
+#include "drivers/lcm/layouts.h"
+#include "io/lcm/lcm_log_reader.h"
+
+namespace barehand {
+
+Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
+  auto log = LcmLogReader::open(log_path);
+  if (!log) return tl::unexpected(log.error());
+  StatedContacts contacts;
+  std::optional<std::int8_t> side;
+  for (const LogEntry& entry : log->entries()) {
+    if (entry.hash != contact_state_t::getHash()) continue;
+    const auto bytes = log->read(entry);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto state = decode_message<contact_state_t>(*bytes);
+    if (!state) continue;
+
+    // A truth is that of one hand.
+    if (state->handedness != side.value_or(state->handedness))
+      return fail("holds the contacts of two hands, and a truth is one hand's", log_path,
+                  "track the hand alone: --hand right or --hand left");
+    side = state->handedness;
+
+    auto& segments = contacts[state->utime];
+    for (int s = 0; s < kSegmentCount; ++s) {
+      const segment_contact_t& stated = state->object[s];
+      const bool known = stated.state != contact_state_t::UNKNOWN && stated.probability >= 0 && stated.probability <= 1;
+      segments[s] = {known, stated.state == contact_state_t::TOUCHING, stated.probability,
+                     Eigen::Vector3d(stated.point)};
+    }
+  }
+  if (contacts.empty())
+    return fail("holds no contacts", log_path,
+                "give a log written by barehand track --states-log with contact.enabled: true");
+  return contacts;
+}
+
+}  // namespace barehand

@@ -1,0 +1,111 @@
+#include "evaluation/contact_evaluation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "io/file_bytes.h"
+
+namespace barehand {
+namespace {
+
+constexpr double kVisible = 0.5, kHidden = 0.1;  // as in the evaluation of poses
+constexpr int kBins = 10;
+constexpr double kFarthest = 1e6;  // largest distance of a valid row [m]
+
+/// Parses one number; returns false if the text is anything else.
+template <class Number>
+bool parse(const std::string& text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+void count(TouchCounts& counts, const StatedContact& stated, bool touches) {
+  counts.unknown += !stated.known;
+  if (touches)
+    ++(stated.touching ? counts.right : counts.missed);
+  else
+    ++(stated.touching ? counts.wrong : counts.none);
+}
+
+}  // namespace
+
+Result<ContactTruth> read_contact_truth(const std::string& path) {
+  auto content = read_text(path);
+  if (!content) return tl::unexpected(content.error());
+  std::istringstream file(std::move(*content));
+  std::string line;
+  std::getline(file, line);
+  if (!line.starts_with("utime,segment,distance"))
+    return fail("line 1 is not the header of a contact table", path, "it must begin with \"utime,segment,distance\"");
+
+  // Read line by line; normals are not compared.
+  ContactTruth truth;
+  for (int number = 2; std::getline(file, line); ++number) {
+    if (line.empty()) continue;
+    std::istringstream fields(line);
+    std::string utime_text, name, distance_text;
+    std::getline(fields, utime_text, ',');
+    std::getline(fields, name, ',');
+    std::getline(fields, distance_text, ',');
+    std::int64_t utime = 0;
+    TrueContact contact;
+    const auto segment = segment_from_name(name);
+    bool good = segment && parse(utime_text, utime) && parse(distance_text, contact.distance);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string coordinate;
+      std::getline(fields, coordinate, ',');
+      good = good && parse(coordinate, contact.point[axis]) && std::abs(contact.point[axis]) <= kFarthest;
+    }
+    if (!good || !(std::abs(contact.distance) <= kFarthest))
+      return fail("line " + std::to_string(number) + ": is \"" + line + "\"", path,
+                  "a line begins with utime,segment,distance,x,y,z");
+    auto [frame, is_new] = truth.try_emplace(utime);
+    if (is_new) frame->second.fill({kFarthest, Eigen::Vector3d::Constant(kFarthest)});  // without a row: no touch
+    frame->second[static_cast<std::size_t>(*segment)] = contact;
+  }
+  return truth;
+}
+
+Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& sequences) {
+  ContactEvaluation out;
+  std::array<ReliabilityBin, kBins> bins{};
+  for (const auto& [poses, truth, stated] : sequences)
+    for (const TableFrame& frame : poses.frames) {
+      const auto utime = static_cast<std::int64_t>(std::llround(frame.timestamp * 1e6));
+      const auto is = truth.find(utime);
+      const auto said = stated.find(utime);
+      if (is == truth.end() || said == stated.end()) continue;
+      ++out.frames;
+
+      // Compare segment by segment.
+      for (int s = 0; s < kSegmentCount; ++s) {
+        const bool touches = is->second[s].distance <= kTouchDistance;
+        StatedContact contact = said->second[s];
+        const bool elsewhere = contact.touching && (contact.point - is->second[s].point).norm() > kSameSurface;
+        if (elsewhere && !touches) contact = {true, false, 0, contact.point};
+        count(out.segments, contact, touches);
+        const double visible = frame.rows[s].visible;
+        if (is_tip(s))
+          count(visible > kVisible  ? out.visible_tips
+                : visible < kHidden ? out.hidden_tips
+                                    : out.partial_tips,
+                contact, touches);
+        if (!contact.known) continue;
+        ReliabilityBin& bin = bins[std::clamp(static_cast<int>(contact.probability * kBins), 0, kBins - 1)];
+        ++bin.count;
+        bin.stated += contact.probability;
+        bin.actual += touches;
+      }
+    }
+
+  // It is an error if there was nothing to compare.
+  if (out.frames == 0)
+    return fail("have no frame in common with the truth", "the contacts", "give the truth of the same recording");
+  for (const ReliabilityBin& bin : bins)
+    if (bin.count > 0) out.probabilities.push_back({bin.count, bin.stated / bin.count, bin.actual / bin.count});
+  return out;
+}
+
+}  // namespace barehand

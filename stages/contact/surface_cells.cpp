@@ -1,0 +1,165 @@
+#include "stages/contact/surface_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float kSpacing = 0.0035f;    // size of a cell [m]
+constexpr float kStep = 0.008f;        // largest difference in depth of neighbouring cells of one surface [m]
+constexpr float kSurroundings = 0.2f;  // how far from the middle of the hand surfaces are looked at [m]
+constexpr float kCrease = 0.35f;       // how much the normals of neighbouring cells close up at a crease
+constexpr int kWindow = 2;             // cells to each side that a plane is fitted to
+constexpr int kFewest = 6;             // cells that a plane needs
+constexpr std::int32_t kOther = -1, kSeed = -2;
+
+/// Whether a point belongs to the forearm, which is not tracked: behind the wrist, within a cone that an arm reaches.
+bool on_forearm(const SE3& T_palm_camera, const Eigen::Vector3d& p) {
+  constexpr double kReach = 0.16, kSlant = 0.3, kWrist = 0.06, kHand = 0.015;
+  const Eigen::Vector3d q = T_palm_camera * p;
+  if (q.z() < -kHand || q.norm() > kReach) return false;
+  return q.z() > kSlant * q.norm() || q.norm() < kWrist;
+}
+
+/// Whether another hand of the frame claims a pixel, given in coordinates of the frame.
+bool of_other_hand(const HandObservations& observations, std::size_t own, int u, int v) {
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const HandObservation& other = *observations[k];
+    if (k == own || !other.label.contains(u - other.u0, v - other.v0)) continue;
+    if (other.label.at(u - other.u0, v - other.v0) == PixelLabel::hand) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void SurfaceCells::collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
+                           std::vector<SurfacePoint>& points, std::vector<bool>& open) {
+  const auto first = static_cast<std::int32_t>(open.size());
+  fill_cells(observations, *estimates[k], k);
+  fit_planes();
+  grow(open);
+  for (std::size_t i = 0; i < component_.size(); ++i) {
+    if (component_[i] < first) continue;
+    SurfacePoint& point = points.emplace_back();
+    point.p = fitted_[i];
+    point.n = normal_[i];
+    point.component = component_[i];
+  }
+}
+
+/// Takes over the depth of every cell that may be an object's, and marks those that are labelled so.
+void SurfaceCells::fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k) {
+  const HandObservation& seen = *observations[k];
+  const SE3 T_palm_camera = estimate.segments[kPalm].T_camera_segment.inverse();
+  const Vector3f middle = estimate.segments[segment_of(2, 0)].T_camera_segment.t.cast<float>();
+  const double z_palm = std::max(0.1, estimate.segments[kPalm].T_camera_segment.t.z());
+  step_ = std::max(1, static_cast<int>(std::lround(kSpacing * seen.frame->camera.fx / z_palm)));
+  place_.reset(seen.depth.width() / step_, seen.depth.height() / step_, Vector3f::Zero());
+  component_.reset(place_.width(), place_.height(), kOther);
+  beyond_.reset(place_.width(), place_.height(), 0);
+
+  for (int r = 0; r < place_.height(); ++r)
+    for (int c = 0; c < place_.width(); ++c) {
+      const int u = c * step_, v = r * step_;
+      const PixelLabel label = seen.label.at(u, v);
+      if (label != PixelLabel::object && label != PixelLabel::background) continue;
+      const Vector3f p = seen.point(u, v);
+      if (p.z() <= 0 || on_forearm(T_palm_camera, p.cast<double>())) continue;
+      if (of_other_hand(observations, k, u + seen.u0, v + seen.v0)) continue;
+      if ((p - middle).squaredNorm() > kSurroundings * kSurroundings) {
+        beyond_.at(c, r) = std::abs(p.z() - middle.z()) < kSurroundings;
+        continue;
+      }
+      place_.at(c, r) = p;
+      if (label == PixelLabel::object) component_.at(c, r) = kSeed;
+    }
+}
+
+/// Fits a plane z = a + b x + c y to the cells around each cell, those of other surfaces left out.
+void SurfaceCells::fit_planes() {
+  SurfacePoint point;
+  fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
+  normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
+  for (int r = 0; r < place_.height(); ++r)
+    for (int c = 0; c < place_.width(); ++c) {
+      if (place_.at(c, r).z() <= 0 || !fit(c, r, point)) continue;
+      fitted_.at(c, r) = point.p;
+      normal_.at(c, r) = point.n;
+    }
+}
+
+bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
+  const Vector3f centre = place_.at(c, r);
+  int count = 0;
+  Vector3f mean = Vector3f::Zero();
+  float xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+
+  // Add up the moments relative to the centre.
+  for (int y = std::max(0, r - kWindow); y <= std::min(place_.height() - 1, r + kWindow); ++y)
+    for (int x = std::max(0, c - kWindow); x <= std::min(place_.width() - 1, c + kWindow); ++x) {
+      const Vector3f& p = place_.at(x, y);
+      if (p.z() <= 0 || std::abs(p.z() - centre.z()) > kStep * kWindow) continue;
+      const Vector3f d = p - centre;
+      ++count;
+      mean += d;
+      xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y(), xz += d.x() * d.z(), yz += d.y() * d.z();
+    }
+  if (count < kFewest) return false;
+
+  // Solve for the slopes; a narrow strip has none across itself.
+  mean /= static_cast<float>(count);
+  const float n = static_cast<float>(count), weak = 0.01f * (xx + yy);
+  xx += weak - n * mean.x() * mean.x(), yy += weak - n * mean.y() * mean.y(), xy -= n * mean.x() * mean.y();
+  xz -= n * mean.x() * mean.z(), yz -= n * mean.y() * mean.z();
+  const float determinant = xx * yy - xy * xy;
+  if (!(determinant > 0)) return false;
+  const float b = (yy * xz - xy * yz) / determinant, s = (xx * yz - xy * xz) / determinant;
+
+  point.p = centre;
+  point.p.z() += mean.z() - b * mean.x() - s * mean.y();
+  point.n = Vector3f(b, s, -1).normalized();
+  if (point.n.dot(point.p) > 0) point.n = -point.n;
+  return true;
+}
+
+/// Numbers the connected surfaces that contain an object's cell. Surfaces end at steps in depth and at creases, where
+/// one thing stands on another. A surface that reaches the border of the region continues there.
+void SurfaceCells::grow(std::vector<bool>& open) {
+  const int width = place_.width();
+  const auto joined = [&](std::int32_t i, std::int32_t j) {
+    if (normal_[j].isZero() || std::abs(place_[j].z() - place_[i].z()) > kStep) return false;
+    const Vector3f step = fitted_[j] - fitted_[i];
+    return step.dot(normal_[i] - normal_[j]) < kCrease * step.norm();
+  };
+  for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(component_.size()); ++seed) {
+    if (component_[seed] != kSeed || normal_[seed].isZero()) continue;
+    const auto number = static_cast<std::int32_t>(open.size());
+    bool at_border = false;
+    stack_.assign(1, seed);
+    component_[seed] = number;
+
+    // Visit all cells that are connected with it.
+    while (!stack_.empty()) {
+      const std::int32_t i = stack_.back();
+      stack_.pop_back();
+      const int c = i % width, r = i / width;
+      for (const auto& [dc, dr] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        if (!place_.contains(c + dc, r + dr) || beyond_.at(c + dc, r + dr)) {
+          at_border = true;
+          continue;
+        }
+        const auto j = static_cast<std::int32_t>(place_.index(c + dc, r + dr));
+        if (component_[j] >= 0 || !joined(i, j)) continue;
+        component_[j] = number;
+        stack_.push_back(j);
+      }
+    }
+    open.push_back(at_border);
+  }
+}
+
+}  // namespace barehand

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hand/hand_pose.h"
+#include "observe/observation.h"
+
+namespace barehand {
+
+/// A point on the seen surface of something that is no hand. Camera frame [m].
+struct SurfacePoint {
+  Eigen::Vector3f p, n;        ///< place and outward unit normal
+  std::int32_t component = 0;  ///< the connected surface that it belongs to
+  std::int32_t object = -1;    ///< SeenObject::id; -1: none
+  bool seen = true;            ///< in this frame; false: in an earlier one
+};
+
+/// Finds surfaces near a hand that belong neither to a hand nor to its forearm: the object pixels of an observation and
+/// what is connected with them in depth, on a grid of cells of about 3.5 mm. Reuses its memory.
+class SurfaceCells {
+ public:
+  /// Appends the points of observation `k`, whose estimate must have a pose. Components are numbered from the size of
+  /// `open` on; for each one `open` gets whether it continues out of view, as a table or a body does.
+  void collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
+               std::vector<SurfacePoint>& points, std::vector<bool>& open);
+
+ private:
+  void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k);
+  void fit_planes();
+  void grow(std::vector<bool>& open);
+  bool fit(int c, int r, SurfacePoint& point) const;
+
+  int step_ = 1;                            // pixels per cell
+  Image<Eigen::Vector3f> place_;            // of each cell that is no hand and no arm, camera frame [m]; z = 0: none
+  Image<Eigen::Vector3f> fitted_, normal_;  // of its plane; the normal is zero where there is none
+  Image<std::uint8_t> beyond_;              // 1: a surface that is too far away to be looked at
+  Image<std::int32_t> component_;           // of each cell; kSeed: object, kOther: not reached yet
+  std::vector<std::int32_t> stack_;
+};
+
+}  // namespace barehand

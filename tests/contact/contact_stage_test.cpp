@@ -1,0 +1,129 @@
+#include "stages/contact/contact_stage.h"
+
+#include <gtest/gtest.h>
+
+#include "hand/skin.h"
+#include "math/angles.h"
+#include "support/painted_hand.h"
+
+namespace barehand {
+namespace {
+
+/// A flat hand that shows its palm to the camera, its back to a wall.
+class Contacts : public testing::Test {
+ protected:
+  Contacts() {
+    pose_ = test::facing_pose(*profile_, 0.5, 0);
+    std::vector<Eigen::Vector3f> posed;
+    pose_skin(skin_, pose_, posed);
+    back_.fill(0);
+    for (std::size_t i = 0; i < posed.size(); ++i)
+      if (skin_.vertices[i].weight_b == 0)
+        back_[skin_.vertices[i].a] = std::max<double>(back_[skin_.vertices[i].a], posed[i].z());
+  }
+
+  std::shared_ptr<HandEstimate> estimate() const {
+    auto estimate = std::make_shared<HandEstimate>();
+    estimate->status = TrackStatus::tracking;
+    estimate->hand_id = 1;
+    estimate->profile = profile_;
+    for (int s = 0; s < kSegmentCount; ++s) {
+      SegmentState& segment = estimate->segments[s];
+      segment.T_camera_segment = pose_[s];
+      segment.covariance = 1e-6 * Matrix6d::Identity();
+      segment.visible = 1;
+      segment.seen = true;
+    }
+    return estimate;
+  }
+  /// What the hand touches before a wall.
+  HandContacts before(double wall, const std::shared_ptr<HandEstimate>& estimate) {
+    auto observation = test::observe_skin(skin_, pose_, wall);
+    for (std::size_t i = 0; i < observation->label.size(); ++i)
+      if (observation->label[i] == PixelLabel::background) observation->label[i] = PixelLabel::object;
+    ContactStage stage{{}};
+    return stage.process({observation}, {estimate}).value()->hands[0];
+  }
+
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  Skin skin_ = make_blended_skin(*profile_, 0.004);
+  HandPose pose_;
+  std::array<double, kSegmentCount> back_{};  // farthest skin of each segment [m]
+};
+
+TEST_F(Contacts, DistancesToAWallAreThoseOfTheSkin) {
+  const int tip = segment_of(2, 2);
+  for (const double gap : {0.0, 0.01, 0.02}) {
+    const HandContacts contacts = before(back_[tip] + gap, estimate());
+    for (int finger = 1; finger < kFingerCount; ++finger) {
+      const int s = segment_of(finger, 2);
+      const double truth = back_[tip] + gap - back_[s];
+      EXPECT_NEAR(contacts.object[s].distance, truth, 0.004) << gap << " m, " << kSegmentNames[s];
+      EXPECT_LT(contacts.object[s].normal.z(), -0.9);
+    }
+  }
+}
+
+TEST_F(Contacts, StatesFollowTheDistance) {
+  const int tip = segment_of(2, 2);
+  const auto state = [&](double gap) { return before(back_[tip] + gap, estimate()).object[tip].state; };
+  EXPECT_EQ(state(0), ContactState::touching);
+  EXPECT_EQ(state(0.014), ContactState::near);
+  EXPECT_EQ(state(0.1), ContactState::none);
+}
+
+TEST_F(Contacts, AnUncertainPoseTempersTheProbability) {
+  const int tip = segment_of(2, 2);
+  const auto sure = estimate(), unsure = estimate();
+  unsure->segments[tip].covariance *= 100;
+  const Contact a = before(back_[tip], sure).object[tip], b = before(back_[tip], unsure).object[tip];
+  EXPECT_EQ(a.distance, b.distance);
+  EXPECT_GT(b.deviation, a.deviation + 0.005);
+  EXPECT_GT(a.probability, b.probability + 0.1);
+}
+
+TEST_F(Contacts, NothingIsSaidOfSegmentsThatAreNotSeen) {
+  const int tip = segment_of(2, 2);
+  const auto hidden = estimate();
+  hidden->segments[tip].seen = false;
+  hidden->segments[tip].visible = 0;
+  EXPECT_EQ(before(back_[tip] + 0.1, hidden).object[tip].state, ContactState::unknown);
+  const Contact touching = before(back_[tip], hidden).object[tip];
+  EXPECT_EQ(touching.state, ContactState::touching);
+  EXPECT_TRUE(touching.inferred);
+}
+
+TEST_F(Contacts, AHandThatIsNotTrackedHasNone) {
+  const auto lost = estimate();
+  lost->status = TrackStatus::holding;
+  for (const Contact& contact : before(back_[kPalm], lost).object) {
+    EXPECT_EQ(contact.state, ContactState::unknown);
+    EXPECT_TRUE(std::isnan(contact.probability));
+  }
+}
+
+TEST_F(Contacts, ThumbAndIndexOfAFlatHandDoNotTouchButAFistTouchesItself) {
+  EXPECT_EQ(before(1.2, estimate()).own[segment_of(0, 2)].state, ContactState::none);
+  pose_ = test::facing_pose(*profile_, 0.5, 85 * kDegree);
+  const Contact middle = before(1.2, estimate()).own[segment_of(2, 2)];
+  EXPECT_GE(middle.state, ContactState::near);
+  EXPECT_GE(middle.segment, 0);
+}
+
+TEST_F(Contacts, TwoHandsThatMeetTouchEachOther) {
+  const auto right = estimate();
+  const auto left = std::make_shared<HandEstimate>(*right);
+  left->hand_id = 2;
+  for (SegmentState& segment : left->segments) segment.T_camera_segment.t.z() += 0.02;
+  const auto observation = test::observe_skin(skin_, pose_);
+  ContactStage stage{{}};
+  const FrameContactsPtr contacts = stage.process({observation, observation}, {right, left}).value();
+  const Contact& tip = contacts->hands[0].other_hand[segment_of(2, 2)];
+  EXPECT_NE(tip.state, ContactState::none);
+  EXPECT_EQ(tip.partner, 2);
+  EXPECT_EQ(contacts->hands[1].other_hand[segment_of(2, 2)].partner, 1);
+  EXPECT_EQ(before(1.2, right).other_hand[segment_of(2, 2)].state, ContactState::unknown) << "there is no other hand";
+}
+
+}  // namespace
+}  // namespace barehand

@@ -1,0 +1,105 @@
+#include "stages/contact/object_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr std::int64_t kFrame = 33'000;  // [us]
+
+/// Frames with a palm and square pieces of surface.
+class Objects : public testing::Test {
+ protected:
+  void piece(const Vector3f& centre, bool open = false) {
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j)
+        points_.push_back({centre + Vector3f(0.003f * i, 0.003f * j, 0), {0, 0, -1}, static_cast<int>(open_.size())});
+    open_.push_back(open);
+  }
+  /// Tracks one frame with the pieces that were added since the last one.
+  const FrameVector<SeenObject>& frame(const Eigen::Vector3d& palm = {0, 0, 0.5}) {
+    auto estimate = std::make_shared<HandEstimate>();
+    estimate->status = TrackStatus::tracking;
+    estimate->hand_id = 3;
+    estimate->segments[kPalm].T_camera_segment.t = palm;
+    objects_.clear();
+    utime_ += kFrame;
+    tracker_.process(utime_, {estimate}, open_, points_, objects_);
+    left_ = points_;
+    points_.clear();
+    open_.clear();
+    return objects_;
+  }
+
+  ObjectTracker tracker_;
+  std::vector<SurfacePoint> points_, left_;
+  std::vector<bool> open_;
+  FrameVector<SeenObject> objects_;
+  std::int64_t utime_ = 0;
+};
+
+TEST_F(Objects, PiecesAFingersWidthApartAreOneAndFarOnesAreTwo) {
+  piece({0, 0, 0.5f});
+  piece({0.035f, 0, 0.5f});  // 11 mm between their borders
+  EXPECT_EQ(frame().size(), 1u);
+  piece({0, 0, 0.5f});
+  piece({0.09f, 0, 0.5f});
+  EXPECT_EQ(frame().size(), 2u);
+}
+
+TEST_F(Objects, AnIdStaysWhileTheObjectMoves) {
+  piece({0, 0, 0.5f});
+  const std::int32_t id = frame()[0].id;
+  for (int k = 1; k < 10; ++k) {
+    piece({0.02f * k, 0, 0.5f});
+    ASSERT_EQ(frame().size(), 1u);
+    EXPECT_EQ(objects_[0].id, id);
+    EXPECT_EQ(left_[0].object, id);
+  }
+}
+
+TEST_F(Objects, AnotherPlaceOrALongAbsenceIsAnotherObject) {
+  piece({0, 0, 0.5f});
+  const std::int32_t first = frame()[0].id;
+  piece({0.2f, 0, 0.5f});
+  const std::int32_t second = frame()[0].id;
+  EXPECT_NE(second, first);
+  for (int k = 0; k < 20; ++k) frame();
+  piece({0.2f, 0, 0.5f});
+  EXPECT_NE(frame()[0].id, second);
+}
+
+TEST_F(Objects, SpecksAreNone) {
+  points_.assign(5, {{0, 0, 0.5f}, {0, 0, -1}, 0});
+  open_ = {false};
+  EXPECT_TRUE(frame().empty());
+  EXPECT_TRUE(left_.empty());
+}
+
+TEST_F(Objects, WhatMovesWithThePalmIsHeldUntilItIsLeft) {
+  for (int k = 0; k < 5; ++k) {
+    piece({0.01f * k, 0, 0.45f});
+    frame({0.01 * k, 0, 0.5});
+  }
+  EXPECT_TRUE(objects_[0].held);
+  EXPECT_EQ(objects_[0].hand_id, 3);
+  const std::int64_t since = objects_[0].since;
+  EXPECT_GT(since, kFrame) << "it was not known to be held in its first frame";
+
+  piece({0.05f, 0, 0.45f});
+  EXPECT_EQ(frame({0.05, 0, 0.5})[0].since, since);
+  piece({0.05f, 0, 0.45f});
+  EXPECT_FALSE(frame({0.15, 0, 0.5})[0].held) << "put down";
+}
+
+TEST_F(Objects, WhatContinuesOutOfViewIsNeverHeld) {
+  for (int k = 0; k < 5; ++k) {
+    piece({0.01f * k, 0, 0.45f}, true);
+    EXPECT_FALSE(frame({0.01 * k, 0, 0.5})[0].held);
+  }
+}
+
+}  // namespace
+}  // namespace barehand
