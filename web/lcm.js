@@ -44,6 +44,31 @@ export function decodeGloveState(view) {
           channel_raw: read.doubles(22), channel_flag: read.int8s(22)};
 }
 
+function segmentContact(read) {
+  return {state: read.int8(), inferred: read.int8() !== 0, probability: read.double(), distance: read.double(),
+          deviation: read.double(), point: read.doubles(3), normal: read.doubles(3), point_in_object: read.doubles(3),
+          normal_in_object: read.doubles(3), partner: read.int32(), segment: read.int8()};
+}
+
+// Decodes a contact_state_t; points are in the camera frame, in metres, NaN if unknown.
+export function decodeContactState(view) {
+  const read = new Reader(view, 8), contacts = () => Array.from({length: 16}, () => segmentContact(read));
+  return {...header(read), object: contacts(), own: contacts(), other_hand: contacts()};
+}
+
+// Decodes an object_state_t; its pose maps the object's frame to the camera's.
+export function decodeObjectState(view) {
+  const read = new Reader(view, 8);
+  return {utime: read.int64(), frame_number: read.int64(), sensor: read.string(), object_id: read.int32(),
+          position: read.doubles(3), orientation: read.doubles(4), linear_velocity: read.doubles(3),
+          angular_velocity: read.doubles(3), covariance: read.doubles(36), extent: read.doubles(3),
+          held: read.int8() !== 0, hand_id: read.int32(), since: read.int64()};
+}
+
+export const kTouching = 3;  // state of a contact
+export const kSegmentNames = ["palm", ...["thumb", "index", "middle", "ring", "little"].flatMap((finger) =>
+  (finger === "thumb" ? ["metacarpal", "proximal", "distal"] : ["proximal", "intermediate", "distal"])
+    .map((bone) => `${finger} ${bone}`))];
 export const kStatusNames = ["searching", "tracking", "holding", "lost"];
 export const kSideNames = ["left", "right"];
 export const kGloveChannels = ["thumb rotate", "thumb MPJ", "thumb IJ", "thumb abd", "index MPJ", "index PIJ",

@@ -12,7 +12,7 @@ const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
 const kSlowFrameMs = 3000;  // time without a frame after which the page reports it
 
-const state = {view: "follow", cloud: "hand", ellipsoids: false, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
+const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // skins that arrived before the 3D view was ready
 let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
@@ -85,7 +85,7 @@ function loop(now) {
   if (now - (loop.slowAt || 0) > 100) {
     loop.slowAt = now;
     plots.draw(theme());
-    if (shown && open) showHands(shown.states);
+    if (shown && open) showHands(shown.states, shown.contacts, shown.objects);
     meter.show(status && status.live, performance.now());
     notice(problem());
   }
@@ -144,7 +144,7 @@ function applyState() {
   connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
   if (!scene) return;
   if (scene.view !== state.view) scene.setView(state.view);
-  Object.assign(scene.options, {smoothed: !state.raw, ellipsoids: state.ellipsoids, floor: state.floor});
+  Object.assign(scene.options, {smoothed: !state.raw, ellipsoids: state.ellipsoids, touches: state.touches, floor: state.floor});
   if (!shown) return;
   showPicture(shown);
   scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
@@ -167,7 +167,7 @@ function onKey(event) {
   if (event.key === " " && event.target.tagName === "BUTTON") return;  // the browser presses the focused button
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
-    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
+    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: () => toggle("touches"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
     p: () => set({picture: next(kPictures, state.picture)}),
     h: () => { plots.side = 1 - plots.side; },
     s: saveScreenshot, v: () => recorder.press(), t: () => setTheme(theme() === "dark" ? "light" : "dark"),

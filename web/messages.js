@@ -1,5 +1,5 @@
 // Decodes the binary messages of the WebSocket (docs/view_protocol.md lists their chunks).
-import {decodeGloveState, decodeHandState} from "./lcm.js";
+import {decodeContactState, decodeGloveState, decodeHandState, decodeObjectState} from "./lcm.js";
 
 function lcmMessage(view, frame) {
   const length = view.getUint8(0);
@@ -7,6 +7,8 @@ function lcmMessage(view, frame) {
   const message = new DataView(view.buffer, view.byteOffset + 1 + length, view.byteLength - 1 - length);
   if (channel === "HAND_STATE") frame.states.push(decodeHandState(message));
   if (channel === "GLOVE_STATE") frame.gloves.push(decodeGloveState(message));
+  if (channel === "CONTACT_STATE") frame.contacts.push(decodeContactState(message));
+  if (channel === "OBJECT_STATE") frame.objects.push(decodeObjectState(message));
 }
 
 function header(view) {
@@ -35,9 +37,10 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// Decodes a message to {header, states, gloves, skins, cloud, picture}; header, cloud and picture are null if missing.
+// Decodes a message to {header, states, gloves, contacts, objects, skins, cloud, picture}; header, cloud and picture are
+// null if missing.
 export function decodeFrame(buffer) {
-  const frame = {header: null, states: [], gloves: [], skins: [], cloud: null, picture: null};
+  const frame = {header: null, states: [], gloves: [], contacts: [], objects: [], skins: [], cloud: null, picture: null};
   const whole = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
     const kind = String.fromCharCode(whole.getUint8(at)), index = whole.getUint8(at + 1);

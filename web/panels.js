@@ -1,5 +1,5 @@
 // The panels with text and numbers: the states of the hands, the health of the pipeline, and notices over the view.
-import {kSideNames, kStatusNames} from "./lcm.js";
+import {kSegmentNames, kSideNames, kStatusNames, kTouching} from "./lcm.js";
 
 const byId = (id) => document.getElementById(id);
 const kChip = {searching: "warn", tracking: "good", holding: "warn", lost: "lost"};
@@ -11,7 +11,21 @@ function element(tag, text, attributes = {}) {
   return made;
 }
 
-export function showHands(states) {
+// What a hand holds and where it touches something, in words; "" without contacts.
+function touchesOf(state, contacts, objects) {
+  const contact = contacts.find((c) => c.hand_id === state.hand_id);
+  if (!contact) return "";
+  const touching = (list) => list.flatMap((c, s) => c.state === kTouching ? [kSegmentNames[s] + (c.inferred ? " (inferred)" : "")] : []);
+  const held = objects.filter((object) => object.held && object.hand_id === state.hand_id);
+  const parts = held.map((object) => `Holds object ${object.object_id}.`);
+  for (const [list, what] of [[contact.object, "an object"], [contact.own, "the hand itself"], [contact.other_hand, "the other hand"]]) {
+    const names = touching(list);
+    if (names.length > 0) parts.push(`Touches ${what}: ${names.join(", ")}.`);
+  }
+  return parts.join(" ");
+}
+
+export function showHands(states, contacts = [], objects = []) {
   const box = byId("hands");
   if (states.length === 0) { box.textContent = "Not known."; return; }
   box.replaceChildren(...states.map((state) => {
@@ -24,6 +38,8 @@ export function showHands(states) {
     row.append(element("span", state.has_pose
       ? `${seen} of 16 segments seen, mean confidence ${mean.toFixed(2)}, mismatch ${(state.score * 1e3).toFixed(1)} mm`
       : "No pose.", {class: "numbers"}));
+    const touches = touchesOf(state, contacts, objects);
+    if (touches) row.append(element("span", touches, {class: "numbers touches"}));
     return row;
   }));
 }

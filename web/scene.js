@@ -7,6 +7,7 @@ import {Cloud} from "./cloud.js";
 import {Ellipsoids} from "./ellipsoids.js";
 import {HandMesh} from "./hand_mesh.js";
 import {Room, placeOf} from "./room.js";
+import {Touches} from "./touches.js";
 
 const kFieldOfView = 45;  // vertical field of view of the free views [degrees]
 const kBeside = 0.1, kAbove = 0.12, kBack = 0.38;  // initial offset of the eye from the hand [m]
@@ -38,6 +39,7 @@ export class Scene {
     this.room = new Room(this.scene);
     this.hands = [new HandMesh(this.root), new HandMesh(this.root)];
     this.ellipsoids = [new Ellipsoids(this.root), new Ellipsoids(this.root)];
+    this.touches = new Touches(this.root);
     this.cloud = new Cloud(this.root);
 
     this.free = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.02, 20);
@@ -47,7 +49,7 @@ export class Scene {
     this.setRoom(null);
 
     this.view = "follow";
-    this.options = {smoothed: true, ellipsoids: false, floor: true, coverage: null};
+    this.options = {smoothed: true, ellipsoids: false, touches: true, floor: true, coverage: null};
     this.ground = new THREE.Color();
     this.picture = null;  // texture in the background of the view from the sensor
     this.header = null;
@@ -152,6 +154,7 @@ export class Scene {
       this.ellipsoids[side].set(state && this.options.ellipsoids ? state.segments : null, this.options.smoothed);
       if (state) centres.push(new THREE.Vector3(...state.segments[0].smoothed_distal));
     }
+    this.touches.set(this.options.touches ? frame.contacts : []);
     if (centres.length > 0) this.follow(centres);
     this.change();
   }

@@ -176,6 +176,7 @@ class Live(Page):
         self.press("c", pressed("cloud", "scene"))
         for key, expected in [("2", pressed("view", "orbit")), ("3", pressed("view", "camera")),
                               ("1", pressed("view", "follow")), ("e", pressed("toggle", "ellipsoids")),
+                              ("k", "!(" + pressed("toggle", "touches") + ")"),
                               ("r", pressed("toggle", "raw")), ("p", pressed("picture", "depth")),
                               ("?", "document.getElementById('shortcuts').open"),
                               ("Escape", "!document.getElementById('shortcuts').open")]:

@@ -27,6 +27,7 @@ struct HandParts {
   std::optional<hand_state_t> state;
   std::optional<glove_state_t> glove;
   std::optional<hand_joints_t> joints;
+  std::optional<contact_state_t> contact;
 };
 
 void add(ViewFrame::Content& content, const char* channel, const LcmMessage& message) {
@@ -41,6 +42,8 @@ MessageKind kind_of(std::int64_t hash) {
   if (hash == hand_state_t::getHash()) return MessageKind::hand_state;
   if (hash == glove_state_t::getHash()) return MessageKind::glove_state;
   if (hash == hand_joints_t::getHash()) return MessageKind::hand_joints;
+  if (hash == contact_state_t::getHash()) return MessageKind::contact_state;
+  if (hash == object_state_t::getHash()) return MessageKind::object_state;
   if (hash == health_t::getHash()) return MessageKind::health;
   return carries_frames(hash) ? MessageKind::frame : MessageKind::other;
 }
@@ -87,13 +90,24 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
       if (!joints) continue;
       add(content, "HAND_JOINTS", message);
       parts[joints->hand_id].joints = *joints;
+    } else if (kind == MessageKind::contact_state) {
+      const auto contact = decode_message<contact_state_t>(message.bytes);
+      if (!contact) continue;
+      add(content, "CONTACT_STATE", message);
+      parts[contact->hand_id].contact = *contact;
+    } else if (kind == MessageKind::object_state) {
+      const auto object = decode_message<object_state_t>(message.bytes);
+      if (!object) continue;
+      add(content, "OBJECT_STATE", message);
+      content.objects.push_back(*object);
     } else if (kind == MessageKind::frame && !content.frame) {
       if (const auto frame = decode_frame_message(message.bytes, foreign, content.number)) content.frame = *frame;
     }
   }
 
   for (const auto& [id, hand] : parts)
-    if (hand.state && hand.glove && hand.joints) content.hands.push_back({*hand.state, *hand.glove, *hand.joints});
+    if (hand.state && hand.glove && hand.joints)
+      content.hands.push_back({*hand.state, *hand.glove, *hand.joints, hand.contact});
 
   // Without states, the time and the number of the frame are those of the image.
   if (content.frame && content.messages.empty()) {

@@ -17,11 +17,14 @@ Result<void> write_scene(McapWriter& file, const ros::Scene& scene) {
                         std::move(topic.metadata), std::move(*bytes)});
   }
 
-  // The messages of the LCM network, from which the hands can be read back whole.
+  // The messages of the LCM network, from which hands and objects can be read back whole.
   static const std::string type = ros::schema_name<ros::LcmMessage>(), schema = ros::SchemaText::of<ros::LcmMessage>();
+  const auto add = [&](const ros::LcmMessage& message) {
+    messages.push_back({"/lcm/" + message.channel, type, schema, {}, ros::encode(message)});
+  };
   for (const ros::HandState& hand : scene.hands)
-    for (const ros::LcmMessage& message : ros::lcm_messages(hand))
-      messages.push_back({"/lcm/" + message.channel, type, schema, {}, ros::encode(message)});
+    for (const ros::LcmMessage& message : ros::lcm_messages(hand)) add(message);
+  for (const object_state_t& object : scene.objects) add(ros::lcm_message(object));
   return file.write(messages, ros::nanoseconds(*time), static_cast<std::uint32_t>(scene.number));
 }
 

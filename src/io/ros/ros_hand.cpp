@@ -106,8 +106,8 @@ void add_ellipsoid(const segment_state_t& segment, int s, Drawing& drawing) {
 }
 
 template <class M>
-LcmMessage lcm_message(const HandState& hand, const char* channel, const M& message) {
-  LcmMessage out{header_of(hand.state), channel, {}};
+LcmMessage lcm_message(const Header& header, const char* channel, const M& message) {
+  LcmMessage out{header, channel, {}};
   out.data.resize(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(out.data.data(), 0, static_cast<int>(out.data.size()));
   return out;
@@ -203,8 +203,16 @@ DiagnosticStatus diagnostic(const HandState& hand) {
 }
 
 std::vector<LcmMessage> lcm_messages(const HandState& hand) {
-  return {lcm_message(hand, "HAND_STATE", hand.state), lcm_message(hand, "GLOVE_STATE", hand.glove),
-          lcm_message(hand, "HAND_JOINTS", hand.joints)};
+  const Header header = header_of(hand.state);
+  std::vector<LcmMessage> messages = {lcm_message(header, "HAND_STATE", hand.state),
+                                      lcm_message(header, "GLOVE_STATE", hand.glove),
+                                      lcm_message(header, "HAND_JOINTS", hand.joints)};
+  if (hand.contact) messages.push_back(lcm_message(header, "CONTACT_STATE", *hand.contact));
+  return messages;
+}
+
+LcmMessage lcm_message(const object_state_t& object) {
+  return lcm_message({time_of(object.utime).value_or(Time{}), camera_frame(object.sensor)}, "OBJECT_STATE", object);
 }
 
 DiagnosticStatus diagnostic(const health_t& health) {

@@ -45,8 +45,11 @@ MarkerArray markers(const HandState& hand);
 MarkerArray contact_markers(const HandState& hand);
 /// The status of the hand and the confidence of each segment.
 DiagnosticStatus diagnostic(const HandState& hand);
-/// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE and HAND_JOINTS.
+/// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE, HAND_JOINTS and, if it is known,
+/// CONTACT_STATE.
 std::vector<LcmMessage> lcm_messages(const HandState& hand);
+/// The message of an object as it is on the LCM network: OBJECT_STATE.
+LcmMessage lcm_message(const object_state_t& object);
 /// The counters of the pipeline.
 DiagnosticStatus diagnostic(const health_t& health);
 
