@@ -1,15 +1,16 @@
+// Reads stated contacts from a log of hand states.
 #include "app/eval/stated_contacts.h"
 
 #include <optional>
 
 #include "barehand/contact_state_t.hpp"
 #include "drivers/lcm/layouts.h"
-#include "io/lcm/lcm_log_reader.h"
+#include "io/lcm/message_log.h"
 
 namespace barehand {
 
 Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
-  auto log = LcmLogReader::open(log_path);
+  auto log = MessageLog::open(log_path);
   if (!log) return tl::unexpected(log.error());
   StatedContacts contacts;
   std::optional<std::int8_t> side;
@@ -36,7 +37,7 @@ Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
   }
   if (contacts.empty())
     return fail("holds no contacts", log_path,
-                "give a log written by barehand track --states-log with contact.enabled: true");
+                "give a log written by barehand track --states-log or --mcap with contact.enabled: true");
   return contacts;
 }
 
