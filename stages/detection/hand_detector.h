@@ -19,9 +19,9 @@ struct DepthView;
 
 /// Finds hands in a depth image of any size and focal length without prior knowledge of their positions: one network
 /// finds palms in the whole frame; a second one is applied to a window around each palm and estimates the joints, the
-/// side (left or right) and labels of the surface. Earlier frames only decide which places may wait for the
-/// next frame (KnownPlaces). Synchronous. Windows are spread over the workers; results do not
-/// depend on their number. Not thread-safe.
+/// side (left or right) and labels of the surface. Earlier frames only decide which places may wait for the next frame
+/// (KnownPlaces). Synchronous. Windows are spread over the workers, whose number does not change results. Not
+/// thread-safe.
 class HandDetector {
  public:
   /// Loads the networks from `folder` (docs/nets.md). Errors: files that are missing, damaged or not these networks.

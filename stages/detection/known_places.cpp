@@ -6,8 +6,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.05;    // a palm that is farther away than this is another one [m]
-constexpr double kClearSide = 2;  // log odds of the side from which on it may well be a hand: of hands they are 3 to 20
+constexpr double kSame = 0.05;  // a palm that is farther away than this is another one [m]
+constexpr double kClearSide =
+    3;  // log odds of the side from which on it may well be a hand: of most hands they are 4 to 20
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
 constexpr int kDoubted = 6;           // doubt from which on a place may wait: most hands are tracked before
 constexpr int kMostDoubt = 12;

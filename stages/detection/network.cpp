@@ -89,10 +89,12 @@ Network::Net::Net(NetworkGraph read) : graph(std::move(read)) {
     values.emplace_back(dnnl::memory::desc(sizes, kFloat, i == 0 ? dnnl::memory::format_tag::nchw : kBlocked), engine);
   }
 
-  // Have the convolutions compiled.
-  for (const auto& step : graph.steps)
-    if (const auto* convolution = std::get_if<NetworkGraph::Convolution>(&step))
+  // Have the convolutions compiled. The library keeps the weights.
+  for (auto& step : graph.steps)
+    if (auto* convolution = std::get_if<NetworkGraph::Convolution>(&step)) {
       convolutions.push_back(prepare(*convolution));
+      convolution->weights = {};
+    }
 }
 
 Network::Net::Convolution Network::Net::prepare(const NetworkGraph::Convolution& step) {

@@ -7,7 +7,6 @@ namespace {
 
 constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
 constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
-constexpr double kNoHand = 0.0006;        // below this area in the first window, no other window is tried [m^2]
 
 /// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
 double hand_area(const LabelMap& labels, const DepthView& view, const Image<float>& depth, const Intrinsics& camera) {
@@ -53,7 +52,6 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   auto window = look(frame, place.centre, mirrored);
   if (!window) return tl::unexpected(window.error());
   const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
-  if (!place.side && window->hand_area < kNoHand) return std::nullopt;
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || other_side()) {
     if (window->hand.centre.z() <= 0) return std::nullopt;

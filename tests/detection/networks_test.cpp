@@ -72,6 +72,15 @@ TEST_F(NetworksTest, ANetworkOfAnotherShapeIsSaid) {
               testing::AllOf(testing::HasSubstr(folder_ / "crop.onnx"), testing::HasSubstr("other inputs or outputs")));
 }
 
+TEST_F(NetworksTest, AnOperatorThatIsNotSupportedIsSaid) {
+  std::string bytes = bytes_of(folder_ / "full.onnx");
+  const std::string known("\x22\x04Relu");  // the field op_type of a node
+  bytes.replace(bytes.find(known), known.size(), "\x22\x04Tanh");
+  write(folder_ / "full.onnx", bytes);
+  accept("full", error());
+  EXPECT_THAT(error(), testing::HasSubstr("Tanh"));
+}
+
 TEST_F(NetworksTest, AnotherInterfaceIsSaid) {
   std::string manifest = bytes_of(folder_ / "nets.json");
   const std::string known = "\"interface\": \"1\"";
