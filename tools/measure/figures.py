@@ -13,6 +13,10 @@ KNOWN = {
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
     # from bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times
     "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
+    # from measure_viewers.py: 99 % and median of capture to publication [ms], and the ratio of the former; frames a second
+    # that a quick client receives, and that were tracked ("tracked" above); share of a core that the server takes without clients [%]. From measure_page.py: pictures
+    # a second that a browser draws, and its CPU time for one [ms]
+    "alone", "watched", "median_alone", "median_watched", "ratio", "received", "server", "drawn", "browser",
     # number of repetitions over which a range is taken
     "runs",
 }
@@ -77,6 +81,7 @@ def of_report(report, label=None):
         figures.update({"values": [case["value"] for case in swept], "cpu": [case["cpu_ms_per_frame"] for case in swept]})
     elif cases:
         figures.update(of_case(cases[0]))
+    figures.update(report.get("viewers", {}))
     if not figures:
         raise KeyError(f"nothing is called {label}" if label else "the report has no figures")
     return figures
