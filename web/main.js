@@ -53,7 +53,8 @@ const connection = new Connection({
     applyRoom();
     recorder.show(message.record);
     showScan(message.scan || null);
-    if (scene) scene.options.coverage = coverage(message.scan);
+    const paused = message.log !== null && !message.log.playing;
+    if (scene) Object.assign(scene.options, {coverage: coverage(message.scan), paused});
   },
   async onFrame(frame) {
     for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins.push(skin);

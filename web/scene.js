@@ -49,7 +49,7 @@ export class Scene {
     this.setRoom(null);
 
     this.view = "follow";
-    this.options = {smoothed: true, ellipsoids: false, touches: true, floor: true, coverage: null};
+    this.options = {smoothed: true, ellipsoids: false, touches: true, floor: true, coverage: null, paused: false};
     this.ground = new THREE.Color();
     this.picture = null;  // texture in the background of the view from the sensor
     this.header = null;
@@ -159,12 +159,13 @@ export class Scene {
     this.change();
   }
 
-  // Moves the eye smoothly with the centre of the hands; in the view "orbit", which stays in place, only once.
+  // Moves the eye smoothly with the centre of the hands; in the view "orbit", which stays in place, only once. In a paused
+  // log no further frame follows, so the eye moves at once.
   follow(centres) {
     const middle = centres.reduce((sum, c) => sum.add(c), new THREE.Vector3()).multiplyScalar(1 / centres.length);
     middle.applyMatrix4(this.place);
     if (this.anchored && this.view === "orbit") return;
-    const move = middle.sub(this.controls.target).multiplyScalar(this.anchored ? 0.15 : 1);
+    const move = middle.sub(this.controls.target).multiplyScalar(this.anchored && !this.options.paused ? 0.15 : 1);
     this.anchored = true;
     this.controls.target.add(move);
     this.free.position.add(move);

@@ -111,6 +111,31 @@ TEST_F(ViewServerTest, WaitsForNoClientThatDoesNotRead) {
   EXPECT_EQ(health.pushed, health.popped + health.dropped + static_cast<std::int64_t>(health.depth));
 }
 
+TEST_F(ViewServerTest, AFloodOfRequestsHoldsUpNobody) {
+  test::RawClient flood(port());
+  flood.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n") + "\r\n");
+  ASSERT_EQ(test::status_of(flood.read(false)), 101);
+  SocketClient quick(port());
+  quick.send(R"({"type": "want", "window": 1, "rate": 1000})");
+  wait_until_heard(quick);
+
+  // Wishes, commands and nonsense, with masks of zeros; none of the answers is read.
+  const auto message = [](const std::string& text) {
+    return std::string("\x81", 1) + static_cast<char>(0x80 | text.size()) + std::string(4, '\0') + text;
+  };
+  std::string requests;
+  for (int i = 0; i < 5000; ++i)
+    requests += message(R"({"type":"want"})") + message(R"({"type":"pause"})") + message("?");
+  flood.send(requests);
+  for (int number = 1; number <= 20; ++number) {
+    show(number);
+    EXPECT_EQ(next_number(quick), number);
+    quick.send(R"({"type": "ack"})");
+  }
+  const QueueHealth health = server_->health();
+  EXPECT_EQ(health.pushed, health.popped + health.dropped + static_cast<std::int64_t>(health.depth));
+}
+
 TEST_F(ViewServerTest, CountsClientsThatHaveGone) {
   {
     SocketClient client(port());

@@ -15,6 +15,11 @@ KNOWN = {
     "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
     # From measure_python_client.py: numbers of frames.
     "sent", "heard",
+    # From measure_viewers.py: 99 % and median of capture to publication [ms], and the ratio of the former; frames per
+    # second that a quick client receives (those that were tracked: "tracked" above); fraction of a core that the server
+    # takes without clients [%]. From measure_page.py: pictures per second that a browser draws, and its CPU time for each
+    # [ms].
+    "alone", "watched", "median_alone", "median_watched", "ratio", "received", "server", "drawn", "browser",
     # The number of repetitions over which a range is taken.
     "runs",
 }
@@ -81,6 +86,7 @@ def of_report(report, label=None):
         figures.update(of_case(cases[0]))
     if client := report.get("client"):
         figures.update({"sent": client["sent"], "heard": client["heard"], "cpu": client["cpu_ms_per_frame"]})
+    figures.update(report.get("viewers", {}))
     if not figures:
         raise KeyError(f"nothing is called {label}" if label else "the report has no figures")
     return figures

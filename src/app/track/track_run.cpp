@@ -293,7 +293,6 @@ Step TrackRun::open_view() {
   }
   page_ = std::move(*page);
   for (const auto& profile : profiles_) page_->server().know(profile);
-  log_.logger().info("open {} in a browser to see the hand", page_->server().url());
   ViewSink::Input input{
       input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,
       config_.run.channel_prefix, page_->recorder()};
@@ -361,6 +360,7 @@ TrackOutcome TrackRun::run() {
   options.stop = stop_.get_token();
   log_.logger().info("tracking {}, {} threads{}", input_.source->name(), workers_->threads(),
                      options.threaded ? "" : ", stages inline");
+  if (page_) log_.logger().info("open {} in a browser to see the hand; Ctrl-C ends", page_->server().url());
   pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
   service_.ready("tracking " + input_.source->name());
   const std::int64_t start = clock_.steady_us();
