@@ -252,7 +252,7 @@ const std::vector<Entry>& entries() {
        }},
       {"book", false,
        [] {
-         return box({0.21, 0.14, 0.020}, {{60, 80, 60}}, {across_z(0.020, 0.21, {0.092, 0, 0})});
+         return box({0.21, 0.14, 0.016}, {{60, 80, 60}}, {across_z(0.016, 0.21, {0.092, 0, 0})});
        }},
       {"carton", true,
        [] {

@@ -102,13 +102,15 @@ void clear_the_way(const GraspPlanner& planner, const SE3& T_palm_object, const 
   }
 }
 
-/// Slides a slab out of the hand until its edge is clear of the palm and the phalanges next to it.
-void slide_out(const GraspPlanner& planner, const OpposedGrasp& grasp, const SignedDistance& object,
+/// Slides a slab out of the hand until its edge is clear of the palm and the phalanges next to it. `inward`: how far it
+/// is pushed in first [m].
+void slide_out(const GraspPlanner& planner, const OpposedGrasp& grasp, const SignedDistance& object, double inward,
                SE3& T_palm_object) {
-  constexpr double kFree = 0.001, kFarthest = 0.06;
+  constexpr double kFree = 0.001, kFarthest = 0.08;
   constexpr std::array<int, 7> kSegments = {
       kPalm,           segment_of(0, 0), segment_of(0, 1), segment_of(1, 0), segment_of(2, 0), segment_of(3, 0),
       segment_of(4, 0)};
+  T_palm_object.t += inward * grasp.T_palm_hold.R.col(0);
   for (double way = 0; way < kFarthest; way += 0.002) {
     const auto gap = planner.clearance(grasp.angles, T_palm_object, object);
     if (std::all_of(kSegments.begin(), kSegments.end(), [&](int s) { return gap[s] > kFree; })) break;
@@ -178,7 +180,9 @@ void hold_opposed(const HandRig& rig, const GraspPlanner& planner, const GraspRe
   const OpposedGrasp grasp = Opposition(rig, recipe, hold).solve(varied(recipe.comfortable, random, 6 * kDegree));
   plan.T_palm_object = grasp.T_palm_hold * T_hold_object;
   HandAngles angles = grasp.angles;
-  if (hold.kind == HoldKind::slab) slide_out(planner, grasp, distance, plan.T_palm_object);
+  const double inward =
+      recipe.second.size() > kFingerCount ? 0.03 : 0;  // to flat fingers, so that the thumb reaches it
+  if (hold.kind == HoldKind::slab) slide_out(planner, grasp, distance, inward, plan.T_palm_object);
   clear_the_way(planner, plan.T_palm_object, distance, recipe.opening, angles);
   plan.open = sum(angles, recipe.opening, 1);
   plan.held = planner.close(plan.open, sum(angles, recipe.opening, -1.5), plan.T_palm_object, distance);

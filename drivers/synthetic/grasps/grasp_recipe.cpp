@@ -191,7 +191,7 @@ GraspRecipe five_fingers() {
 GraspRecipe parallel_extension() {
   const FingerAngles straight = finger(-2, 50, 6, 4);
   GraspRecipe recipe =
-      opposed({{HoldKind::slab, 0.006, 0.034, 0.3, 0.1}}, {pad(kThumb)}, flat_fingers(), Vector3d::UnitZ(),
+      opposed({{HoldKind::slab, 0.006, 0.018, 0.3, 0.1}}, {pad(kThumb)}, flat_fingers(), Vector3d::UnitZ(),
               {finger(7, 38, 0, -4), straight, straight, straight, straight}, bending(kLittle, 12, 10));
   recipe.least_abduction = 6 * kDegree;
   recipe.most_abduction = 9 * kDegree;
