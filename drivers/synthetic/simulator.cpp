@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/format.h"
+#include "drivers/synthetic/grasps/varied_grasp.h"
 #include "drivers/synthetic/hand/hand_mirror.h"
 
 namespace barehand::synthetic {
@@ -53,20 +54,25 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   if (params.fps > 0 && params.fps < kSlowest)
     return fail(formatted("%g frames per second", params.fps), "sim:" + params.sequence,
                 formatted("give 0 for the sequence's own or %g at least", kSlowest));
+  const bool varied = params.sequence == "grasp";
+  if (!varied && !(params.object.empty() && params.grasp.empty()))
+    return fail("the keys object and grasp are those of the sequence grasp", "sim:" + params.sequence,
+                "leave them out, or simulate sim:grasp");
   const auto sides = sides_of(*info, params);
   if (!sides) return tl::unexpected(sides.error());
 
   // Load the hands.
+  const auto seed = static_cast<std::uint64_t>(params.seed);
   Simulator simulator(params, camera_of(params));
   for (const Handedness side : *sides) {
-    auto hand = AnimatedHand::load(side, params.shape, mesh_folder);
+    auto hand = AnimatedHand::load(side, varied ? drawn_hand(params.shape, seed) : params.shape, mesh_folder);
     if (!hand) return tl::unexpected(hand.error());
     simulator.hands_.push_back(std::move(*hand));
   }
 
   // Make the sequence.
   const HandRig* const rig = simulator.hands_.empty() ? nullptr : &simulator.hands_.front().rig();
-  auto sequence = make_sequence(params.sequence, rig, static_cast<std::uint64_t>(params.seed));
+  auto sequence = make_sequence(params.sequence, rig, seed, {params.object, params.grasp});
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
   for (const SceneObject& object : simulator.sequence_->objects())

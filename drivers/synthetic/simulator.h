@@ -28,6 +28,7 @@ struct SimulatorParams {
   int width = 640, height = 480;
   double focal = 0;
   HandShape shape;
+  std::string object, grasp;
 };
 template <class V>
 void visit(V& v, SimulatorParams& p) {
@@ -44,6 +45,8 @@ void visit(V& v, SimulatorParams& p) {
   v("height", p.height, 48, 4096, "px, height of the images");
   v("focal", p.focal, 0.0, 10000.0, "px, focal length; 0: 525 at a width of 640, and in proportion");
   visit(v, p.shape);
+  v("object", p.object, "object of the sequence grasp; empty: drawn by the seed");
+  v("grasp", p.grasp, "class of the sequence grasp, such as wrap or pinch; empty: drawn by the seed");
 }
 
 /// The truth about one hand in one frame.
@@ -81,6 +84,8 @@ class Simulator {
   const std::vector<AnimatedHand>& hands() const { return hands_; }
   /// The object that a hand grasps; null: there is none.
   const GraspedObject* grasped() const { return grasped_ ? &*grasped_ : nullptr; }
+  /// Class of the grasp; empty if nothing is grasped.
+  std::string_view grasp_type() const { return sequence_->grasp_type(); }
   const SimulatorParams& params() const { return params_; }
 
  private:

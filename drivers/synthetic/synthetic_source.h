@@ -40,6 +40,7 @@ class SyntheticSource : public FrameSource {
   const GraspedObject* grasped() const { return simulator_.grasped(); }
   /// The state of the grasped object in the frame that was delivered last; none if there is none.
   const std::optional<ObjectTruth>& object() const { return object_; }
+  std::string_view grasp_type() const { return simulator_.grasp_type(); }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
   /// Number of frames still to come; -1 if the sequence is repeated endlessly.

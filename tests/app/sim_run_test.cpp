@@ -111,6 +111,12 @@ TEST_F(SimRun, WritesTheGraspedObjectAndItsContacts) {
   EXPECT_THAT(contacts[1], testing::StartsWith("1000000,palm,0."));
   EXPECT_FALSE(fs::exists(path("mug/contacts_left.csv")));
 
+  // The class of the grasp.
+  const auto grasps = lines_of(path("mug/grasps.csv"));
+  ASSERT_EQ(grasps.size(), 1u + 7);
+  EXPECT_EQ(grasps[1], "1000000,none");
+  EXPECT_EQ(grasps[4], "4000000,wrap");
+
   // The mesh: a mug of 0.11 m, closed where its vertices were doubled.
   const auto mesh = lines_of(path("mug/mug.obj"));
   const auto vertices = std::count_if(mesh.begin(), mesh.end(), [](const auto& l) { return l.starts_with("v "); });

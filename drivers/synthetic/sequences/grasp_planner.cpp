@@ -50,17 +50,29 @@ HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed,
                                const SignedDistance& thing) const {
   HandAngles angles = open;
   std::array<int, kFingerCount> first_free{};  // of each finger; the joints before this one have stopped
+  const SE3 T_thing_palm = T_palm_thing.inverse();
+  std::vector<Eigen::Vector3f> skin, before;
+  std::vector<double> margin;  // of every vertex: it can come nearer by this before it touches; a lower bound
   for (int step = 1; step <= kSteps; ++step) {
     // Close all free joints by one step.
     for (int finger = 0; finger < kFingerCount; ++finger)
       for (int k = first_free[finger]; k < 3; ++k)
         set_joint(angles[finger], open[finger], closed[finger], k, static_cast<double>(step) / kSteps);
+    skinner_.deform(pose_segments(rig_.profile, {SE3{}, angles}), skin);
 
-    // Stop the joints of phalanges that touch the object.
-    const auto gap = clearance(angles, T_palm_thing, thing);
-    for (int finger = 0; finger < kFingerCount; ++finger)
-      for (int k = 0; k < 3; ++k)
-        if (gap[segment_of(finger, k)] < kContact) first_free[finger] = std::max(first_free[finger], k + 1);
+    // Stop the joints of phalanges that touch the object. Only skin that may have come near is measured.
+    margin.resize(skin.size(), 0);
+    for (std::size_t v = 0; v < skin.size(); ++v) {
+      const int segment = skinner_.vertex_segments()[v];
+      if (segment == kPalm) continue;
+      if (step > 1) margin[v] -= (skin[v] - before[v]).norm();
+      int& free = first_free[finger_of(segment)];
+      const int next = (segment - 1) % 3 + 1;
+      if (margin[v] > 0 || free >= next) continue;
+      margin[v] = thing(T_thing_palm * skin[v].cast<double>()) - kContact;
+      if (margin[v] < 0) free = next;
+    }
+    std::swap(before, skin);
   }
   return angles;
 }

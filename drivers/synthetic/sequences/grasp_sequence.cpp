@@ -155,6 +155,7 @@ class GraspSequence : public Sequence {
 
   double duration() const override { return 6.7; }
   const std::vector<SceneObject>& objects() const override { return objects_; }
+  std::string_view grasp_type() const override { return "wrap"; }
 
   SceneState at(double time) const override {
     // Move the palm along its track.

@@ -47,6 +47,8 @@ class Sequence {
   virtual double duration() const = 0;  ///< duration of the sequence [s]
   virtual const std::vector<SceneObject>& objects() const = 0;
   virtual SceneState at(double time) const = 0;
+  /// Class of the grasp (grasps/grasp_types.h) while the object is held; empty if nothing is grasped.
+  virtual std::string_view grasp_type() const { return {}; }
 };
 
 /// The hands that a sequence shows: none, one that may be a right or a left hand, or both a right and a left hand.
@@ -65,8 +67,14 @@ const std::vector<SequenceInfo>& sequence_list();
 /// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
+/// What the sequence `grasp` shows, by name; what is empty is drawn by the seed.
+struct GraspChoice {
+  std::string object, type;
+};
+
 /// Creates a sequence. `rig`: needed by sequences with one hand, and used during the call only; null for the others.
-/// Errors: as for sequence_info().
-Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed);
+/// Errors: as for sequence_info() and make_varied_grasp().
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed,
+                                                const GraspChoice& choice = {});
 
 }  // namespace barehand::synthetic

@@ -1,4 +1,5 @@
 // The list of all sequences, and their creation by name.
+#include "drivers/synthetic/grasps/varied_grasp.h"
 #include "drivers/synthetic/people/people_sequences.h"
 #include "drivers/synthetic/rendering/stage_set.h"
 
@@ -23,6 +24,8 @@ std::vector<SequenceInfo> make_list() {
   list.push_back({"grasp_mug", "reaches for a mug, lifts, turns, lowers and releases it", 200, 30});
   list.push_back({"grasp_ball", "the same with a 65 mm ball", 200, 30});
   list.push_back({"grasp_pliers", "the same with pliers", 200, 30});
+
+  list.push_back({"grasp", "any grasp of any object: keys object and grasp, or drawn by the seed", 160, 30});
 
   // Add the motions of hands in the air.
   list.push_back({"wave", "a hand waves, leaves the view and comes back", 240, 30});
@@ -56,7 +59,8 @@ Result<SequenceInfo> sequence_info(const std::string& name) {
   return fail("there is no sequence \"" + name + "\"", "sim", "choose one of: " + known_names());
 }
 
-Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed) {
+Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed,
+                                                const GraspChoice& choice) {
   if (name == "fist") return make_fist(seed);
   if (name == "open") return make_open(seed);
   if (name == "scan") return make_scan(seed);
@@ -66,6 +70,7 @@ Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const H
   if (name == "grasp_mug") return make_grasp(*rig, GraspedThing::mug, seed);
   if (name == "grasp_ball") return make_grasp(*rig, GraspedThing::ball, seed);
   if (name == "grasp_pliers") return make_grasp(*rig, GraspedThing::pliers, seed);
+  if (name == "grasp") return make_varied_grasp(*rig, choice, seed);
   if (name == "person") return make_person(seed);
   if (name == "desk") return make_desk_work(seed);
   if (name == "egocentric") return make_egocentric(seed);

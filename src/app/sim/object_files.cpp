@@ -7,6 +7,7 @@ namespace barehand {
 namespace {
 
 constexpr std::string_view kPoseHeader = "utime,object,held,x,y,z,qw,qx,qy,qz";
+constexpr std::string_view kGraspHeader = "utime,grasp";
 constexpr std::string_view kContactHeader = "utime,segment,distance,x,y,z,nx,ny,nz";
 
 std::string pose_row(std::int64_t utime, const std::string& name, const synthetic::ObjectTruth& object) {
@@ -29,22 +30,27 @@ std::string contact_rows(std::int64_t utime, const synthetic::HandContacts& cont
 
 }  // namespace
 
-Result<ObjectFiles> ObjectFiles::create(const Paths& paths, const synthetic::GraspedObject& object, bool overwrite) {
+Result<ObjectFiles> ObjectFiles::create(const Paths& paths, const synthetic::SyntheticSource& source, bool overwrite) {
+  const synthetic::GraspedObject& object = *source.grasped();
   if (auto ok = save_obj(object.mesh().vertices, object.mesh().triangles, paths.mesh); !ok)
     return tl::unexpected(ok.error());
   auto poses = RowFile::create(paths.poses, kPoseHeader, overwrite);
   if (!poses) return tl::unexpected(poses.error());
+  auto grasps = RowFile::create(paths.grasps, kGraspHeader, overwrite);
+  if (!grasps) return tl::unexpected(grasps.error());
   std::vector<RowFile> contacts;
   for (const std::string& path : paths.contacts) {
     auto rows = RowFile::create(path, kContactHeader, overwrite);
     if (!rows) return tl::unexpected(rows.error());
     contacts.push_back(std::move(*rows));
   }
-  return ObjectFiles(object.name(), std::move(*poses), std::move(contacts));
+  return ObjectFiles(object.name(), std::move(*poses), std::move(*grasps), std::move(contacts));
 }
 
 Result<void> ObjectFiles::write(const synthetic::SyntheticSource& source, std::int64_t utime) {
   auto written = poses_.write(pose_row(utime, name_, *source.object()));
+  const std::string grasp(source.object()->held ? source.grasp_type() : "none");
+  written = written.and_then([&] { return grasps_.write(std::to_string(utime) + "," + grasp + "\n"); });
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const synthetic::SimulatedHand& hand = source.hands()[k];
     if (!hand.truth) continue;  // the hand is not in view
@@ -54,7 +60,7 @@ Result<void> ObjectFiles::write(const synthetic::SyntheticSource& source, std::i
 }
 
 Result<void> ObjectFiles::finish() {
-  auto finished = poses_.finish();
+  auto finished = poses_.finish().and_then([&] { return grasps_.finish(); });
   for (RowFile& rows : contacts_) finished = finished.and_then([&] { return rows.finish(); });
   return finished;
 }

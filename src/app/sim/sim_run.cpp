@@ -37,7 +37,7 @@ Result<std::unique_ptr<FrameWriter>> make_writer(const std::string& out, double 
 /// Where the files about the grasped object are written.
 ObjectFiles::Paths object_paths(const std::string& out, const std::string& name,
                                 const std::vector<SimulatedHand>& hands) {
-  ObjectFiles::Paths paths{beside(out, name + ".obj"), beside(out, "objects.csv"), {}};
+  ObjectFiles::Paths paths{beside(out, name + ".obj"), beside(out, "objects.csv"), beside(out, "grasps.csv"), {}};
   for (std::size_t k = 0; k < hands.size(); ++k)
     paths.contacts.push_back(
         path_of_hand(beside(out, "contacts.csv"), static_cast<int>(k), hands[k].profile.handedness));
@@ -57,6 +57,7 @@ Result<void> check_written(const SimOptions& options, const SyntheticSource& sou
     ObjectFiles::Paths paths = object_paths(options.out, source.grasped()->name(), hands);
     outputs.push_back({"--out", std::move(paths.mesh)});
     outputs.push_back({"--out", std::move(paths.poses)});
+    outputs.push_back({"--out", std::move(paths.grasps)});
     for (std::string& path : paths.contacts) outputs.push_back({"--out", std::move(path)});
   }
   return check_outputs({}, {}, outputs, options.overwrite);
@@ -102,7 +103,7 @@ Result<std::vector<HandFiles>> create_hand_files(const SimOptions& options, cons
 /// The files about the grasped object; none if nothing is grasped.
 Result<std::optional<ObjectFiles>> create_object_files(const SimOptions& options, const SyntheticSource& source) {
   if (!source.grasped()) return std::nullopt;
-  return ObjectFiles::create(object_paths(options.out, source.grasped()->name(), source.hands()), *source.grasped(),
+  return ObjectFiles::create(object_paths(options.out, source.grasped()->name(), source.hands()), source,
                              options.overwrite);
 }
 

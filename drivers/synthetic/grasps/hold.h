@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "math/se3.h"
+
+namespace barehand::synthetic {
+
+/// What a part of an object looks like to the fingers that hold it.
+enum class HoldKind {
+  rod,   ///< round, held across its axis x
+  slab,  ///< two parallel faces, held across y
+  ball,  ///< round in all directions
+};
+
+/// A part of an object by which it can be held. In the frame of the hold x is along a rod, and y is across: the
+/// direction in which thumb and fingers oppose each other.
+struct Hold {
+  HoldKind kind = HoldKind::ball;
+  SE3 T_object_hold;
+  double width = 0;   ///< extent along y [m]
+  double length = 0;  ///< of a rod or slab: largest extent across y [m]
+};
+
+}  // namespace barehand::synthetic
