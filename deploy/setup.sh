@@ -25,7 +25,8 @@ deploy/fetch_hand_mesh.sh
 
 if [ "${1:-}" = --tests ]; then
   # Programs of other people that read what Barehand writes. Without the network, the tests with them are skipped and say so.
-  npm ci --prefix tests/readers --ignore-scripts --no-audit --no-fund --prefer-offline ||
+  [ tests/readers/node_modules/.package-lock.json -nt tests/readers/package-lock.json ] ||
+    npm ci --prefix tests/readers --ignore-scripts --no-audit --no-fund --prefer-offline ||
     echo "cannot fetch the readers of tests/readers/package.json: is the network there? The tests readers.* will be skipped" >&2
   cmake --preset release -DBAREHAND_TESTS=ON -DBAREHAND_WERROR=ON
   cmake --build --preset release

@@ -57,7 +57,7 @@ const connection = new Connection({
     if (scene) Object.assign(scene.options, {coverage: coverage(message.scan), paused});
   },
   async onFrame(frame) {
-    for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins.push(skin);
+    for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins[skin.side] = skin;
     frameAt = performance.now();
     meter.add(frame.header, status && status.live, frameAt);
     if (!state.freeze) {

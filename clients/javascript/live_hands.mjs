@@ -31,9 +31,13 @@ export function connect(url, onHands, onNews) {
     };
     socket.onmessage = ({data}) => {
       if (typeof data === "string") return onNews(JSON.parse(data).trouble ?? "");
-      const {states, gloves} = decodeFrame(data);
-      onHands(gloves.map((glove) => handOf(glove, states.find((state) => state.hand_id === glove.hand_id))));
-      socket.send('{"type": "ack"}');  // a slow browser then gets fewer frames instead of late ones
+      try {
+        const {states, gloves} = decodeFrame(data);
+        onHands(gloves.map((glove) => handOf(glove, states.find((state) => state.hand_id === glove.hand_id))));
+      } finally {
+        // A slow browser then gets fewer frames instead of late ones. An error must not end the stream.
+        socket.send('{"type": "ack"}');
+      }
     };
   }
   open();

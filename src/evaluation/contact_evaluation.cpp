@@ -92,7 +92,7 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
                 : visible < kHidden ? out.hidden_tips
                                     : out.partial_tips,
                 contact, touches);
-        if (!contact.known) continue;
+        if (!contact.known || (elsewhere && !touches)) continue;
         ReliabilityBin& bin = bins[std::clamp(static_cast<int>(contact.probability * kBins), 0, kBins - 1)];
         ++bin.count;
         bin.stated += contact.probability;

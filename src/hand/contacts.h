@@ -23,7 +23,7 @@ struct Contact {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   ContactState state = ContactState::unknown;
-  /// The segment, or the surface at the nearest point, is not seen in this frame but follows from what is known.
+  /// The segment is not seen in this frame but follows from what is known.
   bool inferred = false;
   double probability = kUnknown;  ///< that the distance is below ContactParams::touch_distance
   double distance = kUnknown;     ///< from the segment's skin to the surface; negative inside

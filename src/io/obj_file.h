@@ -10,7 +10,7 @@
 
 namespace barehand {
 
-/// Writes a mesh as a Wavefront OBJ file, in the unit of its vertices; an existing file is replaced. Vertices at the
+/// Writes a mesh as a Wavefront OBJ file, vertices in metres; an existing file is replaced. Vertices at the
 /// same place become one, so that a surface whose vertices are doubled at its edges is written closed; triangles that
 /// lose their area by this are left out. Errors: a full disk, a folder that cannot be written to.
 Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,

@@ -30,7 +30,7 @@ Vector3d nearest_weights(const Corners& c, const Vector3d& p) {
 
   // Regions of the three edges.
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
   const double along = d4 - d3, against = d5 - d6;
   if (va <= 0 && along >= 0 && against >= 0) return {0, against / (along + against), along / (along + against)};

@@ -26,10 +26,12 @@ bool alike(const HandProfile& a, const HandProfile& b) {
   if (a.handedness != b.handedness || a.scanned_skin != b.scanned_skin) return false;
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentProfile &x = a.segments[s], &y = b.segments[s];
-    double change = (x.distal - y.distal).norm();
+    double change = std::max((x.distal - y.distal).norm(), (x.T_hand_segment.t - y.T_hand_segment.t).norm());
     for (int end = 0; end < 2; ++end)
       change = std::max({change, std::abs(x.half_width[end] - y.half_width[end]),
-                         std::abs(x.half_thickness[end] - y.half_thickness[end])});
+                         std::abs(x.half_thickness[end] - y.half_thickness[end]),
+                         std::abs(x.flesh_offset_x[end] - y.flesh_offset_x[end]),
+                         std::abs(x.flesh_offset_y[end] - y.flesh_offset_y[end])});
     if (change > kSkinChange) return false;
   }
   return true;
@@ -154,7 +156,7 @@ void ContactStage::touch_objects(const Hand& hand, const HandEstimate& estimate,
     contact.distance = nearest->distance;
     contact.deviation = std::sqrt(variance(segment, contact.point, contact.normal) + noise * noise +
                                   kSkinDeviation * kSkinDeviation + nearest->deviation * nearest->deviation);
-    contact.inferred = !segment.seen || !nearest->seen;
+    contact.inferred = !segment.seen;
     contact.partner = nearest->object;
     judge(contact);
 

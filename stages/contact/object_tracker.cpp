@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace barehand {
 namespace {
@@ -65,19 +66,18 @@ void ObjectTracker::link(const std::vector<bool>& open, const std::vector<Surfac
   voxels_.erase(std::unique(voxels_.begin(), voxels_.end()), voxels_.end());
 
   // Join what lies in neighbouring voxels, always to the smaller number.
-  for (const SurfacePoint& point : points) {
+  for (const auto& [key, component] : voxels_) {
     if (parent_.size() < 2) break;
-    const Eigen::Vector3i v = cell(point.p);
     for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz) {
-          const std::uint64_t key = key_of(v.x() + dx, v.y() + dy, v.z() + dz);
-          for (auto at = std::lower_bound(voxels_.begin(), voxels_.end(), std::pair{key, std::int32_t{0}});
-               at != voxels_.end() && at->first == key; ++at) {
-            const std::int32_t a = root(point.component), b = root(at->second);
-            parent_[std::max(a, b)] = std::min(a, b);
-          }
+      for (int dy = -1; dy <= 1; ++dy) {
+        // Voxels that differ in z alone have successive keys.
+        const std::uint64_t first = key + key_of(dx, dy, -1) - key_of(0, 0, 0);
+        for (auto at = std::lower_bound(voxels_.begin(), voxels_.end(), std::pair{first, std::int32_t{0}});
+             at != voxels_.end() && at->first <= first + 2; ++at) {
+          const std::int32_t a = root(component), b = root(at->second);
+          parent_[std::max(a, b)] = std::min(a, b);
         }
+      }
   }
 
   // Add up the objects.
@@ -147,8 +147,9 @@ void ObjectTracker::update(Track& track, const Thing& thing, std::int64_t utime,
   if (nearest && !thing.open) {
     const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
     const Vector3d in_palm = T_camera_palm.inverse() * state.T_camera_object.t;
-    const double left = (in_palm - track.in_palm).norm();
-    if (track.companion != nearest->hand_id || left > kLeft) {
+    const double left = track.companion == nearest->hand_id ? (in_palm - track.in_palm).norm()
+                                                            : std::numeric_limits<double>::infinity();
+    if (left > kLeft) {
       track.companion = nearest->hand_id;
       track.in_palm = in_palm;
       track.palm = T_camera_palm.t;

@@ -13,7 +13,6 @@ struct SurfacePoint {
   Eigen::Vector3f p, n;        ///< place and outward unit normal
   std::int32_t component = 0;  ///< the connected surface that it belongs to
   std::int32_t object = -1;    ///< SeenObject::id; -1: none
-  bool seen = true;            ///< in this frame; false: in an earlier one
 };
 
 /// Finds surfaces near a hand that belong neither to a hand nor to its forearm: the object pixels of an observation and
@@ -21,7 +20,7 @@ struct SurfacePoint {
 class SurfaceCells {
  public:
   /// Appends the points of observation `k`, whose estimate must have a pose. Components are numbered from the size of
-  /// `open` on; for each one `open` gets whether it continues out of view, as a table or a body does.
+  /// `open` on; for each one `open` gets whether it continues out of the hand's region, as a table or a body does.
   void collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
                std::vector<SurfacePoint>& points, std::vector<bool>& open);
 

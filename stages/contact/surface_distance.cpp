@@ -55,7 +55,7 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
     const float distance = plane + kEnd * open;
     if (nearest && distance >= nearest->distance) continue;
     normal.normalize();
-    nearest = NearestSurface{distance, kEnd * open, x - f * normal, normal, close_[best]->object, close_[best]->seen};
+    nearest = NearestSurface{distance, kEnd * open, x - f * normal, normal, close_[best]->object};
   }
   return nearest;
 }

@@ -22,7 +22,6 @@ struct NearestSurface {
   float deviation = 0;  ///< of the distance, because the surface is only known nearby [m]
   Eigen::Vector3f point, normal;
   std::int32_t object = -1;
-  bool seen = true;  ///< SurfacePoint::seen
 };
 
 /// Measures how far skin is from surfaces that are known in points only. Around each skin point x the surface is the

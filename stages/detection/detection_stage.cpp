@@ -56,10 +56,11 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   if (all_tracked && !windows) return nullptr;
 
   Result<Detection> detection = Detection{};
+  expect_tracked(frame, feedback);
   if (whole)
-    detection = detector_->detect(frame, workers_);
+    detection = detector_->detect(frame, workers_, places_);
   else if (windows)
-    detection = detect_tracked(frame, feedback);
+    detection = detector_->detect_at(frame, places_, workers_);
   if (!detection) {
     log_->warn("hands are found without networks from now on: {}", detection.error().message());
     detector_.reset();
@@ -71,14 +72,13 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   return std::make_shared<const Detection>(std::move(*detection));
 }
 
-Result<Detection> DetectionStage::detect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
+void DetectionStage::expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
   places_.clear();
   for (const HandEstimatePtr& earlier : feedback) {
     if (!is_tracked(earlier)) continue;
     const ExpectedHand place = expected(*earlier, frame);
     if (place.centre.z() > 0) places_.push_back(place);
   }
-  return detector_->detect_at(frame, places_, workers_);
 }
 
 }  // namespace barehand

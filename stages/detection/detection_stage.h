@@ -28,7 +28,8 @@ class DetectionStage {
   DetectionPtr process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
  private:
-  Result<Detection> detect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
+  // Fills `places_` with the places where the tracked hands are expected.
+  void expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
   DetectionParams params_;
   bool use_colour_;

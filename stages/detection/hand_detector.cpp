@@ -108,12 +108,16 @@ void HandDetector::choose_palms(const Detection& out) {
   }
 }
 
-Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers) {
+Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
+                                       std::span<const ExpectedHand> tracked) {
   Detection out;
   out.whole_frame = true;
   if (const auto found = find_palms(frame, out); !found) return tl::unexpected(found.error());
-  known_.begin_frame();
-  std::erase_if(palms_, [&](const Palm& palm) { return known_.may_wait(palm.centre, palm.probability); });
+  known_.begin_search();
+  std::erase_if(palms_, [&](const Palm& palm) {
+    const auto here = [&](const ExpectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };
+    return std::ranges::none_of(tracked, here) && known_.may_wait(palm.centre, palm.probability);
+  });
 
   for (next_ = 0; next_ < palms_.size() && out.hands.size() < kMostHands;) {
     // Examine the next palms at the same time.

@@ -28,8 +28,8 @@ class HandDetector {
   static Result<HandDetector> load(const std::string& folder, const DetectionParams& params);
 
   /// Finds all hands of the frame, at most kMostHands. What has long been unlikely to be a hand is found in every
-  /// second frame only. Error: a network returns values that are not finite.
-  Result<Detection> detect(const RgbdFrame& frame, Workers& workers);
+  /// second search only; the places of `tracked` hands never wait. Error: a network returns values that are not finite.
+  Result<Detection> detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked = {});
 
   /// Finds the hands at the given places without searching the rest of the frame. Places without a hand are left out.
   Result<Detection> detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers);

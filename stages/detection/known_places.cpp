@@ -18,9 +18,9 @@ double log_odds(double probability) { return std::log(probability / (1 - probabi
 
 }  // namespace
 
-void KnownPlaces::begin_frame() {
-  ++frame_;
-  std::erase_if(places_, [&](const Place& place) { return frame_ - place.last_palm > kRemembered; });
+void KnownPlaces::begin_search() {
+  ++search_;
+  std::erase_if(places_, [&](const Place& place) { return search_ - place.last_palm > kRemembered; });
 }
 
 KnownPlaces::Place* KnownPlaces::find(const Eigen::Vector3d& palm) {
@@ -31,9 +31,9 @@ KnownPlaces::Place* KnownPlaces::find(const Eigen::Vector3d& palm) {
 
 bool KnownPlaces::may_wait(const Eigen::Vector3d& palm, double probability) {
   Place* const place = find(palm);
-  if (!place || !place->unlikely || place->doubt < kDoubted || place->last_examined != frame_ - 1) return false;
+  if (!place || !place->unlikely || place->doubt < kDoubted || place->last_examined != search_ - 1) return false;
   if (std::abs(log_odds(probability) - place->log_odds) >= kSameLogOdds) return false;
-  place->last_palm = frame_;
+  place->last_palm = search_;
   return true;
 }
 
@@ -42,7 +42,7 @@ void KnownPlaces::examined(const Eigen::Vector3d& palm, double probability, cons
   if (!place) place = &places_.emplace_back();
   place->palm = palm;
   place->log_odds = log_odds(probability);
-  place->last_palm = place->last_examined = frame_;
+  place->last_palm = place->last_examined = search_;
   place->unlikely = !found || std::abs(found->right_log_odds) < kClearSide;
   place->doubt = place->unlikely ? std::min(kMostDoubt, place->doubt + 1) : place->doubt / 2;
 }

@@ -1,4 +1,4 @@
-// Runs one network with OpenCV, and reads its outputs.
+// Runs one network with oneDNN, and reads its outputs.
 #include "stages/detection/network.h"
 
 #include <algorithm>
@@ -36,8 +36,9 @@ bool has_shape(const NetworkGraph& graph, const NetworkShape& shape) {
     return found != graph.outputs.end() &&
            graph.values[found->second] == NetworkGraph::Shape{channels, shape.height / step, shape.width / step};
   };
+  const auto side = graph.numbers.find("side");
   return graph.values[0] == NetworkGraph::Shape{2, shape.height, shape.width} && is("j", shape.maps, 4) &&
-         is("seg", kSurfaceLabelCount, 2) && graph.numbers.contains("side");
+         is("seg", kSurfaceLabelCount, 2) && side != graph.numbers.end() && side->second.input != 0;
 }
 
 /// Whether values can be joined in blocks: only the last part of a join may end within a block.
@@ -209,7 +210,7 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
     nothing.valid.reset(shape.width, shape.height, 0.f);
     if (const auto output = network.run(nothing); !output) return tl::unexpected(output.error());
     return network;
-  } catch (const dnnl::error& error) {
+  } catch (const std::exception& error) {
     return fail(std::string("is a network that cannot be run: ") + error.what(), name, kRemedy);
   }
 }
@@ -217,8 +218,12 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
 Result<NetworkOutput> Network::run(const NetworkInput& input) {
   float* in = static_cast<float*>(net_->values[0].get_data_handle());
   std::copy_n(input.valid.data(), input.valid.size(), std::copy_n(input.depth.data(), input.depth.size(), in));
-  use_one_thread();
-  net_->run();
+  try {
+    use_one_thread();
+    net_->run();
+  } catch (const std::exception& error) {
+    return fail(std::string("cannot be run: ") + error.what(), name_, kRemedy);
+  }
 
   net_->read("j", net_->map);
   net_->read("seg", net_->label);

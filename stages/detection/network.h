@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-// A detection network that OpenCV runs.
+// A detection network that oneDNN runs.
 
 /// The input of a network: a part of a depth image in two channels of equal size.
 struct NetworkInput {

@@ -26,6 +26,7 @@ std::vector<T> numbers_of(const onnx::TensorProto& tensor) {
   for (const std::int64_t size : tensor.dims()) {
     require(size >= 0 && size < (1 << 24), "a tensor of size " + std::to_string(size));
     count *= static_cast<std::size_t>(size);
+    require(count < (1 << 28), "a tensor that is too large");
   }
   require(tensor.raw_data().size() == count * sizeof(T), "a tensor whose size and data differ");
   std::vector<T> numbers(count);
@@ -73,6 +74,7 @@ class OnnxReader {
   void read(const onnx::NodeProto& node) {
     const std::string& type = node.op_type();
     require(node.output_size() == 1, type + " with several outputs");
+    require(node.input_size() >= (type == "Constant" ? 0 : type == "Slice" ? 3 : 1), type + " without inputs");
     if (type == "Conv")
       add_convolution(node);
     else if (type == "Relu" || type == "Add")
@@ -241,7 +243,7 @@ Result<NetworkGraph> read_onnx(const std::string& bytes, const std::string& name
     return OnnxReader(model.graph()).read();
   } catch (const Unsupported& unsupported) {
     return fail(std::string("is a network with ") + unsupported.what(), name, kRemedy);
-  } catch (const std::out_of_range&) {
+  } catch (const std::exception&) {
     return fail("is a network whose parts do not fit together", name, kRemedy);
   }
 }

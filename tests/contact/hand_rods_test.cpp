@@ -2,19 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "math/angles.h"
 #include "support/adult_hand.h"
 
 namespace barehand {
 namespace {
 
-/// The smallest distance of two segments [m].
+/// The smallest distance of two segments [m]; NaN, which no comparison accepts, if they are not compared.
 double distance(const HandRods& rods, const HandPose& pose, int a, int b) {
-  double least = 1;
+  double least = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [i, j] : rods.apart()) {
     const HandRods::Rod &first = rods.rods()[i], &second = rods.rods()[j];
     if (std::minmax(first.segment, second.segment) == std::minmax(a, b))
-      least = std::min(least, HandRods::distance(first, pose, second, pose).distance);
+      least = std::fmin(least, HandRods::distance(first, pose, second, pose).distance);
   }
   return least;
 }

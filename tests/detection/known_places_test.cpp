@@ -15,7 +15,7 @@ class KnownPlacesTest : public ::testing::Test {
   /// found.
   bool frame(const std::optional<double>& right_log_odds, double probability = 0.6,
              const Eigen::Vector3d& palm = {0, 0, 0.7}) {
-    places_.begin_frame();
+    places_.begin_search();
     if (places_.may_wait(palm, probability)) return false;
     DetectedHand hand;
     hand.centre = palm;
@@ -55,7 +55,7 @@ TEST_F(KnownPlacesTest, APalmThatChangesOrMovesDoesNotWait) {
 
 TEST_F(KnownPlacesTest, ThePlaceThatAPalmLeftIsForgotten) {
   frames(6, 0.5);
-  for (int i = 0; i < 6; ++i) places_.begin_frame();
+  for (int i = 0; i < 6; ++i) places_.begin_search();
   EXPECT_EQ(frames(7, 0.5), "1111110");
 }
 

@@ -98,7 +98,7 @@ def check_damage(path):
 
 
 def main(barehand, lcmtypes, config):
-    if not os.path.exists(os.path.join(HERE, "node_modules")):
+    if not os.path.exists(os.path.join(HERE, "node_modules/.package-lock.json")):
         print("not tested: reading with @mcap/core, @foxglove/ws-protocol and @foxglove/rosmsg2-serialization\n"
               "They are not installed. With a network: npm ci --prefix tests/readers")
         sys.exit(SKIPPED)

@@ -14,7 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "../clients"))
 from support import Folder  # noqa: E402
 
-if not os.path.exists(os.path.join(HERE, "node_modules")):
+if not os.path.exists(os.path.join(HERE, "node_modules/.package-lock.json")):
     print("not tested: the example for browsers, which needs the package ws in Node.js\n"
           "It is not installed. With a network: npm ci --prefix tests/readers")
     sys.exit(77)

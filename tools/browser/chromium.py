@@ -32,12 +32,13 @@ class Chromium:
     """A running browser with one page. `problems` holds the errors and warnings on its console, and failed requests."""
 
     def __init__(self, patience=60):
+        program = path_of_chromium()
         self.patience = patience  # longest time to wait for anything [s]
         self.problems, self.counted, self.received = [], 0, b""
         self.profile = tempfile.mkdtemp(prefix="chromium")
         to_browser, self.output = os.pipe()
         self.input, from_browser = os.pipe()
-        command = [path_of_chromium(), *FLAGS, f"--user-data-dir={self.profile}", "about:blank"]
+        command = [program, *FLAGS, f"--user-data-dir={self.profile}", "about:blank"]
         self.log = open(os.path.join(self.profile, "log"), "w+b")
         self.process = subprocess.Popen(["sh", "-c", f'exec "$0" "$@" 3<&{to_browser} 4>&{from_browser}', *command],
                                         stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log,

@@ -8,18 +8,19 @@ from .error import Error
 from .messages import Damaged, Foreign, contact_state_t, decode, object_state_t
 from .network import Network
 from .outlets import SEGMENTS
+from .page import Page
 
 
 def contacts(source=None, prefix="", timeout=None):
     """Iterates over contact_state_t (lcmtypes/contact_state_t.lcm): one for each hand and frame. The arguments are those
-    of barehand.hands(); `utime` and `hand_id` say which hand a message belongs to. Messages of other types and damaged
+    of barehand.hands() with the same names; `utime` and `hand_id` say which hand a message belongs to. Messages of other types and damaged
     ones are left out."""
     return _messages(contact_state_t, "CONTACT_STATE", source, prefix, timeout)
 
 
 def objects(source=None, prefix="", timeout=None):
     """Iterates over object_state_t (lcmtypes/object_state_t.lcm): one for each object and frame. The arguments are those
-    of barehand.hands()."""
+    of barehand.hands() with the same names."""
     return _messages(object_state_t, "OBJECT_STATE", source, prefix, timeout)
 
 
@@ -31,7 +32,10 @@ def touched(segments):
 
 def _messages(type_, name, source, prefix, timeout):
     counts = Counts()
-    if source is None or "://" in os.fspath(source):
+    if source is not None and os.fspath(source).startswith(("ws://", "wss://")):
+        prefix = ""  # a live page has none
+        received = _live(Page(source, counts), name, timeout)
+    elif source is None or "://" in os.fspath(source):
         received = _live(Network(source, counts), prefix + name, timeout)
     else:
         received = ((channel, data) for _, channel, data in log.events(source, counts))

@@ -12,7 +12,8 @@ _CONTINUATION = 0
 _GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 _LARGEST_MESSAGE = 64 << 20  # bytes
 _LARGEST_ANSWER = 1 << 16    # of the server to the handshake, bytes
-_KEEPALIVE = (("TCP_KEEPIDLE", 5), ("TCP_KEEPINTVL", 2), ("TCP_KEEPCNT", 3))  # notices a machine that is gone
+# These notice a machine that is gone; the last one [ms] also while something that was sent is not acknowledged.
+_KEEPALIVE = (("TCP_KEEPIDLE", 5), ("TCP_KEEPINTVL", 2), ("TCP_KEEPCNT", 3), ("TCP_USER_TIMEOUT", 11_000))
 
 
 class WebSocket:

@@ -31,7 +31,7 @@ Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
     for (int s = 0; s < kSegmentCount; ++s) {
       const segment_contact_t& stated = state->object[s];
       const bool known = stated.state != contact_state_t::UNKNOWN && stated.probability >= 0 && stated.probability <= 1;
-      segments[s] = {known, stated.state == contact_state_t::TOUCHING, stated.probability,
+      segments[s] = {known, known && stated.state == contact_state_t::TOUCHING, stated.probability,
                      Eigen::Vector3d(stated.point)};
     }
   }

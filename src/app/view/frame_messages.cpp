@@ -110,7 +110,7 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
       content.hands.push_back({*hand.state, *hand.glove, *hand.joints, hand.contact});
 
   // Without states, the time and the number of the frame are those of the image.
-  if (content.frame && content.messages.empty()) {
+  if (content.frame && content.utime == 0) {
     content.utime = content.frame->utime;
     content.number = content.frame->number;
   }

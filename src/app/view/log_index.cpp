@@ -49,7 +49,8 @@ Result<void> LogIndex::add(const std::string& path) {
   return {};
 }
 
-/// Finds the frames: all times with a hand state, or, if there are no states, all times with an image or glove values.
+/// Finds the frames: all times with a hand state, or, if there are no states, all times with an image or with another
+/// message about hands or objects.
 void LogIndex::find_frames() {
   // Collect what the logs hold, by time.
   std::map<std::int64_t, Frame> of_time;
