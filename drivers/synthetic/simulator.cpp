@@ -181,17 +181,19 @@ SimulatedFrame Simulator::render(std::int64_t number) {
       truth.table->number = number;
       truth.table->timestamp = 1e-6 * static_cast<double>(frame->utime);
     }
-    if (result.object) {
-      const auto& segments = hands_[i].vertex_segments();
-      truth.contacts = grasped_->contacts(std::span(hands[i].vertices).first(segments.size()), segments,
-                                          result.object->T_camera_object);
-    }
+    truth.skin = std::move(hands[i].vertices);
+    truth.skin.resize(hands_[i].vertex_segments().size());  // the vertices of the sleeve come after those of the skin
     result.hands.push_back(std::move(truth));
   }
 
   frame->colour = std::move(view.colour);
   result.frame = std::move(frame);
   return result;
+}
+
+std::optional<HandContacts> Simulator::contacts(const SimulatedFrame& frame, std::size_t hand) const {
+  if (!frame.object) return std::nullopt;
+  return grasped_->contacts(frame.hands[hand].skin, hands_[hand].vertex_segments(), frame.object->T_camera_object);
 }
 
 }  // namespace barehand::synthetic

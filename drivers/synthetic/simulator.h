@@ -51,9 +51,9 @@ void visit(V& v, SimulatorParams& p) {
 
 /// The truth about one hand in one frame.
 struct HandTruth {
-  HandPose pose;                         ///< T_camera_segment
-  std::optional<TableFrame> table;       ///< none if no part of this hand is in the image
-  std::optional<HandContacts> contacts;  ///< with the grasped object; none if there is none
+  HandPose pose;                      ///< T_camera_segment
+  std::optional<TableFrame> table;    ///< none if no part of this hand is in the image
+  std::vector<Eigen::Vector3f> skin;  ///< vertices of the skin, camera frame [m]
 };
 
 /// One simulated frame and the truth about its hands.
@@ -76,6 +76,10 @@ class Simulator {
 
   /// Renders the frame with this number.
   SimulatedFrame render(std::int64_t number);
+
+  /// The contacts of a hand of a rendered frame with the grasped object; none if there is none. Measured on request,
+  /// since it takes milliseconds.
+  std::optional<HandContacts> contacts(const SimulatedFrame& frame, std::size_t hand) const;
 
   std::int64_t frame_count() const { return frame_count_; }
   double fps() const { return fps_; }

@@ -19,7 +19,7 @@ Result<std::unique_ptr<SyntheticSource>> SyntheticSource::open(const std::string
 
 SyntheticSource::SyntheticSource(SyntheticSpec spec, Simulator simulator, std::string name, const Clock& clock)
     : spec_(std::move(spec)), simulator_(std::move(simulator)), name_(std::move(name)), clock_(clock) {
-  for (const AnimatedHand& hand : simulator_.hands()) hands_.push_back({hand.profile(), {}, {}, {}});
+  for (const AnimatedHand& hand : simulator_.hands()) hands_.push_back({hand.profile(), {}, {}});
 }
 
 std::int64_t SyntheticSource::remaining() const {
@@ -59,18 +59,16 @@ bool SyntheticSource::wait_until_due(std::chrono::milliseconds patience) {
 FramePtr SyntheticSource::deliver() {
   // Render the frame. Its number keeps increasing when the sequence repeats.
   const std::int64_t number = next_++;
-  SimulatedFrame simulated = simulator_.render(number % simulator_.frame_count());
-  auto frame = std::make_shared<RgbdFrame>(*simulated.frame);
+  last_ = simulator_.render(number % simulator_.frame_count());
+  auto frame = std::make_shared<RgbdFrame>(*last_.frame);
 
   // Set the number and the time stamp of the frame, and of the truth about it.
   const std::int64_t since_start = std::llround(1e6 * static_cast<double>(number) / simulator_.fps());
   frame->number = number;
   frame->utime = (spec_.live ? start_utime_ : Simulator::kFirstUtime) + since_start;
-  object_ = simulated.object;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    hands_[i].contacts = simulated.hands[i].contacts;
-    hands_[i].pose = simulated.hands[i].pose;
-    hands_[i].truth = std::move(simulated.hands[i].table);
+    hands_[i].pose = last_.hands[i].pose;
+    hands_[i].truth = std::move(last_.hands[i].table);
     if (hands_[i].truth) {
       hands_[i].truth->number = number;
       hands_[i].truth->timestamp = 1e-6 * static_cast<double>(frame->utime);

@@ -15,10 +15,9 @@ namespace barehand::synthetic {
 
 /// A simulated hand, and the truth about it in the frame that was delivered last.
 struct SimulatedHand {
-  HandProfile profile;                   ///< profile measured on the simulated hand
-  std::optional<TableFrame> truth;       ///< none if the hand is not in view
-  HandPose pose;                         ///< T_camera_segment
-  std::optional<HandContacts> contacts;  ///< with the grasped object; none if there is none
+  HandProfile profile;              ///< profile measured on the simulated hand
+  std::optional<TableFrame> truth;  ///< none if the hand is not in view
+  HandPose pose;                    ///< T_camera_segment
 };
 
 /// The simulator as a source of frames. A replay delivers every frame once, with time stamps from 1 s on. A live source
@@ -39,7 +38,9 @@ class SyntheticSource : public FrameSource {
   /// The object that a hand grasps; null: there is none.
   const GraspedObject* grasped() const { return simulator_.grasped(); }
   /// The state of the grasped object in the frame that was delivered last; none if there is none.
-  const std::optional<ObjectTruth>& object() const { return object_; }
+  const std::optional<ObjectTruth>& object() const { return last_.object; }
+  /// The contacts of a hand with the grasped object in that frame, see Simulator::contacts().
+  std::optional<HandContacts> contacts(std::size_t hand) const { return simulator_.contacts(last_, hand); }
   std::string_view grasp_type() const { return simulator_.grasp_type(); }
   const Intrinsics& camera() const { return simulator_.camera(); }
   double fps() const { return simulator_.fps(); }
@@ -61,7 +62,7 @@ class SyntheticSource : public FrameSource {
   std::int64_t start_us_ = -1;    // time of live frame 0, steady clock; -1 before the first request
   std::int64_t start_utime_ = 0;  // time stamp of live frame 0 [us since the epoch]
   std::vector<SimulatedHand> hands_;
-  std::optional<ObjectTruth> object_;
+  SimulatedFrame last_;  // the frame that was delivered last
 };
 
 }  // namespace barehand::synthetic

@@ -45,10 +45,11 @@ TEST(GraspedObject, IsTouchedWhileItIsHeldAndFarBefore) {
     EXPECT_TRUE(held.object->held);
 
     // Count the segments that touch the object.
+    const HandContacts far = *simulated.contacts(before, 0), near = *simulated.contacts(held, 0);
     int touching = 0;
     for (int s = 0; s < kSegmentCount; ++s) {
-      EXPECT_GT((*before.hands[0].contacts)[s].distance, 0.02) << name << " " << kSegmentNames[s];
-      const SegmentContact& contact = (*held.hands[0].contacts)[s];
+      EXPECT_GT(far[s].distance, 0.02) << name << " " << kSegmentNames[s];
+      const SegmentContact& contact = near[s];
       touching += contact.distance < 0.002;
       EXPECT_GT(contact.distance, -0.006) << name << " " << kSegmentNames[s];
       EXPECT_NEAR(contact.normal.norm(), 1, 1e-6);
@@ -63,7 +64,8 @@ TEST(GraspedObject, PlaceNormalAndDistanceAgreeWithTheBall) {
     params.hand = hand;
     Simulator simulated = simulator(params);
     const SimulatedFrame frame = held_frame(simulated);
-    for (const SegmentContact& contact : *frame.hands[0].contacts) {
+    const HandContacts contacts = *simulated.contacts(frame, 0);
+    for (const SegmentContact& contact : contacts) {
       const Vector3d from_centre = contact.point - frame.object->T_camera_object.t;
       EXPECT_NEAR(from_centre.norm(), kBallRadius, kFacets) << hand;
       EXPECT_NEAR((from_centre.normalized() - contact.normal).norm(), 0, 0.01) << hand;
@@ -88,8 +90,9 @@ TEST(GraspedObject, OfALeftHandIsTheMirrorImage) {
   EXPECT_NEAR(l.object->T_camera_object.R.determinant(), 1, 1e-9);
 
   // So are the contacts.
+  const HandContacts of_right = *right.contacts(r, 0), of_left = *left.contacts(l, 0);
   for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentContact &a = (*r.hands[0].contacts)[s], &b = (*l.hands[0].contacts)[s];
+    const SegmentContact &a = of_right[s], &b = of_left[s];
     EXPECT_NEAR(a.distance, b.distance, 0.002) << kSegmentNames[s];
     EXPECT_LT((mirrored(a.normal) - b.normal).norm(), 0.1) << kSegmentNames[s];
   }
@@ -100,7 +103,7 @@ TEST(GraspedObject, IsAbsentWhereNothingIsGrasped) {
   const SimulatedFrame frame = simulated.render(0);
   EXPECT_EQ(simulated.grasped(), nullptr);
   EXPECT_FALSE(frame.object);
-  EXPECT_FALSE(frame.hands[0].contacts);
+  EXPECT_FALSE(simulated.contacts(frame, 0));
 }
 
 }  // namespace

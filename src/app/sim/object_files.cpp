@@ -52,9 +52,8 @@ Result<void> ObjectFiles::write(const synthetic::SyntheticSource& source, std::i
   const std::string grasp(source.object()->held ? source.grasp_type() : "none");
   written = written.and_then([&] { return grasps_.write(std::to_string(utime) + "," + grasp + "\n"); });
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const synthetic::SimulatedHand& hand = source.hands()[k];
-    if (!hand.truth) continue;  // the hand is not in view
-    written = written.and_then([&] { return contacts_[k].write(contact_rows(utime, *hand.contacts)); });
+    if (!source.hands()[k].truth) continue;  // the hand is not in view
+    written = written.and_then([&] { return contacts_[k].write(contact_rows(utime, *source.contacts(k))); });
   }
   return written;
 }
