@@ -1,11 +1,11 @@
 #include "evaluation/contact_evaluation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "io/file_bytes.h"
+#include "io/hand/table_fields.h"
 
 namespace barehand {
 namespace {
@@ -13,13 +13,6 @@ namespace {
 constexpr double kVisible = 0.5, kHidden = 0.1;  // as in the evaluation of poses
 constexpr int kBins = 10;
 constexpr double kFarthest = 1e6;  // largest distance of a valid row [m]
-
-/// Parses one number; returns false if the text is anything else.
-template <class Number>
-bool parse(const std::string& text, Number& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
-}
 
 void count(TouchCounts& counts, const StatedContact& stated, bool touches) {
   counts.unknown += !stated.known;
@@ -44,25 +37,21 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
   ContactTruth truth;
   for (int number = 2; std::getline(file, line); ++number) {
     if (line.empty()) continue;
-    std::istringstream fields(line);
-    std::string utime_text, name, distance_text;
-    std::getline(fields, utime_text, ',');
-    std::getline(fields, name, ',');
-    std::getline(fields, distance_text, ',');
+    const auto fields = split_fields(line);
     std::int64_t utime = 0;
     TrueContact contact;
-    const auto segment = segment_from_name(name);
-    bool good = segment && parse(utime_text, utime) && parse(distance_text, contact.distance);
-    for (int axis = 0; axis < 3; ++axis) {
-      std::string coordinate;
-      std::getline(fields, coordinate, ',');
-      good = good && parse(coordinate, contact.point[axis]) && std::abs(contact.point[axis]) <= kFarthest;
-    }
-    if (!good || !(std::abs(contact.distance) <= kFarthest))
+    const auto segment = fields.size() >= 6 ? segment_from_name(fields[1]) : std::nullopt;
+    bool good = segment && parse_number(fields[0], utime) && parse_number(fields[2], contact.distance) &&
+                std::abs(contact.distance) <= kFarthest;
+    for (int axis = 0; good && axis < 3; ++axis)
+      good = parse_number(fields[3 + axis], contact.point[axis]) && std::abs(contact.point[axis]) <= kFarthest;
+    if (!good)
       return fail("line " + std::to_string(number) + ": is \"" + line + "\"", path,
                   "a line begins with utime,segment,distance,x,y,z");
+
+    // Enter it into its frame, where a segment without a row touches nothing.
     auto [frame, is_new] = truth.try_emplace(utime);
-    if (is_new) frame->second.fill({kFarthest, Eigen::Vector3d::Constant(kFarthest)});  // without a row: no touch
+    if (is_new) frame->second.fill({kFarthest, Eigen::Vector3d::Constant(kFarthest)});
     frame->second[static_cast<std::size_t>(*segment)] = contact;
   }
   return truth;
@@ -83,8 +72,13 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
       for (int s = 0; s < kSegmentCount; ++s) {
         const bool touches = is->second[s].distance <= kTouchDistance;
         StatedContact contact = said->second[s];
-        const bool elsewhere = contact.touching && (contact.point - is->second[s].point).norm() > kSameSurface;
-        if (elsewhere && !touches) contact = {true, false, 0, contact.point};
+
+        // A touch of something else than the object of the truth is none of that object.
+        const bool of_other =
+            !touches && contact.touching && (contact.point - is->second[s].point).norm() > kSameSurface;
+        if (of_other) contact = {true, false, 0, contact.point};
+
+        // Count it, among all segments and among the fingertips.
         count(out.segments, contact, touches);
         const double visible = frame.rows[s].visible;
         if (is_tip(s))
@@ -92,7 +86,9 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
                 : visible < kHidden ? out.hidden_tips
                                     : out.partial_tips,
                 contact, touches);
-        if (!contact.known || (elsewhere && !touches)) continue;
+
+        // Compare the probability.
+        if (!contact.known || of_other) continue;
         ReliabilityBin& bin = bins[std::clamp(static_cast<int>(contact.probability * kBins), 0, kBins - 1)];
         ++bin.count;
         bin.stated += contact.probability;

@@ -1,11 +1,11 @@
 #include "evaluation/fingertips.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <sstream>
 
 #include "io/file_bytes.h"
+#include "io/hand/table_fields.h"
 
 namespace barehand {
 namespace {
@@ -14,24 +14,16 @@ namespace {
 
 /// Parses one line of the table. Returns false if it is malformed.
 bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) {
-  // Split the line at its commas.
-  std::istringstream line(text);
-  std::string field[5];
-  for (std::string& f : field)
-    if (!std::getline(line, f, ',')) return false;
-
-  const auto number = [](const std::string& f, auto& value) {
-    const auto [end, error] = std::from_chars(f.data(), f.data() + f.size(), value);
-    return error == std::errc{} && end == f.data() + f.size();
-  };
+  const auto field = split_fields(text);
+  if (field.size() < 5) return false;
 
   // Read the finger by its name; the other fields are numbers.
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
   label.finger = static_cast<int>(finger - kFingerNames.begin());
   int shown = 0;
-  const bool good = number(field[0], label.frame) && number(field[2], label.pixel.x()) &&
-                    number(field[3], label.pixel.y()) && number(field[4], shown);
+  const bool good = parse_number(field[0], label.frame) && parse_number(field[2], label.pixel.x()) &&
+                    parse_number(field[3], label.pixel.y()) && parse_number(field[4], shown);
   visible = shown != 0;
   constexpr double kFarthest = 1e6;  // largest coordinate [px]; the comparison is false for NaN, too
   return good && (label.pixel.array().abs() <= kFarthest).all();

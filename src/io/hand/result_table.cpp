@@ -2,7 +2,6 @@
 #include "io/hand/result_table.h"
 
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,6 +11,7 @@
 #include "core/format.h"
 #include "hand/joint_angles.h"
 #include "io/file_bytes.h"
+#include "io/hand/table_fields.h"
 #include "sensor/frame_order.h"
 
 namespace barehand {
@@ -31,36 +31,21 @@ struct ParsedLine {
   TableRow row;
 };
 
-template <typename T>
-bool parse(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
 /// Whether the absolute value is at most `largest`; false for NaN.
 bool within(double value, double largest) { return std::abs(value) <= largest; }
 
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> fields;
-  for (std::size_t from = 0;;) {
-    const std::size_t comma = text.find(',', from);
-    fields.push_back(text.substr(from, comma - from));
-    if (comma == std::string_view::npos) return fields;
-    from = comma + 1;
-  }
-}
-
 std::optional<ParsedLine> parse_line(std::string_view text) {
-  const auto fields = split(text);
+  const auto fields = split_fields(text);
   ParsedLine line;
-  if (fields.size() != kColumns || !parse(fields[0], line.number) || !parse(fields[1], line.timestamp)) return {};
+  if (fields.size() != kColumns || !parse_number(fields[0], line.number) || !parse_number(fields[1], line.timestamp))
+    return {};
   if (line.number < -kLargestNumber || line.number > kLargestNumber || !within(line.timestamp, kLargestTime)) return {};
   const auto segment = segment_from_name(fields[2]);
   if (!segment) return {};
   line.segment = *segment;
   std::array<double, 7> numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (!parse(fields[3 + i], numbers[i]) || !within(numbers[i], kFarthest)) return {};
+    if (!parse_number(fields[3 + i], numbers[i]) || !within(numbers[i], kFarthest)) return {};
   line.row = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6]};
   return line;
 }
