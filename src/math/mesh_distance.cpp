@@ -67,7 +67,7 @@ Corners MeshDistance::corners(std::uint32_t triangle) const {
 }
 
 std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
-  // Measure the triangles: bounding box, sum of the normals and centroid.
+  // Measure the triangles: bounding box, sum of the normals and centroid, which is weighted by area.
   Node node;
   node.lower.setConstant(std::numeric_limits<double>::max());
   node.upper = -node.lower;
@@ -86,6 +86,8 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
     weight += w;
   }
   node.centre /= weight;
+
+  // Measure the sphere around the centroid.
   for (std::uint32_t i = first; i < first + count; ++i)
     for (const Vector3d& corner : corners(order_[i]))
       node.radius = std::max(node.radius, (corner - node.centre).norm());
@@ -98,6 +100,8 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
     nodes_[index].count = count;
     return index;
   }
+
+  // Sort by the triangles' middles.
   int axis = 0;
   (node.upper - node.lower).maxCoeff(&axis);
   const auto place = [&](std::uint32_t t) {
@@ -106,6 +110,8 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
   const auto begin = order_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count,
                    [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+
+  // The left child follows its parent.
   build(first, count / 2);
   const std::uint32_t right = build(first + count / 2, count - count / 2);
   nodes_[index].right = right;

@@ -104,6 +104,8 @@ void ContactStage::prepare(Hand& hand, const HandEstimate& estimate) {
     const Eigen::Matrix3f R = hand.pose[s].R.cast<float>();
     const Vector3f t = hand.pose[s].t.cast<float>();
     PosedSkin& skin = hand.skin[s];
+
+    // Move its points, and enclose them in a sphere.
     skin.points.clear();
     skin.normals.clear();
     skin.centre.setZero();
@@ -178,15 +180,13 @@ void ContactStage::touch_itself(const Hand& hand, const HandEstimate& estimate, 
     const double common = variance(palm, measured.on_a, measured.normal);
     const double apart =
         variance(first, measured.on_a, measured.normal) + variance(second, measured.on_b, measured.normal) - 2 * common;
-    Contact contact;
-    contact.distance = measured.distance;
-    contact.deviation = std::sqrt(std::max(0.0, apart) + 2 * kSkinDeviation * kSkinDeviation);
-    contact.inferred = !first.seen || !second.seen;
-    judge(contact);
+    Contact contact = touch_of_skins(measured.distance, std::max(0.0, apart), first, second);
+    contact.partner = estimate.hand_id;
+
+    // It is a contact of both segments.
     for (const bool from_a : {true, false}) {
       contact.point = from_a ? measured.on_b : measured.on_a;
       contact.normal = from_a ? measured.normal : Vector3d(-measured.normal);
-      contact.partner = estimate.hand_id;
       contact.segment = static_cast<std::int8_t>(from_a ? rods[b].segment : rods[a].segment);
       offer(contacts[from_a ? rods[a].segment : rods[b].segment], contact);
     }
@@ -201,20 +201,29 @@ void ContactStage::touch_hand(std::size_t own, std::size_t other, const HandEsti
     for (const HandRods::Rod& b : partner.rods->rods()) {
       const RodDistance measured = HandRods::distance(a, hand.pose, b, partner.pose);
       if (measured.distance > params_.near_distance) continue;
+
+      // The poses of two hands err independently.
       const SegmentState &first = estimates[own]->segments[a.segment], &second = estimates[other]->segments[b.segment];
-      Contact contact;
-      contact.distance = measured.distance;
-      contact.deviation =
-          std::sqrt(variance(first, measured.on_a, measured.normal) + variance(second, measured.on_b, measured.normal) +
-                    2 * kSkinDeviation * kSkinDeviation);
-      contact.inferred = !first.seen || !second.seen;
+      const double apart =
+          variance(first, measured.on_a, measured.normal) + variance(second, measured.on_b, measured.normal);
+      Contact contact = touch_of_skins(measured.distance, apart, first, second);
       contact.point = measured.on_b;
       contact.normal = measured.normal;
       contact.partner = estimates[other]->hand_id;
       contact.segment = static_cast<std::int8_t>(b.segment);
-      judge(contact);
       offer(contacts[a.segment], contact);
     }
+}
+
+/// A contact of the skins of two segments, whose distance has this variance by the poses of the segments [m^2].
+Contact ContactStage::touch_of_skins(double distance, double variance, const SegmentState& first,
+                                     const SegmentState& second) const {
+  Contact contact;
+  contact.distance = distance;
+  contact.deviation = std::sqrt(variance + 2 * kSkinDeviation * kSkinDeviation);
+  contact.inferred = !first.seen || !second.seen;
+  judge(contact);
+  return contact;
 }
 
 /// Sets the probability of a touch, and the state, from the distance and its deviation.

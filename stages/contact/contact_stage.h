@@ -41,6 +41,7 @@ class ContactStage {
   void touch_objects(const Hand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
   void touch_itself(const Hand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
+  Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
   void judge(Contact& contact) const;
   void drop_skin(const HandEstimates& estimates);
 

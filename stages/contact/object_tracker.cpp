@@ -8,7 +8,6 @@ namespace barehand {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
 constexpr float kVoxel = 0.0125f;             // surfaces in neighbouring voxels are linked [m]
 constexpr int kSpeck = 25;                    // fewer points than this (about 3 cm^2) are no object
@@ -54,12 +53,11 @@ void ObjectTracker::link(const std::vector<bool>& open, const std::vector<Surfac
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   };
-  const auto cell = [](const Vector3f& p) { return Eigen::Vector3i((p / kVoxel).array().floor().cast<int>()); };
 
   // List the occupied voxels.
   voxels_.clear();
   for (const SurfacePoint& point : points) {
-    const Eigen::Vector3i v = cell(point.p);
+    const Eigen::Vector3i v = (point.p / kVoxel).array().floor().cast<int>();
     voxels_.emplace_back(key_of(v.x(), v.y(), v.z()), point.component);
   }
   std::sort(voxels_.begin(), voxels_.end());
@@ -147,6 +145,8 @@ void ObjectTracker::update(Track& track, const Thing& thing, std::int64_t utime,
   if (nearest && !thing.open) {
     const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
     const Vector3d in_palm = T_camera_palm.inverse() * state.T_camera_object.t;
+
+    // Begin anew with another palm, or if the object has left its place in the palm.
     const double left = track.companion == nearest->hand_id ? (in_palm - track.in_palm).norm()
                                                             : std::numeric_limits<double>::infinity();
     if (left > kLeft) {
@@ -154,6 +154,8 @@ void ObjectTracker::update(Track& track, const Thing& thing, std::int64_t utime,
       track.in_palm = in_palm;
       track.palm = T_camera_palm.t;
     }
+
+    // It is held once it was carried, until it leaves.
     held = (state.held && left < kLeft) || (left < kFirm && (T_camera_palm.t - track.palm).norm() > kCarried);
   } else {
     track.companion = -1;

@@ -9,13 +9,12 @@
 
 #include "observe/detection.h"
 #include "stages/detection/network_graph.h"
+#include "stages/detection/weights.h"
 
 extern "C" void omp_set_num_threads(int);  // of libgomp, with which Debian's oneDNN is built
 
 namespace barehand {
 namespace {
-
-constexpr const char* kRemedy = "use the networks that came with this version of Barehand";
 
 // Values lie in memory in blocks of eight channels, [block][row][column][channel], as AVX2 prefers them. The channels
 // of the last block that do not exist are zero.
@@ -195,8 +194,9 @@ Network::~Network() = default;
 Result<Network> Network::load(const std::string& bytes, const std::string& name, const NetworkShape& shape) {
   auto graph = read_onnx(bytes, name);
   if (!graph) return tl::unexpected(graph.error());
-  if (!has_shape(*graph, shape)) return fail("is a network with other inputs or outputs", name, kRemedy);
-  if (!joins_blocks(*graph)) return fail("is a network with widths that are no multiples of eight", name, kRemedy);
+  if (!has_shape(*graph, shape)) return fail("is a network with other inputs or outputs", name, kNetworkRemedy);
+  if (!joins_blocks(*graph))
+    return fail("is a network with widths that are no multiples of eight", name, kNetworkRemedy);
 
   // AVX2 is as fast as wider registers here, and gives the same results on processors that have those, too.
   static_cast<void>(dnnl::set_max_cpu_isa(dnnl::cpu_isa::avx2));
@@ -211,7 +211,7 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
     if (const auto output = network.run(nothing); !output) return tl::unexpected(output.error());
     return network;
   } catch (const std::exception& error) {
-    return fail(std::string("is a network that cannot be run: ") + error.what(), name, kRemedy);
+    return fail(std::string("is a network that cannot be run: ") + error.what(), name, kNetworkRemedy);
   }
 }
 
@@ -222,7 +222,7 @@ Result<NetworkOutput> Network::run(const NetworkInput& input) {
     use_one_thread();
     net_->run();
   } catch (const std::exception& error) {
-    return fail(std::string("cannot be run: ") + error.what(), name_, kRemedy);
+    return fail(std::string("cannot be run: ") + error.what(), name_, kNetworkRemedy);
   }
 
   net_->read("j", net_->map);
@@ -230,7 +230,7 @@ Result<NetworkOutput> Network::run(const NetworkInput& input) {
   const NetworkOutput result{shape_.maps,      shape_.width / 4,  shape_.height / 4,  net_->map.data(),
                              shape_.width / 2, shape_.height / 2, net_->label.data(), net_->number("side")};
   if (!all_finite(net_->map) || !all_finite(net_->label) || !std::isfinite(result.side))
-    return fail("gives values that are not finite", name_, kRemedy);
+    return fail("gives values that are not finite", name_, kNetworkRemedy);
   return result;
 }
 

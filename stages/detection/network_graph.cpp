@@ -7,10 +7,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "stages/detection/weights.h"
+
 namespace barehand {
 namespace {
-
-constexpr const char* kRemedy = "use the networks that came with this version of Barehand";
 
 /// What the file contains and this program does not support. Lookups of unknown names throw std::out_of_range.
 struct Unsupported : std::runtime_error {
@@ -195,12 +195,16 @@ class OnnxReader {
   /// Evaluates the nodes that compute the sizes for Resize from the shapes of values.
   void compute_size(const onnx::NodeProto& node) {
     std::vector<std::int64_t>& out = integers_[node.output(0)];
+
+    // Constants, and the sizes of values.
     if (node.op_type() == "Constant" && node.attribute_size() == 1) {
       const onnx::TensorProto& tensor = node.attribute(0).t();
       if (tensor.data_type() == onnx::TensorProto::INT64) out = numbers_of<std::int64_t>(tensor);
     } else if (node.op_type() == "Shape") {
       const NetworkGraph::Shape& shape = shape_of(node.input(0));
       out = {1, shape.channels, shape.height, shape.width};
+
+      // Parts of other results, and their concatenation.
     } else if (node.op_type() == "Slice") {
       const auto& in = integers_.at(node.input(0));
       const auto end_of = [&](int i) {
@@ -238,13 +242,13 @@ class OnnxReader {
 Result<NetworkGraph> read_onnx(const std::string& bytes, const std::string& name) {
   onnx::ModelProto model;
   if (!model.ParseFromString(bytes) || model.graph().node_size() == 0)
-    return fail("is not a network in an ONNX file", name, kRemedy);
+    return fail("is not a network in an ONNX file", name, kNetworkRemedy);
   try {
     return OnnxReader(model.graph()).read();
   } catch (const Unsupported& unsupported) {
-    return fail(std::string("is a network with ") + unsupported.what(), name, kRemedy);
+    return fail(std::string("is a network with ") + unsupported.what(), name, kNetworkRemedy);
   } catch (const std::exception&) {
-    return fail("is a network whose parts do not fit together", name, kRemedy);
+    return fail("is a network whose parts do not fit together", name, kNetworkRemedy);
   }
 }
 

@@ -45,8 +45,7 @@ Result<DetectionWeights> load_weights(const std::string& folder) {
   if (!version) return tl::unexpected(version.error());
   if (!interface) return tl::unexpected(interface.error());
   if (*interface != kInterface)
-    return fail("has interface " + *interface + ", this program supports " + kInterface, where,
-                "use the networks that came with this version of Barehand");
+    return fail("has interface " + *interface + ", this program supports " + kInterface, where, kNetworkRemedy);
 
   auto full = checked_file(folder, manifest, "full"), crop = checked_file(folder, manifest, "crop");
   if (!full) return tl::unexpected(full.error());

@@ -6,6 +6,9 @@
 
 namespace barehand {
 
+/// What to do about files of networks that cannot be used.
+inline constexpr const char* kNetworkRemedy = "use the networks that came with this version of Barehand";
+
 /// The contents of a folder with the weights of the two networks.
 struct DetectionWeights {
   /// An ONNX file.

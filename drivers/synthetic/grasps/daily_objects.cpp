@@ -48,23 +48,28 @@ DailyObject turned(std::vector<Eigen::Vector2d> outline, const Material& materia
   return {"", make_turned(outline), material, std::move(holds)};
 }
 
-DailyObject rod(double diameter, double length, const Material& material) {
-  const double r = diameter / 2, h = length / 2;
-  return turned({{0, -h}, {r, -h}, {r, h}, {0, h}}, material, {around_z(diameter, length)});
+Make rod(double diameter, double length, const Material& material) {
+  return [=] {
+    const double r = diameter / 2, h = length / 2;
+    return turned({{0, -h}, {r, -h}, {r, h}, {0, h}}, material, {around_z(diameter, length)});
+  };
 }
 
-DailyObject pen(double diameter, double length, const Material& material) {
-  const double r = diameter / 2, h = length / 2;
-  return turned({{0, -h}, {0.15 * r, -h}, {r, -h + 0.018}, {r, h}, {0, h}}, material,
-                {around_z(diameter, length, -h + 0.035)});
+Make pen(double diameter, double length, const Material& material) {
+  return [=] {
+    const double r = diameter / 2, h = length / 2;
+    return turned({{0, -h}, {0.15 * r, -h}, {r, -h + 0.018}, {r, h}, {0, h}}, material,
+                  {around_z(diameter, length, -h + 0.035)});
+  };
 }
 
-DailyObject box(const Vector3d& sides, const Material& material, std::vector<Hold> holds) {
-  return {"", make_box(sides / 2), material, std::move(holds)};
+/// A box that is held at `place` across its sides along z.
+Make box(const Vector3d& sides, const Material& material, const Vector3d& place) {
+  return [=] { return DailyObject{"", make_box(sides / 2), material, {across_z(sides.z(), sides.x(), place)}}; };
 }
 
-DailyObject sphere(double diameter, const Material& material) {
-  return {"", make_sphere(diameter / 2), material, {ball_hold(diameter)}};
+Make sphere(double diameter, const Material& material) {
+  return [=] { return DailyObject{"", make_sphere(diameter / 2), material, {ball_hold(diameter)}}; };
 }
 
 DailyObject vessel(double radius, double height, double wall, const Material& material) {
@@ -72,6 +77,8 @@ DailyObject vessel(double radius, double height, double wall, const Material& ma
   return turned({{0, -h}, {r, -h}, {r, h}, {r - wall, h}, {r - wall, -h + wall}, {0, -h + wall}}, material,
                 {around_z(2 * radius, height)});
 }
+
+DailyObject glass() { return vessel(0.033, 0.12, 0.003, {{150, 170, 176}, 0.6}); }
 
 DailyObject cup() {
   DailyObject cup = vessel(0.037, 0.09, 0.004, {{60, 92, 150}, 0.5});
@@ -153,12 +160,14 @@ DailyObject key() {
   return key;
 }
 
-DailyObject disc(double diameter, double height, const Material& material) {
-  const double r = diameter / 2, h = height / 2;
-  DailyObject disc = turned({{0, -h}, {r, -h}, {r, h}, {0, h}}, material, {});
-  disc.holds = {across_z(height, diameter, {0.5 * r, 0, 0})};
-  if (diameter > 0.03) disc.holds.push_back(around_z(diameter, height));
-  return disc;
+Make disc(double diameter, double height, const Material& material) {
+  return [=] {
+    const double r = diameter / 2, h = height / 2;
+    DailyObject disc = turned({{0, -h}, {r, -h}, {r, h}, {0, h}}, material, {});
+    disc.holds = {across_z(height, diameter, {0.5 * r, 0, 0})};
+    if (diameter > 0.03) disc.holds.push_back(around_z(diameter, height));
+    return disc;
+  };
 }
 
 DailyObject plate() {
@@ -179,123 +188,53 @@ DailyObject plate() {
 /// All objects. Every second one of a kind is for testing.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries = {
+      // Vessels.
       {"cup", false, cup},
-      {"glass", true,
-       [] {
-         return vessel(0.033, 0.12, 0.003, {{150, 170, 176}, 0.6});
-       }},
-      {"can", false,
-       [] {
-         return rod(0.066, 0.115, {{180, 60, 60}, 0.7});
-       }},
+      {"glass", true, glass},
+      {"can", false, rod(0.066, 0.115, {{180, 60, 60}, 0.7})},
       {"bottle", true, bottle},
-      {"ball", false,
-       [] {
-         return sphere(0.065, {{176, 190, 38}});
-       }},
-      {"tennis_ball", true,
-       [] {
-         return sphere(0.067, {{196, 214, 60}});
-       }},
+
+      // Balls.
+      {"ball", false, sphere(0.065, {{176, 190, 38}})},
+      {"tennis_ball", true, sphere(0.067, {{196, 214, 60}})},
       {"apple", true, apple},
-      {"ping_pong_ball", false,
-       [] {
-         return sphere(0.040, {{230, 226, 216}, 0.2});
-       }},
-      {"golf_ball", true,
-       [] {
-         return sphere(0.0427, {{216, 220, 226}, 0.2});
-       }},
-      {"marble", false,
-       [] {
-         return sphere(0.016, {{60, 110, 170}, 0.7});
-       }},
-      {"hazelnut", true,
-       [] {
-         return sphere(0.014, {{150, 100, 60}});
-       }},
-      {"orange_ball", false,
-       [] {
-         return sphere(0.055, {{220, 130, 30}});
-       }},
-      {"pill_bottle", false,
-       [] {
-         return rod(0.034, 0.055, {{220, 140, 40}, 0.2});
-       }},
-      {"rod_30", false,
-       [] {
-         return rod(0.030, 0.20, {{150, 120, 90}});
-       }},
-      {"rod_40", true,
-       [] {
-         return rod(0.040, 0.18, {{120, 150, 90}});
-       }},
-      {"rod_20", false,
-       [] {
-         return rod(0.020, 0.22, {{150, 150, 150}, 0.3});
-       }},
+      {"ping_pong_ball", false, sphere(0.040, {{230, 226, 216}, 0.2})},
+      {"golf_ball", true, sphere(0.0427, {{216, 220, 226}, 0.2})},
+      {"marble", false, sphere(0.016, {{60, 110, 170}, 0.7})},
+      {"hazelnut", true, sphere(0.014, {{150, 100, 60}})},
+      {"orange_ball", false, sphere(0.055, {{220, 130, 30}})},
+
+      // Rods and tools.
+      {"pill_bottle", false, rod(0.034, 0.055, {{220, 140, 40}, 0.2})},
+      {"rod_30", false, rod(0.030, 0.20, {{150, 120, 90}})},
+      {"rod_40", true, rod(0.040, 0.18, {{120, 150, 90}})},
+      {"rod_20", false, rod(0.020, 0.22, {{150, 150, 150}, 0.3})},
       {"screwdriver", true, screwdriver},
       {"hammer", false, hammer},
       {"knife", true, knife},
-      {"pen", false,
-       [] {
-         return pen(0.010, 0.14, {{30, 40, 120}, 0.2});
-       }},
-      {"pencil", true,
-       [] {
-         return pen(0.0078, 0.17, {{210, 170, 40}, 0.1});
-       }},
+
+      // Pens and the like.
+      {"pen", false, pen(0.010, 0.14, {{30, 40, 120}, 0.2})},
+      {"pencil", true, pen(0.0078, 0.17, {{210, 170, 40}, 0.1})},
       {"spoon", true, spoon},
-      {"chopstick", false,
-       [] {
-         return pen(0.007, 0.22, {{120, 80, 50}});
-       }},
-      {"book", false,
-       [] {
-         return box({0.21, 0.14, 0.016}, {{60, 80, 60}}, {across_z(0.016, 0.21, {0.092, 0, 0})});
-       }},
-      {"carton", true,
-       [] {
-         return box({0.16, 0.10, 0.028}, {{196, 160, 110}}, {across_z(0.028, 0.16, {0.068, 0, 0})});
-       }},
-      {"phone", true,
-       [] {
-         return box({0.15, 0.072, 0.009}, {{40, 42, 46}, 0.5}, {across_z(0.009, 0.15, {0.064, 0, 0})});
-       }},
-      {"notebook", false,
-       [] {
-         return box({0.18, 0.12, 0.009}, {{80, 40, 90}}, {across_z(0.009, 0.18, {0.078, 0, 0})});
-       }},
+      {"chopstick", false, pen(0.007, 0.22, {{120, 80, 50}})},
+
+      // Flat things.
+      {"book", false, box({0.21, 0.14, 0.016}, {{60, 80, 60}}, {0.092, 0, 0})},
+      {"carton", true, box({0.16, 0.10, 0.028}, {{196, 160, 110}}, {0.068, 0, 0})},
+      {"phone", true, box({0.15, 0.072, 0.009}, {{40, 42, 46}, 0.5}, {0.064, 0, 0})},
+      {"notebook", false, box({0.18, 0.12, 0.009}, {{80, 40, 90}}, {0.078, 0, 0})},
       {"plate", false, plate},
-      {"card", false,
-       [] {
-         return box({0.085, 0.054, 0.001}, {{200, 200, 210}, 0.3}, {across_z(0.001, 0.085, {0.033, 0, 0})});
-       }},
+      {"card", false, box({0.085, 0.054, 0.001}, {{200, 200, 210}, 0.3}, {0.033, 0, 0})},
       {"key", true, key},
-      {"coin", false,
-       [] {
-         return disc(0.025, 0.002, {{180, 140, 80}, 0.7});
-       }},
-      {"game_chip", true,
-       [] {
-         return disc(0.038, 0.0033, {{170, 40, 50}});
-       }},
-      {"cube", false,
-       [] {
-         return box({0.025, 0.025, 0.025}, {{190, 60, 120}}, {across_z(0.025, 0.025, Vector3d::Zero())});
-       }},
-      {"die", true,
-       [] {
-         return box({0.018, 0.018, 0.018}, {{230, 230, 230}}, {across_z(0.018, 0.018, Vector3d::Zero())});
-       }},
-      {"jar_lid", false,
-       [] {
-         return disc(0.070, 0.016, {{190, 190, 60}, 0.5});
-       }},
-      {"puck", true,
-       [] {
-         return disc(0.062, 0.022, {{36, 36, 40}});
-       }},
+
+      // Discs and cubes.
+      {"coin", false, disc(0.025, 0.002, {{180, 140, 80}, 0.7})},
+      {"game_chip", true, disc(0.038, 0.0033, {{170, 40, 50}})},
+      {"cube", false, box({0.025, 0.025, 0.025}, {{190, 60, 120}}, Vector3d::Zero())},
+      {"die", true, box({0.018, 0.018, 0.018}, {{230, 230, 230}}, Vector3d::Zero())},
+      {"jar_lid", false, disc(0.070, 0.016, {{190, 190, 60}, 0.5})},
+      {"puck", true, disc(0.062, 0.022, {{36, 36, 40}})},
   };
   return kEntries;
 }

@@ -228,10 +228,14 @@ Result<PlannedGrasp> plan_grasp(const HandRig& rig, int type, const std::string&
   for (int i = 0; i < kTries && least > kGood; ++i) {
     const Hold& hold = holds[random.bits() % holds.size()];
     const SE3 T_hold_object = SE3{spin(hold, random), Vector3d::Zero()} * hold.T_object_hold.inverse();
+
+    // Plan it against the palm, or between the fingers.
     if (recipe.first.empty())
       hold_against_palm(planner, recipe, T_hold_object, distance, random, plan);
     else
       hold_opposed(rig, planner, recipe, hold, T_hold_object, distance, random, plan);
+
+    // Keep it if it is the best one so far.
     if (const double wrong = faults(planner, recipe, plan, distance); wrong < least) {
       least = wrong;
       best = plan;

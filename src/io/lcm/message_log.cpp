@@ -5,11 +5,14 @@
 namespace barehand {
 
 Result<MessageLog> MessageLog::open(const std::string& path) {
+  // MCAP files are told by their content.
   MessageLog log;
   if (mcap::is_mcap(path)) {
     if (const auto opened = log.open_mcap(path); !opened) return tl::unexpected(opened.error());
     return log;
   }
+
+  // Everything else must be an LCM log.
   auto lcm = LcmLogReader::open(path);
   if (!lcm) return tl::unexpected(lcm.error());
   if (const std::int64_t damaged = lcm->damaged_bytes(); damaged > 0)
@@ -20,11 +23,13 @@ Result<MessageLog> MessageLog::open(const std::string& path) {
 }
 
 Result<void> MessageLog::open_mcap(const std::string& path) {
+  // List the LCM messages; the others are not for this log.
   const std::string type = ros::schema_name<ros::LcmMessage>();
   const auto look = [&](const mcap::Message& message, const mcap::Channel& channel, auto bytes) {
     if (channel.type != type || channel.encoding != "cdr") return;
     const auto lcm = ros::decode<ros::LcmMessage>(bytes);
     if (!lcm) return;
+
     LogEntry entry;
     entry.position = static_cast<std::int64_t>(messages_.size());
     entry.timestamp = static_cast<std::int64_t>(message.log_time / 1000);
@@ -34,6 +39,8 @@ Result<void> MessageLog::open_mcap(const std::string& path) {
     entries_.push_back(std::move(entry));
     messages_.push_back(message);
   };
+
+  // Read the file once.
   auto reader = mcap::McapReader::open(path, look);
   if (!reader) return tl::unexpected(reader.error());
   doubts_ = reader->doubts();
