@@ -42,6 +42,13 @@ function(barehand_library name)
   add_library(barehand::${name} ALIAS barehand_${name})
   target_link_libraries(barehand_${name} PUBLIC barehand_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS} ${common_libraries})
   target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
+
+  # Compile several files at once where headers take most of the time. Not where numbers are computed: there, what the
+  # compiler inlines, and with it the last digit, would depend on which files are neighbours.
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^(src/(app|io|pipeline)|drivers/(folder|lcm|mcap|openni2|usb))")
+    set_target_properties(barehand_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
 endfunction()
 
 # barehand_test(core SOURCES a_test.cpp ... DEPS lib ...) adds one test program, whose test cases ctest runs one by one.

@@ -14,7 +14,7 @@
 namespace barehand {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 /// Opens or creates the file. If another user's process left it, it may be only readable, which is enough to lock it.
 int open_file(const std::string& path) {
@@ -47,7 +47,7 @@ bool knows_no_locks(int error) { return error == ENOLCK || error == EOPNOTSUPP |
 }  // namespace
 
 Result<FileLock> FileLock::take(const std::string& path, std::chrono::milliseconds patience) {
-  for (const auto end = Clock::now() + patience;;) {
+  for (const auto end = SteadyClock::now() + patience;;) {
     const int descriptor = open_file(path);
     if (descriptor < 0 && (errno == ENOSPC || errno == EDQUOT)) return FileLock(path, -1);
     if (descriptor < 0)
@@ -69,7 +69,7 @@ Result<FileLock> FileLock::take(const std::string& path, std::chrono::millisecon
     lock.path_.clear();
     if (knows_no_locks(reason)) return FileLock(path, -1);
     if (reason != EWOULDBLOCK) return fail(std::string("cannot be locked: ") + std::strerror(reason), path);
-    if (Clock::now() >= end) return fail("is held by " + holder(descriptor), path, "stop that process first");
+    if (SteadyClock::now() >= end) return fail("is held by " + holder(descriptor), path, "stop that process first");
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }

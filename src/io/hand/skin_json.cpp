@@ -11,7 +11,7 @@ namespace {
 using json_fields::Json;
 
 constexpr std::size_t kMostEntries = 200'000;
-constexpr double kFarthest = 0.5;  // largest distance of a vertex from the origin of its segment [m]
+constexpr double kFarthestVertex = 0.5;  // largest distance of a vertex from the origin of its segment [m]
 
 /// Rounds a coordinate to micrometres.
 double micrometres(float metres) { return std::round(metres * 1e6) / 1e6; }
@@ -36,7 +36,7 @@ bool read_vertex(const Json& row, SkinVertex& v) {
   if (!row.is_array() || (row.size() != 4 && row.size() != 9) || !all_numbers(row)) return false;
   const auto number = [&](std::size_t i) { return row[i].get<double>(); };
   const auto point = [&](std::size_t i) { return Eigen::Vector3d(number(i), number(i + 1), number(i + 2)); };
-  const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthest; };  // NaN is never near
+  const auto near = [](const Eigen::Vector3d& p) { return p.norm() < kFarthestVertex; };  // NaN is never near
 
   // Read the first segment.
   if (!is_segment(number(0)) || !near(point(1))) return false;

@@ -37,16 +37,16 @@ bool guarded(png_structp png, Step&& step) {
 }
 
 /// Reads one PNG from memory.
-class Reader {
+class PngReader {
  public:
-  explicit Reader(std::span<const std::uint8_t> bytes)
+  explicit PngReader(std::span<const std::uint8_t> bytes)
       : rest_(bytes), png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, on_warning)) {
     if (png_) info_ = png_create_info_struct(png_);
     if (info_) png_set_read_fn(png_, this, give);
   }
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   /// Reads the image's headers. Errors: damage, or a size other than `width` by `height`.
   Result<void> open(int width, int height) {
@@ -84,7 +84,7 @@ class Reader {
  private:
   tl::unexpected<Error> damaged() const { return fail(std::string("damaged PNG image: ") + message_.data()); }
   static void give(png_structp png, png_bytep to, std::size_t size) {
-    auto& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest_;
+    auto& rest = static_cast<PngReader*>(png_get_io_ptr(png))->rest_;
     if (size > rest.size()) png_error(png, "it ends too early");
     std::memcpy(to, rest.data(), size);
     rest = rest.subspan(size);
@@ -107,15 +107,15 @@ class Reader {
 };
 
 /// Writes one PNG into memory.
-class Writer {
+class PngWriter {
  public:
-  Writer() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, on_warning)) {
+  PngWriter() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, on_warning)) {
     if (png_) info_ = png_create_info_struct(png_);
     if (info_) png_set_write_fn(png_, this, take, [](png_structp) {});
   }
-  ~Writer() { png_destroy_write_struct(&png_, &info_); }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
 
   template <typename Pixel>
   Result<std::vector<std::uint8_t>> write(const Image<Pixel>& image, int level, int bits, int colour_type) {
@@ -139,7 +139,7 @@ class Writer {
   static void take(png_structp png, png_bytep from, std::size_t size) {
     bool taken = true;
     try {
-      auto& bytes = static_cast<Writer*>(png_get_io_ptr(png))->bytes_;
+      auto& bytes = static_cast<PngWriter*>(png_get_io_ptr(png))->bytes_;
       bytes.insert(bytes.end(), from, from + size);
     } catch (const std::bad_alloc&) {  // exceptions must not pass through libpng, nor longjmp leave this handler
       taken = false;
@@ -156,7 +156,7 @@ class Writer {
 }  // namespace
 
 Result<Image<Rgb>> decode_png_colour(std::span<const std::uint8_t> bytes, int width, int height) {
-  Reader reader(bytes);
+  PngReader reader(bytes);
   if (const auto opened = reader.open(width, height); !opened) return tl::unexpected(opened.error());
   Image<Rgb> image(width, height);
   if (const auto read = reader.read_as_rgb(image); !read) return tl::unexpected(read.error());
@@ -164,7 +164,7 @@ Result<Image<Rgb>> decode_png_colour(std::span<const std::uint8_t> bytes, int wi
 }
 
 Result<Image<std::uint16_t>> decode_png_depth(std::span<const std::uint8_t> bytes, int width, int height) {
-  Reader reader(bytes);
+  PngReader reader(bytes);
   if (const auto opened = reader.open(width, height); !opened) return tl::unexpected(opened.error());
   if (reader.colour_type() != PNG_COLOR_TYPE_GRAY || reader.bit_depth() != 16)
     return fail("is not a 16-bit image with one channel", {}, "store depth in this format");
@@ -174,11 +174,11 @@ Result<Image<std::uint16_t>> decode_png_depth(std::span<const std::uint8_t> byte
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const Image<Rgb>& image) {
-  return Writer().write(image, kColourLevel, 8, PNG_COLOR_TYPE_RGB);
+  return PngWriter().write(image, kColourLevel, 8, PNG_COLOR_TYPE_RGB);
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const Image<std::uint16_t>& image) {
-  return Writer().write(image, kDepthLevel, 16, PNG_COLOR_TYPE_GRAY);
+  return PngWriter().write(image, kDepthLevel, 16, PNG_COLOR_TYPE_GRAY);
 }
 
 }  // namespace barehand
