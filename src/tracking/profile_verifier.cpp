@@ -30,6 +30,9 @@ constexpr int kSizeLooks = 10,    // number of frames of a track whose detected 
 // kUnderstated times the one that the joints show.
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
+// Log odds from which on the networks are sure of the side of a hand: they err in about one of fifty hands then.
+constexpr double kSureSide = 4;
+
 // Number of search attempts with the mirrored profile if the score of the profile itself is not confident. Most hands
 // of the other side are found by the first or second attempt; with many attempts, the mirrored profile might fit a hand
 // of the profile's side by chance.
@@ -59,7 +62,7 @@ std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(const HandProfile& prof
 void ProfileVerifier::report_other_side() {
   if (side_reported_) return;
   side_reported_ = true;
-  const auto seen = to_string(mirrored_->view().profile->handedness);
+  const auto seen = to_string(other_side().view().profile->handedness);
   log_->warn("the data looks like a {} hand, but the profile is of a {} one: give --hand {}, or --hand both", seen,
              to_string(profile_.handedness), seen);
 }
@@ -73,6 +76,16 @@ void ProfileVerifier::begin_verification(const HandObservation& observation, std
   other_side().apply(StartAnew{});
   other_side().process(observation, std::move(found));
   verification_.emplace();
+}
+
+bool ProfileVerifier::is_detected_as_other_side(const HandObservation& observation) {
+  ++searched_frames_;
+  if (!observation.detected) return false;
+  const DetectedHand& hand = *observation.detected;
+  const double log_odds = -side_sign(profile_.handedness) * hand.right_log_odds;
+  const bool other = other_side_evidence_.add(searched_frames_, hand.centre, log_odds) > kSureSide;
+  if (other) report_other_side();
+  return other;
 }
 
 bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tracking/hand_tracker.h"
+#include "tracking/hypotheses/hand_evidence.h"
 
 namespace barehand {
 
@@ -16,6 +17,10 @@ class ProfileVerifier {
   /// `workers` must outlive this object.
   ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
                   std::shared_ptr<spdlog::logger> log);
+
+  /// Call once for each frame in which the hand is searched. Returns whether the networks are sure, by this and earlier
+  /// frames, that the detected hand is of the other side. If so, reports it.
+  bool is_detected_as_other_side(const HandObservation& observation);
 
   /// Call after a search with up to `attempts` attempts found the hand with `score` [m]. Searches with the mirrored
   /// profile, with fewer attempts, and returns whether that explains the observation clearly better. After a
@@ -63,6 +68,8 @@ class ProfileVerifier {
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<HandTracker> mirrored_;
+  HandEvidence other_side_evidence_;  // log odds of the other side against the profile's
+  std::uint32_t searched_frames_ = 0;
   bool side_reported_ = false, size_reported_ = false;
   int failures_ = 0, tries_ = 0;  // calls of nothing_found() with a hand-like region, and tries of another size
   int size_looks_ = 0;            // frames of this track whose detected joints were used

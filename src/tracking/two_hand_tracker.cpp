@@ -131,7 +131,8 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
     return estimate;
   }
 
-  // Without a track, search the hand.
+  // Without a track, search the hand, unless what was detected is the other hand.
+  if (params_.side_check && check.is_detected_as_other_side(observation)) return hand.process(observation, std::nullopt);
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sensor/tint.h"
+#include "stages/detection/network_cues.h"
 
 namespace barehand {
 namespace {
@@ -30,8 +31,8 @@ ExpectedHand expected(const HandEstimate& earlier, const RgbdFrame& frame) {
 }  // namespace
 
 DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
-                               Workers& workers, std::shared_ptr<spdlog::logger> log)
-    : params_(params), use_colour_(use_colour), workers_(workers), log_(std::move(log)) {
+                               Workers& workers, std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only)
+    : params_(params), use_colour_(use_colour), workers_(workers), log_(std::move(log)), only_(only) {
   if (!params.enabled) return;
   auto detector = HandDetector::load(folder, params);
   if (!detector) {
@@ -66,10 +67,16 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
     detector_.reset();
     return nullptr;
   }
+  if (whole) sort_by_probability(detection->hands, wanted(feedback));
   // While a hand is missing, whole_frame is set even in frames in which only windows were searched, so that
   // preprocessing does not mistake undetected data for the missing hand.
   detection->whole_frame = !all_tracked;
   return std::make_shared<const Detection>(std::move(*detection));
+}
+
+std::optional<Handedness> DetectionStage::wanted(std::span<const HandEstimatePtr> feedback) const {
+  // A command may have changed the profile, so the feedback knows the side better than the configuration.
+  return only_ && feedback.size() == 1 && feedback[0] ? feedback[0]->handedness : only_;
 }
 
 void DetectionStage::expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {

@@ -19,8 +19,9 @@ namespace barehand {
 class DetectionStage {
  public:
   /// `folder`: contains the networks. `use_colour`: whether preprocessing uses colour if the frame has it.
+  /// `only`: the side of the hand, if a single one is to be tracked; hands of the other side are then returned last.
   DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour, Workers& workers,
-                 std::shared_ptr<spdlog::logger> log);
+                 std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only = std::nullopt);
 
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
   /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
@@ -28,6 +29,8 @@ class DetectionStage {
   DetectionPtr process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
  private:
+  // The side of the hand that is searched for, if it is only one.
+  std::optional<Handedness> wanted(std::span<const HandEstimatePtr> feedback) const;
   // Fills `places_` with the places where the tracked hands are expected.
   void expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
@@ -35,6 +38,7 @@ class DetectionStage {
   bool use_colour_;
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
+  std::optional<Handedness> only_;
   std::optional<HandDetector> detector_;  // none: detection is off
   std::int64_t frame_ = 0;                // number of valid frames so far
   std::vector<ExpectedHand> places_;      // scratch

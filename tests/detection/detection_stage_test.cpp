@@ -1,5 +1,6 @@
 #include "stages/detection/detection_stage.h"
 
+#include "stages/detection/network_cues.h"
 #include "support/rendered_person.h"
 
 namespace barehand {
@@ -69,6 +70,43 @@ TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
   int looked = 0;
   for (int i = 0; i < 9; ++i) looked += both.process(*frame_, feedback)->hands.size() == 1;
   EXPECT_EQ(looked, 3);
+}
+
+/// A hand of each side, clearly so.
+std::vector<DetectedHand> right_and_left() {
+  std::vector<DetectedHand> hands(2);
+  for (DetectedHand& hand : hands) {
+    hand.labels.label.reset(1, 1, SurfaceLabel::hand);
+    hand.labels.hand_log_odds.reset(1, 1, 4);
+  }
+  hands[0].right_log_odds = 5;
+  hands[0].palm = 0.9;
+  hands[1].right_log_odds = -5;
+  hands[1].palm = 0.8;
+  return hands;
+}
+
+TEST(SortByProbability, TheWantedSideComesFirstThenTheOtherOne) {
+  std::vector<DetectedHand> hands = right_and_left();
+  sort_by_probability(hands, Handedness::left);
+  EXPECT_EQ(hands[0].side(), Handedness::left);
+  sort_by_probability(hands, Handedness::right);
+  EXPECT_EQ(hands[0].side(), Handedness::right);
+}
+
+TEST(SortByProbability, WithBothHandsWantedTheSurerOneComesFirst) {
+  std::vector<DetectedHand> hands = right_and_left();
+  std::swap(hands[0], hands[1]);
+  sort_by_probability(hands, std::nullopt);
+  EXPECT_EQ(hands[0].palm, 0.9);
+}
+
+TEST(SortByProbability, AHandComesBeforeWhatLooksMoreLikeAPalmAndLessLikeAHand) {
+  std::vector<DetectedHand> hands = right_and_left();
+  hands[0].right_log_odds = 0.1;  // a mug, say
+  hands[0].labels.hand_log_odds.reset(1, 1, 1.5);
+  sort_by_probability(hands, std::nullopt);
+  EXPECT_EQ(hands[0].palm, 0.8);
 }
 
 TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {

@@ -11,22 +11,22 @@ namespace {
 constexpr double kLots = 0.9;  // a difference of log odds that is significant
 
 /// Output of the networks for an ordinary hand.
-constexpr HandCues kHand{.palm = 0.8, .side = 4, .labels = 5, .misfit = 0.3};
+constexpr HandCues kHand{.networks = {.palm = 0.8, .side = 4, .labels = 5}, .misfit = 0.3};
 const Eigen::Vector3d kHere(0, 0, 0.6);
 
 TEST(HandCues, EachOneTellsAHandFromWhatIsTakenForOne) {
   const double hand = log_odds_of_hand(kHand);
   HandCues unlikely = kHand, sideless = kHand, blurred = kHand, misshapen = kHand;
-  unlikely.palm = 0.6;
-  sideless.side = 0.1;
-  blurred.labels = 1.5;
+  unlikely.networks.palm = 0.6;
+  sideless.networks.side = 0.1;
+  blurred.networks.labels = 1.5;
   misshapen.misfit = 1.5;
   for (const HandCues& cues : {unlikely, sideless, blurred, misshapen}) EXPECT_LT(log_odds_of_hand(cues), hand - kLots);
 }
 
 TEST(HandCues, OfAFollowedHandOrNoJointsAreNotInfinite) {
   HandCues followed = kHand, nothing;
-  followed.palm = 1;
+  followed.networks.palm = 1;
   EXPECT_LT(log_odds_of_hand(followed), 15);
   EXPECT_GT(log_odds_of_hand(nothing), -15);
 }
@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Sides, CuesOfDetection, testing::Values(Handedness::rig
 TEST_P(CuesOfDetection, AreTheSameForProfilesOfBothSides) {
   for (const auto& profile : {test::adult_hand(), test::adult_hand(Handedness::left)}) {
     const HandCues cues = hand_cues(detected(), *profile);
-    EXPECT_EQ(cues.side, 3);
-    EXPECT_FLOAT_EQ(cues.labels, 4) << "of what is called hand";
+    EXPECT_EQ(cues.networks.side, 3);
+    EXPECT_FLOAT_EQ(cues.networks.labels, 4) << "of what is called hand";
     EXPECT_LT(cues.misfit, 0.1);
   }
 }

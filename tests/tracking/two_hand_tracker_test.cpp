@@ -305,6 +305,23 @@ TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsO
   EXPECT_EQ(found[kLeft]->status, TrackStatus::searching);
 }
 
+TEST_F(StartOfDetectedHand, IsRefusedAtOnceWhereTheNetworksAreSureOfTheOtherSide) {
+  const auto start_with = [&](double right_log_odds) {
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15));
+    auto joints = std::make_shared<DetectedHand>(*hand->detected);
+    joints->right_log_odds = right_log_odds;
+    hand->detected = joints;
+    std::ostringstream out;
+    TwoHandTracker tracker(params(), {right_}, 1, workers_, test::text_logger(out));
+    const bool tracked = next(tracker, hand)[0]->status == TrackStatus::tracking;
+    EXPECT_EQ(out.str().find("looks like a left hand") == std::string::npos, tracked) << out.str();
+    return tracked;
+  };
+  EXPECT_TRUE(start_with(10));
+  EXPECT_TRUE(start_with(-1)) << "the networks are not sure";
+  EXPECT_FALSE(start_with(-10));
+}
+
 /// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
 /// model explains well.
 class DoubtfulDetection : public StartOfDetectedHand {

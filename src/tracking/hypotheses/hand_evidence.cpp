@@ -9,11 +9,10 @@
 namespace barehand {
 namespace {
 
-// Weights of the logistic model that tells hands from other objects, one for each cue.
-constexpr double kBias = -1.0, kOfPalm = 1.85, kOfSide = 0.35, kOfLabels = 0.55, kOfMisfit = -0.84, kOfScore = -1.57,
-                 kOfDistance = -2.3;
-// Limits to which the cues are clamped, because values beyond them carry no further information.
-constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 4, kLeastMisfit = 0.05;
+// Weights of the logistic model that tells hands from other objects, one for each cue besides the networks' outputs.
+constexpr double kBias = -1.0, kOfMisfit = -0.84, kOfScore = -1.57, kOfDistance = -2.3;
+// Lower limit of the misfit, because values below it carry no further information.
+constexpr double kLeastMisfit = 0.05;
 // Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
 // both for which they change the log odds neither way (kReference) [m].
 constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;
@@ -30,20 +29,7 @@ constexpr std::uint32_t kFaded = 100;  // number of frames after which a place i
 
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
   HandCues cues;
-  cues.palm = detected.palm;
-  cues.side = std::abs(detected.right_log_odds);
-
-  // Average the log odds of the cells that are labelled as hand, each limited to kSure.
-  double sum = 0;
-  int count = 0;
-  const LabelMap& labels = detected.labels;
-  for (std::size_t i = 0; i < labels.label.size(); ++i) {
-    if (labels.label[i] != SurfaceLabel::hand) continue;
-    constexpr float kSure = 20;
-    sum += std::min(kSure, labels.hand_log_odds[i]);
-    ++count;
-  }
-  if (count) cues.labels = sum / count;
+  cues.networks = network_cues(detected);
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions.
@@ -54,9 +40,7 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 }
 
 double log_odds_of_hand(const HandCues& cues) {
-  const double palm = std::clamp(cues.palm, kLeastPalm, kSurestPalm);
-  return kBias + kOfPalm * std::log(palm / (1 - palm)) + kOfSide * std::min(cues.side, kClearSide) +
-         kOfLabels * cues.labels + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
+  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
 }
 
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "observe/detection.h"
+#include "stages/detection/network_cues.h"
 #include "stages/refinement/refinement.h"
 
 namespace barehand {
@@ -11,12 +11,9 @@ namespace barehand {
 // Decides whether what the networks detected is a hand at all, by evidence from the networks, from the refined pose and
 // from successive frames.
 
-/// Cues from the networks on whether a detected hand really is a hand. The networks also report palms on feet and
-/// faces, and at the end of an arm whose hand is hidden. There the cues contradict each other.
+/// Cues on whether a detected hand really is a hand, before a pose is tried.
 struct HandCues {
-  double palm = 0;    ///< probability that the network assigns to the palm (DetectedHand::palm)
-  double side = 0;    ///< how clearly it is a left or a right hand: absolute value of DetectedHand::right_log_odds
-  double labels = 0;  ///< mean log odds of the hand over the cells of the window that are labelled as hand
+  NetworkCues networks;
   double misfit = 0;  ///< KinematicFit::cost of the joints, with a hand of any size
 };
 /// The cues of a detected hand. `profile` may be of either side: it is mirrored if necessary.
