@@ -132,7 +132,8 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
   }
 
   // Without a track, search the hand, unless what was detected is the other hand.
-  if (params_.side_check && check.is_detected_as_other_side(observation)) return hand.process(observation, std::nullopt);
+  if (params_.side_check && check.is_detected_as_other_side(observation))
+    return hand.process(observation, std::nullopt);
   const int attempts = before.attempts(before.effort);
   std::optional<Hypothesis> found = hand.search(observation, before.effort, attempts);
 
