@@ -46,7 +46,7 @@ function(barehand_library name)
   # Compile several files at once where headers take most of the time. Not where numbers are computed: there, what the
   # compiler inlines, and with it the last digit, would depend on which files are neighbours.
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  if(folder MATCHES "^(src/(app|io|pipeline)|drivers/(folder|lcm|mcap|openni2|usb))")
+  if(folder MATCHES "^(src/(app|core|evaluation|io|pipeline|sensor)|drivers)")
     set_target_properties(barehand_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
 endfunction()

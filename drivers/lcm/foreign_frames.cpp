@@ -6,12 +6,11 @@
 
 #include "core/format.h"
 #include "drivers/lcm/depth_codec.h"
+#include "drivers/lcm/wire.h"
 #include "io/recording/image_codec.h"
 
 namespace barehand {
 namespace {
-
-using Bytes = std::span<const std::uint8_t>;
 
 Result<std::shared_ptr<RgbdFrame>> make_frame(std::int64_t utime, std::int64_t number, const GivenIntrinsics& camera,
                                               Result<Image<std::uint16_t>> depth, Result<Image<Rgb>> colour) {
@@ -41,7 +40,7 @@ tl::unexpected<Error> other_size(ImageSize colour, ImageSize depth) {
 
 /// Converts an uncompressed image. `stride`: bytes from one row to the next, 0 if there are no gaps; `channels`: bytes
 /// per pixel; `red`: index of the red byte in a pixel.
-Result<Image<Rgb>> raw_colour(Bytes data, ImageSize size, std::int64_t stride, int channels, int red) {
+Result<Image<Rgb>> raw_colour(WireBytes data, ImageSize size, std::int64_t stride, int channels, int red) {
   if (auto possible = check_image_size(size.width, size.height); !possible) return tl::unexpected(possible.error());
   const std::int64_t row = static_cast<std::int64_t>(size.width) * channels;
   if (stride == 0) stride = row;

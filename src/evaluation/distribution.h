@@ -13,6 +13,7 @@ struct Distribution {
 };
 /// Summarises values in any order.
 Distribution summarise(std::vector<double> values);
+constexpr double kMillimetre = 1000;  ///< scale from metres to the millimetres of reports
 /// Converts statistics to another unit: all of them are multiplied by `scale`.
 Distribution scaled(Distribution d, double scale);
 

@@ -25,7 +25,6 @@ Json to_json(const Distribution& d, double scale) {
 }
 
 Json to_json(const EvaluatedRun& run, const std::optional<double>& hand_length) {
-  constexpr double kMillimetre = 1000;
   const Evaluation& e = run.evaluation;
   Json json = {{"label", run.label},
                {"truth", run.truth_path},
@@ -61,7 +60,6 @@ Json to_json(const FingertipEvaluation& e) {
 }
 
 Json to_json(const Coverage& c) {
-  constexpr double kMillimetre = 1000;
   Json json = {{"intervals", c.intervals}};
   if (c.intervals == 0) return json;
   json["covered"] = rounded(c.covered);

@@ -8,8 +8,6 @@
 namespace barehand {
 namespace {
 
-constexpr double kMillimetre = 1000;
-
 /// Boxes of the segment error, one per run.
 BoxChart runs_chart(const std::vector<EvaluatedRun>& runs) {
   BoxChart chart;

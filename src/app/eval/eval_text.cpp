@@ -5,8 +5,6 @@
 namespace barehand {
 namespace {
 
-constexpr double kMillimetre = 1000;
-
 void print_head(std::string& out, const char* unit) {
   out += formatted("  %-22s %7s %7s %7s %7s %7s %7s %7s %7s %7s\n", unit, "count", "mean", "median", "min", "q1", "q3",
                    "90%", "95%", "max");

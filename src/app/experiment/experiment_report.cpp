@@ -12,7 +12,6 @@
 namespace barehand {
 namespace {
 
-constexpr double kMillimetre = 1000;
 using json_fields::Json;
 
 /// One column of the report.
