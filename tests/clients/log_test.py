@@ -183,7 +183,8 @@ class ContactsInLogs(Folder):
                                       (b"OBJECT_STATE", thing.encode()), (b"CONTACT_STATE", contact.encode()[:-1]),
                                       (b"DESK_CONTACT_STATE", contact.encode())):
                     log.write_event(file, frame, frame, channel, data)
-        contacts = list(barehand.contacts(path))
+        with self.assertWarnsRegex(RuntimeWarning, "take.lcmlog: left out so far: 1 damaged"):
+            contacts = list(barehand.contacts(path))
         self.assertEqual([contact.utime for contact in contacts], [0, 1, 2])
         self.assertEqual([name for name, _ in barehand.touched(contacts[0].object)], ["middle_distal"])
         self.assertEqual(barehand.touched(contacts[0].own), [])
