@@ -93,6 +93,17 @@ class Live(Folder):
         player.close()
         self.assertEqual((compared, live.counts.trouble()), (8, ""))
 
+    def test_the_status_comes_again_and_again_where_a_log_is_paused(self):
+        log, _ = self.golden_states(GOLDEN)
+        client = WebSocket("localhost", self.serve("view", log, "--port", "0").port, "/live", LONG)
+        self.addCleanup(client.close)
+        client.send(b'{"type": "pause"}')
+        paused = 0
+        while paused < 3:
+            kind, status = client.receive(LONG)
+            self.assertEqual(kind, TEXT)
+            paused += not json.loads(status)["log"]["playing"]
+
     def test_a_server_that_comes_back_is_connected_to_again(self):
         log, _ = self.golden_states(GOLDEN)
         server = Server("view", log, "--port", "0")
