@@ -1,8 +1,11 @@
 // Decodes the LCM messages that the page needs (lcmtypes/*.lcm). LCM is big endian; a message starts with the
-// fingerprint of its type (8 bytes).
+// fingerprint of its type (8 bytes). The decoders throw an error for a message of another type and for a damaged one.
+
+const kFingerprints = {hand_state_t: 0x32c649d4163b8eb2n, glove_state_t: 0x5e477470f8db147en,
+                       contact_state_t: 0xf0c0b3e2f622f768n, object_state_t: 0x455512028ee352e3n};
 
 class Reader {
-  constructor(view, at) { this.view = view; this.at = at; }
+  constructor(view) { this.view = view; this.at = 8; }
   int8() { return this.view.getInt8(this.at++); }
   int32() { this.at += 4; return this.view.getInt32(this.at - 4); }
   int64() { this.at += 8; return Number(this.view.getBigInt64(this.at - 8)); }
@@ -11,10 +14,20 @@ class Reader {
   int8s(count) { return Array.from({length: count}, () => this.int8()); }
   string() {
     const length = this.int32();
+    if (length < 1 || this.at + length > this.view.byteLength) throw new RangeError("a text is too long");
     const bytes = new Uint8Array(this.view.buffer, this.view.byteOffset + this.at, length - 1);
     this.at += length;
     return new TextDecoder().decode(bytes);
   }
+}
+
+// What `fields`, a function of a Reader, reads from a message of this type.
+function decode(type, view, fields) {
+  if (view.byteLength < 8 || view.getBigUint64(0) !== kFingerprints[type])
+    throw new TypeError(`it is no ${type} of this version`);
+  const read = new Reader(view), message = fields(read);
+  if (read.at !== view.byteLength) throw new RangeError(`it is too long for a ${type}`);
+  return message;
 }
 
 function header(read) {
@@ -31,17 +44,17 @@ function segment(read) {
 
 // Decodes a hand_state_t; orientations are quaternions (w, x, y, z). `view`: a DataView of the whole message.
 export function decodeHandState(view) {
-  const read = new Reader(view, 8);
-  return {...header(read), has_pose: read.int8() !== 0, pose_utime: read.int64(), score: read.double(),
-          joint_gap: read.double(), segments: Array.from({length: 16}, () => segment(read))};
+  return decode("hand_state_t", view, (read) => ({
+    ...header(read), has_pose: read.int8() !== 0, pose_utime: read.int64(), score: read.double(),
+    joint_gap: read.double(), segments: Array.from({length: 16}, () => segment(read))}));
 }
 
 // Decodes a glove_state_t; angles are in radians, NaN if unknown.
 export function decodeGloveState(view) {
-  const read = new Reader(view, 8);
-  return {...header(read), joint_name: Array.from({length: 21}, () => read.string()), joint_angle: read.doubles(21),
-          joint_angle_raw: read.doubles(21), joint_flag: read.int8s(21), channel: read.doubles(22),
-          channel_raw: read.doubles(22), channel_flag: read.int8s(22)};
+  return decode("glove_state_t", view, (read) => ({
+    ...header(read), joint_name: Array.from({length: 21}, () => read.string()), joint_angle: read.doubles(21),
+    joint_angle_raw: read.doubles(21), joint_flag: read.int8s(21), channel: read.doubles(22),
+    channel_raw: read.doubles(22), channel_flag: read.int8s(22)}));
 }
 
 function segmentContact(read) {
@@ -52,17 +65,18 @@ function segmentContact(read) {
 
 // Decodes a contact_state_t; points are in the camera frame, in metres, NaN if unknown.
 export function decodeContactState(view) {
-  const read = new Reader(view, 8), contacts = () => Array.from({length: 16}, () => segmentContact(read));
-  return {...header(read), object: contacts(), own: contacts(), other_hand: contacts()};
+  const contacts = (read) => Array.from({length: 16}, () => segmentContact(read));
+  return decode("contact_state_t", view, (read) => ({
+    ...header(read), object: contacts(read), own: contacts(read), other_hand: contacts(read)}));
 }
 
 // Decodes an object_state_t; its pose maps the object's frame to the camera's.
 export function decodeObjectState(view) {
-  const read = new Reader(view, 8);
-  return {utime: read.int64(), frame_number: read.int64(), sensor: read.string(), object_id: read.int32(),
-          position: read.doubles(3), orientation: read.doubles(4), linear_velocity: read.doubles(3),
-          angular_velocity: read.doubles(3), covariance: read.doubles(36), extent: read.doubles(3),
-          held: read.int8() !== 0, hand_id: read.int32(), since: read.int64()};
+  return decode("object_state_t", view, (read) => ({
+    utime: read.int64(), frame_number: read.int64(), sensor: read.string(), object_id: read.int32(),
+    position: read.doubles(3), orientation: read.doubles(4), linear_velocity: read.doubles(3),
+    angular_velocity: read.doubles(3), covariance: read.doubles(36), extent: read.doubles(3),
+    held: read.int8() !== 0, hand_id: read.int32(), since: read.int64()}));
 }
 
 export const kTouching = 3;  // state of a contact

@@ -15,7 +15,7 @@ const kSlowFrameMs = 3000;  // time without a frame after which the page reports
 const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // skins that arrived before the 3D view was ready
-let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false;
+let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false, closed = "";
 let decoding = Promise.resolve();  // chain of promises that decodes images one after the other
 
 // Starts the 3D view. If three.js is missing or the browser lacks WebGL, the rest of the page works without it.
@@ -36,8 +36,9 @@ async function startScene() {
 
 const connection = new Connection({
   onOpen() { open = true; showConnection("good", "connected"); },
-  onClose() {
+  onClose(reason) {
     open = false;
+    closed = reason;
     latest = null;
     unacknowledged = 0;
     showConnection("lost", "no connection");
@@ -103,8 +104,9 @@ function showPicture(frame) {
 function problem() {
   const scan = status && status.scan ? status.scan.phase : "";
   if (!open && scan === "done") return "The calibration is done and the program has ended. The result stays here until you leave the page.";
-  if (!open) return "No connection to Barehand. Is it still running? The page connects again by itself.";
+  if (!open) return `${closed || "No connection to Barehand. Is it still running?"} The page connects again by itself.`;
   if (status && status.trouble) return status.trouble;
+  if (shown && shown.damage.length > 0) return `The program sends messages that this page does not know. Load the page anew. (${shown.damage[0]})`;
   if (sceneProblem) return sceneProblem;
   if (state.freeze || scan === "measuring" || scan === "done") return "";
   const paused = status && status.log && !status.log.playing;

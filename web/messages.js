@@ -1,14 +1,20 @@
 // Decodes the binary messages of the WebSocket (docs/view_protocol.md lists their chunks).
 import {decodeContactState, decodeGloveState, decodeHandState, decodeObjectState} from "./lcm.js";
 
+const kDecoders = {HAND_STATE: ["states", decodeHandState], GLOVE_STATE: ["gloves", decodeGloveState],
+                   CONTACT_STATE: ["contacts", decodeContactState], OBJECT_STATE: ["objects", decodeObjectState]};
+
 function lcmMessage(view, frame) {
   const length = view.getUint8(0);
   const channel = new TextDecoder().decode(new Uint8Array(view.buffer, view.byteOffset + 1, length));
   const message = new DataView(view.buffer, view.byteOffset + 1 + length, view.byteLength - 1 - length);
-  if (channel === "HAND_STATE") frame.states.push(decodeHandState(message));
-  if (channel === "GLOVE_STATE") frame.gloves.push(decodeGloveState(message));
-  if (channel === "CONTACT_STATE") frame.contacts.push(decodeContactState(message));
-  if (channel === "OBJECT_STATE") frame.objects.push(decodeObjectState(message));
+  if (!Object.hasOwn(kDecoders, channel)) return;
+  const [list, decode] = kDecoders[channel];
+  try {
+    frame[list].push(decode(message));
+  } catch (error) {
+    frame.damage.push(`${channel}: ${error.message}`);
+  }
 }
 
 function header(view) {
@@ -37,10 +43,11 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// Decodes a message to {header, states, gloves, contacts, objects, skins, cloud, picture}; header, cloud and picture are
-// null if missing.
+// Decodes a message to {header, states, gloves, contacts, objects, skins, cloud, picture, damage}; header, cloud and
+// picture are null if missing. `damage` says of each LCM message that was left out why.
 export function decodeFrame(buffer) {
-  const frame = {header: null, states: [], gloves: [], contacts: [], objects: [], skins: [], cloud: null, picture: null};
+  const frame = {header: null, states: [], gloves: [], contacts: [], objects: [], skins: [], cloud: null, picture: null,
+                 damage: []};
   const whole = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
     const kind = String.fromCharCode(whole.getUint8(at)), index = whole.getUint8(at + 1);

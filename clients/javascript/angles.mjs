@@ -6,11 +6,18 @@ import dgram from "node:dgram";
 import {decodeGloveState, kSideNames, kStatusNames} from "../../web/lcm.js";
 
 const kShortMessage = 0x4c433032;  // "LC02": a message in one datagram; hand states always fit into one
-const kGloveState = 0x5e477470f8db147en;  // fingerprint of the type, the first 8 bytes of its messages
 const kUnobservable = 2;           // glove_state_t.UNOBSERVABLE
 const kIndexFinger = [4, 5, 6];    // channels INDEX_MPJ, INDEX_PIJ, INDEX_DIJ
-const [, group, port] = (process.env.LCM_DEFAULT_URL || "udpm://239.255.76.67:7667").match(/^udpm:\/\/([\d.]+):(\d+)/);
+const kExample = "udpm://239.255.76.67:7667";
+const kRoute = "is there a multicast route? sudo ip link set lo up; sudo ip route add 224.0.0.0/4 dev lo";
+const url = process.env.LCM_DEFAULT_URL || kExample;
+const [, group, port] = url.match(/^udpm:\/\/([\d.]+):(\d+)/) ?? giveUp(`${url} is no LCM network; they look like ${kExample}`);
 let lines = Number(process.argv[2] ?? Infinity);
+
+function giveUp(why) {
+  console.error(why);
+  process.exit(1);
+}
 
 function print(glove) {
   const words = ["frame", glove.frame_number, kSideNames[glove.handedness], kStatusNames[glove.status] ?? "?"];
@@ -28,7 +35,6 @@ function receive(datagram) {
   if (datagram.toString("latin1", 8, end) !== "GLOVE_STATE") return;
   const data = new DataView(datagram.buffer, datagram.byteOffset + end + 1, datagram.length - end - 1);
   try {
-    if (data.getBigUint64(0) !== kGloveState) throw new TypeError("it is no glove_state_t of this version");
     print(decodeGloveState(data));
   } catch (error) {
     console.error(`left out a message on GLOVE_STATE: ${error.message}`);
@@ -37,4 +43,11 @@ function receive(datagram) {
 
 const socket = dgram.createSocket({type: "udp4", reuseAddr: true});
 socket.on("message", receive);
-socket.bind(Number(port), group, () => socket.addMembership(group));
+socket.on("error", (error) => giveUp(`cannot connect to ${url} (${error.message}); ${kRoute}`));
+socket.bind(Number(port), group, () => {
+  try {
+    socket.addMembership(group);
+  } catch (error) {
+    socket.emit("error", error);
+  }
+});

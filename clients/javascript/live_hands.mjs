@@ -1,8 +1,8 @@
 // Hands from the live page of `barehand track --view` or `barehand view`, in a browser or wherever else WebSocket is.
+import {LiveSocket} from "../../web/live_socket.js";
 import {decodeFrame} from "../../web/messages.js";
 import {kSideNames, kStatusNames} from "../../web/lcm.js";
 
-const kRetryMs = 1000;
 const kDegrees = 180 / Math.PI;
 
 // A hand with its angles in degrees by name; none at all while it has no pose, and never zeros instead.
@@ -19,33 +19,28 @@ function handOf(glove, state) {
 // tracker says of itself changes. Connects again when the server comes back. Returns a function that ends it.
 // `url`: such as "ws://localhost:8765/live".
 export function connect(url, onHands, onNews) {
-  let socket = null, retry = null;
-  function open() {
-    socket = new WebSocket(url);
-    socket.binaryType = "arraybuffer";
-    socket.onopen = () => socket.send(JSON.stringify({type: "want", window: 1}));
-    socket.onerror = () => {};  // onclose follows
-    socket.onclose = () => {
-      retry = setTimeout(open, kRetryMs);
-      onNews(`No connection to ${url}. Does barehand track --view run, and does it invite this page (--view-origin)?`);
-    };
-    socket.onmessage = ({data}) => {
-      if (typeof data === "string") return onNews(JSON.parse(data).trouble ?? "");
-      try {
-        const {states, gloves} = decodeFrame(data);
-        onHands(gloves.map((glove) => handOf(glove, states.find((state) => state.hand_id === glove.hand_id))));
-      } finally {
-        // A slow browser then gets fewer frames instead of late ones. An error must not end the stream.
-        socket.send('{"type": "ack"}');
-      }
-    };
+  let trouble = "", leftOut = "";  // what the tracker says, and what is wrong with its messages
+  function hear(data) {
+    if (typeof data === "string") {
+      trouble = JSON.parse(data).trouble ?? "";
+      return onNews(trouble || leftOut);
+    }
+    try {
+      const {states, gloves, damage} = decodeFrame(data);
+      leftOut = damage.length > 0 ? `Messages are left out: ${damage[0]}.` : "";
+      onHands(gloves.map((glove) => handOf(glove, states.find((state) => state.hand_id === glove.hand_id))));
+    } finally {
+      // A slow browser then gets fewer frames instead of late ones. An error must not end the stream.
+      socket.send({type: "ack"});
+    }
   }
-  open();
-  return () => {
-    socket.onclose = null;
-    clearTimeout(retry);
-    socket.close();
-  };
+  const socket = new LiveSocket(url, {
+    onOpen: () => socket.send({type: "want", window: 1}),
+    onMessage: hear,
+    onClose: (reason) => onNews(reason ||
+      `No connection to ${url}. Does barehand track --view run, and does it invite this page (--view-origin)?`),
+  });
+  return () => socket.close();
 }
 
 // The hands as the rows of a table, lists of texts: first their names, then one joint a row, one hand a column.

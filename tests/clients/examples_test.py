@@ -2,6 +2,7 @@
 """Tests that the example in each language prints the angles that C++ computed. To be started by with_multicast.sh.
   examples_test.py WRITE_CLIENT_GOLDEN NODE"""
 import itertools
+import json
 import math
 import os
 import subprocess
@@ -76,6 +77,30 @@ class Examples(Folder):
 
     def test_javascript(self):
         self.check(self.heard(NODE, CLIENTS / "javascript/angles.mjs", str(LINES)), "glove22")
+
+    def test_javascript_decodes_every_type_and_nothing_else(self):
+        script = """
+            import fs from "node:fs";
+            import {decodeContactState, decodeGloveState, decodeHandState, decodeObjectState} from "SOURCE/web/lcm.js";
+            const decoders = {hand: decodeHandState, glove: decodeGloveState, contact: decodeContactState, object: decodeObjectState};
+            const errorOf = (decode, bytes) => {
+              try { decode(new DataView(Uint8Array.from(bytes).buffer)); } catch (error) { return error.message; }
+              return "";
+            };
+            for (const [name, decode] of Object.entries(decoders)) {
+              const good = fs.readFileSync(`SOURCE/tests/golden/lcm/${name}_state_t.bin`);
+              const foreign = Buffer.from(good);
+              foreign[7] ^= 1;
+              const texts = [good, foreign, good.subarray(0, 4), good.subarray(0, -1), Buffer.concat([good, foreign])];
+              console.log(JSON.stringify(texts.map((bytes) => errorOf(decode, bytes))));
+            }""".replace("SOURCE", str(SOURCE))
+        said = subprocess.run([NODE, "--input-type=module"], input=script, capture_output=True, text=True, check=True).stdout
+        for name, line in zip(("hand", "glove", "contact", "object"), said.splitlines(), strict=True):
+            good, foreign, short, cut, long = json.loads(line)
+            self.assertEqual(good, "", name)
+            self.assertEqual([foreign, short], [f"it is no {name}_state_t of this version"] * 2)
+            self.assertIn("Offset is outside", cut)
+            self.assertEqual(long, f"it is too long for a {name}_state_t")
 
     def test_cpp_built_as_its_first_lines_say(self):
         types = sorted((SOURCE / "lcmtypes").glob("*.lcm"))

@@ -121,10 +121,47 @@ class McapFiles(Folder):
         for at in range(len(log.mcap.MAGIC), len(self.whole), 211):
             for damaged in (self.whole[:at], self.whole[:at] + bytes([self.whole[at] ^ 0x55]) + self.whole[at + 1:]):
                 self.path.write_bytes(damaged)
-                events, counts = self.read()
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    events, counts = self.read()
                 if damaged != self.whole[:at] and not counts.damaged:  # it was in the index or a name, which are not read
                     continue
                 self.assertTrue(all(event in right for event in events), at)
+
+    def records(self):
+        """(what is before the chunk, the chunk, what follows up to the end of the data, the rest)."""
+        ends, at = {}, len(log.mcap.MAGIC)
+        for kind, content in log.mcap._records(self.whole, at):
+            at += 9 + len(content)
+            ends.setdefault(kind, (at - 9 - len(content), at))
+        (start, end), (_, data_end) = ends[6], ends[15]
+        return self.whole[:start], self.whole[start:end], self.whole[end:data_end], self.whole[data_end:]
+
+    def test_damage_costs_one_chunk_and_is_described(self):
+        (right, _), (head, chunk, rest, summary) = self.read(), self.records()
+        lz4 = chunk.replace(b"\4\0\0\0zstd", b"\4\0\0\0lz4f", 1)
+        for words, middle, chunks in (
+                (f"{len(chunk)} bytes are damaged or cut off", chunk[:8] + b"\x7f" + chunk[9:], 2),
+                ("5 bytes are damaged or cut off", b"\6\0\1\2\3", 2),
+                ("a chunk is left out, damaged", chunk[:-1] + bytes([chunk[-1] ^ 1]), 2),
+                ("a chunk is left out, packed with lz4f, which is not read: repack the file with `mcap", lz4, 2),
+                ("2 chunks are left out, packed with lz4f", lz4 + lz4, 2),
+                ("a chunk is left out, which would take more than 256 MiB", chunk[:32] + b"\x7f" + chunk[33:], 2),
+                ("it was not finished, as by a recorder that was killed; every complete chunk is used", None, 1)):
+            self.path.write_bytes(head + chunk + middle + chunk + rest + summary if middle else head + chunk)
+            with self.assertWarnsRegex(RuntimeWarning, f"^barehand: {self.path}: {words}") as said:
+                events, counts = self.read()
+            self.assertEqual((events, counts.damaged), (right * chunks, 2 if "2 chunks" in words else 1), words)
+            self.assertEqual(said.filename, __file__)
+
+    def test_damage_before_the_chunks_costs_nothing_of_a_finished_file(self):
+        (right, _), (head, chunk, rest, summary) = self.read(), self.records()
+        for at in range(len(log.mcap.MAGIC), len(head), 7):
+            damaged = head[:at] + bytes([head[at] ^ 0x55]) + head[at + 1:]
+            self.path.write_bytes(damaged + chunk + rest + summary)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.assertEqual(self.read()[0], right, at)
 
     def test_a_file_without_hands_is_said(self):
         self.path.write_bytes(self.whole[:100])
@@ -146,7 +183,8 @@ class ContactsInLogs(Folder):
                                       (b"OBJECT_STATE", thing.encode()), (b"CONTACT_STATE", contact.encode()[:-1]),
                                       (b"DESK_CONTACT_STATE", contact.encode())):
                     log.write_event(file, frame, frame, channel, data)
-        contacts = list(barehand.contacts(path))
+        with self.assertWarnsRegex(RuntimeWarning, "take.lcmlog: left out so far: 1 damaged"):
+            contacts = list(barehand.contacts(path))
         self.assertEqual([contact.utime for contact in contacts], [0, 1, 2])
         self.assertEqual([name for name, _ in barehand.touched(contacts[0].object)], ["middle_distal"])
         self.assertEqual(barehand.touched(contacts[0].own), [])

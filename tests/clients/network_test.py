@@ -15,7 +15,7 @@ from unittest import mock
 import numpy as np
 
 import barehand
-from barehand import log, stream
+from barehand import log, receiver
 from barehand.counts import Counts
 from barehand.messages import decode
 from barehand.network import Network, parse_url
@@ -107,6 +107,27 @@ class Trouble(unittest.TestCase):
             with self.assertRaisesRegex(barehand.Error, "no message on DESK_HAND_STATE .*start `barehand track`"):
                 next(live)
 
+    def test_contacts_are_waited_for_as_hands_are(self):
+        with warnings.catch_warnings(record=True) as said, mock.patch.object(receiver, "_SILENCE", 0.01):
+            warnings.simplefilter("always")
+            with self.assertRaisesRegex(barehand.Error, "no message on CONTACT_STATE .*contact.enabled must be true"):
+                next(barehand.contacts(URL, timeout=0.05))
+        self.assertEqual([one.filename for one in said], [__file__])
+        self.assertIn("no message on CONTACT_STATE", str(said[0].message))
+
+    def test_contacts_that_cannot_be_used_are_said(self):
+        sender, contacts = Network(URL), barehand.contacts(URL, timeout=LONG)
+        contact = barehand.contact_state_t().encode()
+        for data in (contact[:-1], messages_of()[0][1], contact):
+            sender.send("CONTACT_STATE", data)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            self.assertEqual(next(contacts).encode(), contact)
+        self.assertEqual([one.filename for one in said], [__file__] * 2)
+        self.assertIn("1 damaged, 1 foreign", str(said[-1].message))
+        contacts.close()
+        sender.close()
+
     def test_other_channels_are_no_sign_of_life(self):
         network, done = Network(URL), threading.Event()
 
@@ -124,7 +145,7 @@ class Trouble(unittest.TestCase):
 
     def test_the_time_that_a_consumer_takes_is_no_silence(self):
         clock = [0.0]
-        with mock.patch.object(stream, "time", SimpleNamespace(monotonic=lambda: clock[0])):
+        with mock.patch.object(receiver, "time", SimpleNamespace(monotonic=lambda: clock[0])):
             sender = Network(URL)
             self.addCleanup(sender.close)
             with barehand.hands(URL, timeout=LONG) as live:

@@ -10,8 +10,10 @@ import struct
 import subprocess
 import sys
 import threading
+import time
 import unittest
 import warnings
+from unittest import mock
 
 import numpy as np
 
@@ -91,6 +93,17 @@ class Live(Folder):
         player.close()
         self.assertEqual((compared, live.counts.trouble()), (8, ""))
 
+    def test_the_status_comes_again_and_again_where_a_log_is_paused(self):
+        log, _ = self.golden_states(GOLDEN)
+        client = WebSocket("localhost", self.serve("view", log, "--port", "0").port, "/live", LONG)
+        self.addCleanup(client.close)
+        client.send(b'{"type": "pause"}')
+        paused = 0
+        while paused < 3:
+            kind, status = client.receive(LONG)
+            self.assertEqual(kind, TEXT)
+            paused += not json.loads(status)["log"]["playing"]
+
     def test_a_server_that_comes_back_is_connected_to_again(self):
         log, _ = self.golden_states(GOLDEN)
         server = Server("view", log, "--port", "0")
@@ -103,15 +116,16 @@ class Live(Folder):
                 self.assertEqual(again.port, server.port)
                 while True:  # frames that came before the end may still be waiting
                     frame = next(live).frame_number
-                    if live._network._reason:
+                    if live._receiver.network._reason:
                         break
         self.assertIn(frame, range(5))
 
     def test_a_server_that_is_gone_is_an_error_after_the_timeout(self):
         log, _ = self.golden_states(GOLDEN)
         server = Server("view", log, "--port", "0")
-        with barehand.hands(server.url, timeout=0.1) as live:
+        with barehand.hands(server.url, timeout=LONG) as live:
             server.stop()
+            live._receiver.timeout = 0.1
             with self.assertRaisesRegex(barehand.Error, "no message on HAND_STATE .*the connection ended and is tried again"):
                 for _ in range(100):
                     next(live)
@@ -132,6 +146,19 @@ class Live(Folder):
         player.close()
 
 
+def shake_hands(listener, answer=None):
+    """Accepts a connection, answers the request for a WebSocket, and returns the socket."""
+    peer, _ = listener.accept()
+    request = b""
+    while b"\r\n\r\n" not in request:
+        request += peer.recv(4096)
+    key = re.search(rb"Sec-WebSocket-Key: (\S+)", request)[1]
+    accept = base64.b64encode(hashlib.sha1(key + GUID).digest())
+    peer.sendall(answer or b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                 b"Sec-WebSocket-Accept: " + accept + b"\r\n\r\n")
+    return peer
+
+
 class Scripted(unittest.TestCase):
     """Servers that send given bytes after a right handshake."""
 
@@ -140,15 +167,7 @@ class Scripted(unittest.TestCase):
         self.addCleanup(listener.close)
 
         def run():
-            peer, _ = listener.accept()
-            with peer:
-                request = b""
-                while b"\r\n\r\n" not in request:
-                    request += peer.recv(4096)
-                key = re.search(rb"Sec-WebSocket-Key: (\S+)", request)[1]
-                accept = base64.b64encode(hashlib.sha1(key + GUID).digest())
-                peer.sendall(answer or b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                             b"Sec-WebSocket-Accept: " + accept + b"\r\n\r\n")
+            with shake_hands(listener, answer) as peer:
                 for frame in frames:
                     peer.sendall(frame)
                 self.heard = b""
@@ -216,7 +235,7 @@ class Scripted(unittest.TestCase):
                               (self.frame(b"", 0x88), "closed the connection")):
             live = self.hands(self.serve(self.frame(good), breach))
             self.assertEqual(next(live).frame_number, 1)
-            live._timeout = 0.3  # only now, so that a slow machine has time for what comes before
+            live._receiver.timeout = 0.3  # only now, so that a slow machine has time for what comes before
             with self.assertRaisesRegex(barehand.Error, f"tried again: .*{words}"):
                 next(live)
             live.close()
@@ -225,10 +244,58 @@ class Scripted(unittest.TestCase):
         status = json.dumps({"type": "status", "trouble": "Is the sensor plugged in?"}).encode()
         live = self.hands(self.serve(self.frame(status, 0x80 | TEXT), self.frame(self.chunks(messages_of(1)))))
         next(live)
-        live._timeout = 0.3
+        live._receiver.timeout = 0.3
         with self.assertRaisesRegex(barehand.Error, "no message on HAND_STATE.*Is the sensor plugged in"):
             next(live)
         live.close()
+
+    def test_a_server_that_never_answers_costs_no_more_than_the_timeout(self):
+        with socket.create_server(("localhost", 0)) as listener, mock.patch.object(page, "_PATIENCE", LONG):
+            url = f"ws://localhost:{listener.getsockname()[1]}"
+            with self.assertRaisesRegex(barehand.Error, "cannot connect to the live page: no answer"):
+                barehand.hands(url, timeout=0.1)
+
+            # The same when it came to this later: the connection ends, and the next one is not answered.
+            peer = []
+            opening = threading.Thread(target=lambda: peer.append(shake_hands(listener)))
+            listener.accept()[0].close()  # the connection from above
+            opening.start()
+            live = barehand.hands(url, timeout=LONG)
+            opening.join()
+            peer[0].close()
+            live._receiver.timeout = 1.5  # longer than until the next attempt
+            with self.assertRaisesRegex(barehand.Error, "no message on HAND_STATE .*tried again: no answer"):
+                next(live)
+            live.close()
+
+    def test_all_addresses_of_a_host_together_have_the_time_that_is_given(self):
+        with socket.create_server(("127.0.0.1", 0), backlog=0) as full:
+            waiting = [socket.socket() for _ in range(3)]
+            for one in waiting:  # so that the system does not answer any more
+                self.addCleanup(one.close)
+                one.setblocking(False)
+                one.connect_ex(full.getsockname())
+            silent = (socket.AF_INET, socket.SOCK_STREAM, 0, "", full.getsockname())
+            with socket.create_server(("127.0.0.1", 0)) as listener:
+                good = (*silent[:4], listener.getsockname())
+                with mock.patch.object(socket, "getaddrinfo", lambda *_, **__: [silent, good]):
+                    opening = threading.Thread(target=lambda: shake_hands(listener).close())
+                    opening.start()
+                    begin = time.monotonic()
+                    WebSocket("host", 1, "/", 3).close()
+                    self.assertLess(time.monotonic() - begin, 3)
+                    opening.join()
+
+    def test_the_subprotocol_must_be_agreed_on(self):
+        port = self.serve()
+        with self.assertRaisesRegex(OSError, 'does not agree on the subprotocol "foxglove'):
+            WebSocket("localhost", port, "/", LONG, "foxglove.websocket.v1")
+
+    def test_the_server_says_why_it_closes(self):
+        live = self.hands(self.serve(self.frame(struct.pack(">H", 1013) + b"32 clients are connected", 0x88)))
+        live._receiver.timeout = 0.3
+        with self.assertRaisesRegex(barehand.Error, "tried again: the server closed the connection: 32 clients are connected"):
+            next(live)
 
     def test_nobody_there_and_addresses_that_are_none_are_said(self):
         with socket.create_server(("localhost", 0)) as free:

@@ -20,6 +20,7 @@ if not os.path.exists(os.path.join(HERE, "node_modules/.package-lock.json")):
     sys.exit(77)
 GOLDEN, BAREHAND, NODE = (sys.argv.pop(1) for _ in range(3))
 FRAMES = 5
+LONG = 250  # seconds; never waited for when all is well
 
 
 class BrowserExample(Folder):
@@ -57,6 +58,12 @@ class BrowserExample(Folder):
         shown, complaints, _ = self.run_example()
         self.assertEqual(shown, [])
         self.assertIn("--view-origin", complaints)
+
+    def test_a_server_that_is_full_silent_or_of_another_version_is_noticed(self):
+        said = subprocess.check_output([NODE, os.path.join(HERE, "bad_server.mjs")], text=True, timeout=LONG)
+        self.assertEqual(said.splitlines(), [
+            "It is full.", "Nothing has come for 10 s.",
+            "Messages are left out: GLOVE_STATE: it is no glove_state_t of this version.", ""])
 
 
 unittest.main()

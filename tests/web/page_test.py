@@ -4,6 +4,7 @@
 import pathlib
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -227,6 +228,29 @@ class Trouble(Page):
         refused = [problem for problem in self.browser.problems if "WebSocket" in problem]
         self.assertEqual(refused, self.browser.problems)
         self.browser.problems.clear()
+
+
+    def test_a_program_without_a_place_for_the_page_says_so(self):
+        program = self.track(HAND)
+        others = [socket.create_connection(("localhost", int(program.port))) for _ in range(32)]
+        for other in others:
+            self.addCleanup(other.close)
+            other.sendall(b"GET /live HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+                          b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+            self.assertIn(b" 101 ", other.recv(4096))
+        self.browser.open(program.url)
+        self.wait_for(f"{text('notice')}.includes('Barehand serves 32 pages and viewers already')")
+        others[0].close()
+        self.wait_for(f"{text('connection')} === 'connected' && {text('hands')}.includes('segments seen')")
+
+    def test_a_program_that_stands_still_is_noticed(self):
+        program = self.track(HAND)
+        self.open_with_hand(program)
+        program.process.send_signal(signal.SIGSTOP)
+        self.wait_for(f"{text('notice')}.includes('Nothing has come for 10 s')")
+        program.process.send_signal(signal.SIGCONT)
+        self.wait_for(f"{text('connection')} === 'connected' && {text('hands')}.includes('segments seen')")
+        self.browser.problems[:] = [problem for problem in self.browser.problems if "WebSocket" not in problem]
 
 
 class Log(Page):

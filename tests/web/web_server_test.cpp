@@ -126,16 +126,52 @@ TEST(WebServer, SurvivesDamagedFrames) {
   EXPECT_EQ(next.text(), "hello");
 }
 
-TEST(WebServer, TakesSoManyClientsAndNoMore) {
-  const auto server = serve();
+/// Asks for a WebSocket.
+std::string request_for_a_socket() {
+  std::string request = "GET /live HTTP/1.1\r\n";
+  return request.append(upgrade("Host: localhost\r\n")).append("\r\n");
+}
+
+/// So many clients that there is no place for another one.
+std::vector<std::unique_ptr<SocketClient>> as_many_clients_as_possible(int port) {
   std::vector<std::unique_ptr<SocketClient>> clients;
   for (int i = 0; i < WebServer::kMaxClients; ++i) {
-    clients.push_back(std::make_unique<SocketClient>(server->port()));
-    ASSERT_EQ(clients.back()->text(), "hello");
+    clients.push_back(std::make_unique<SocketClient>(port));
+    EXPECT_EQ(clients.back()->text(), "hello");
   }
-  for (int i = 0; i < 70; ++i)
-    EXPECT_NE(status_of(answer_of(server->port(), "/live", upgrade("Host: localhost\r\n"))), 101);
-  EXPECT_EQ(status_of(answer_of(server->port(), "/")), 200) << "files are served to more";
+  return clients;
+}
+
+TEST(WebServer, TellsFurtherClientsThatItIsFull) {
+  const auto server = serve();
+  auto clients = as_many_clients_as_possible(server->port());
+  const std::string told =
+      std::string("\x03\xf5") + "Barehand serves 32 pages and viewers already";  // 1013: try again later
+  for (int i = 0; i < 30; ++i) {
+    RawClient further(server->port());
+    further.send(request_for_a_socket());
+    further.send(std::string("\x88\x80mask", 6));  // its own wish to close, so that the server need not wait for one
+    const std::string answer = further.read();
+    EXPECT_EQ(status_of(answer), 101);
+    EXPECT_NE(answer.find(told), std::string::npos) << answer;
+  }
+
+  // When one leaves, there is a place for another one.
+  clients.pop_back();
+  std::optional<std::string> text;
+  for (int attempts = 0; text != "hello" && attempts < 100; ++attempts) text = SocketClient(server->port()).text();
+  EXPECT_EQ(text, "hello");
+}
+
+TEST(WebServer, ServesFilesWhateverFurtherClientsDo) {
+  const auto server = serve();
+  const auto clients = as_many_clients_as_possible(server->port());
+  std::vector<std::unique_ptr<RawClient>> stubborn;
+  for (int i = 0; i < 70; ++i) {
+    stubborn.push_back(std::make_unique<RawClient>(server->port()));
+    stubborn.back()->send(request_for_a_socket());
+  }
+  EXPECT_EQ(status_of(answer_of(server->port(), "/")), 200);
 }
 
 TEST(WebServer, SaysThatThePortIsTaken) {

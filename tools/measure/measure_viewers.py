@@ -4,6 +4,7 @@ JSON and prints every block.
   tests/lcm/with_multicast.sh tools/measure/measure_viewers.py browsers --json FILE [--pairs 20] [--seconds 5]
   ... foxglove                   viewers of Foxglove's protocol instead of browsers
   ... nobody                     what the server costs while nobody watches
+Needs the Python package of the clients: PYTHONPATH=build/release/clients/python.
 In one run of the tracker, a quick client and three stuck ones are connected in every other block. The time from capture to
 publication of every frame is that of its message on LCM, by the kernel's time stamp. `barehand` is taken from PATH."""
 import argparse

@@ -1,20 +1,14 @@
 """What the hands touch: messages about contacts and objects, from a network or a log."""
-import os
-import time
-
-from . import log
 from .counts import Counts
-from .error import Error
 from .messages import Damaged, Foreign, contact_state_t, decode, object_state_t
-from .network import Network
 from .outlets import SEGMENTS
-from .page import Page
+from .receiver import Receiver
 
 
 def contacts(source=None, prefix="", timeout=None):
     """Iterates over contact_state_t (lcmtypes/contact_state_t.lcm): one for each hand and frame. The arguments are those
-    of barehand.hands() with the same names; `utime` and `hand_id` say which hand a message belongs to. Messages of other types and damaged
-    ones are left out."""
+    of barehand.hands() with the same names; `utime` and `hand_id` say which hand a message belongs to. Messages of other
+    types and damaged ones are left out, with one warning for each kind."""
     return _messages(contact_state_t, "CONTACT_STATE", source, prefix, timeout)
 
 
@@ -32,37 +26,20 @@ def touched(segments):
 
 def _messages(type_, name, source, prefix, timeout):
     counts = Counts()
-    if source is not None and os.fspath(source).startswith(("ws://", "wss://")):
-        prefix = ""  # a live page has none
-        received = _live(Page(source, counts), name, timeout)
-    elif source is None or "://" in os.fspath(source):
-        received = _live(Network(source, counts), prefix + name, timeout)
-    else:
-        received = ((channel, data) for _, channel, data in log.events(source, counts))
-    return _decoded(type_, (prefix + name).encode(), received)
+    receiver = Receiver(source, prefix, [name], counts, timeout, also="; contact.enabled must be true in its configuration")
+    return _decoded(type_, receiver, counts)
 
 
-def _live(network, channel, timeout):
+def _decoded(type_, receiver, counts):
     try:
-        heard = time.monotonic()
-        while True:
-            left = None if timeout is None else max(0.0, heard + timeout - time.monotonic())
-            message = network.receive(left)
-            if message is None:
-                raise Error(f"no message on {channel} for {timeout:.0f} s", network.url,
-                            "start `barehand track` with the same LCM URL and channel prefix, and contact.enabled: true")
-            if message[0] == channel.encode():
-                yield message
-                heard = time.monotonic()
+        for channel, data in receiver:
+            if channel not in receiver.wanted:
+                continue
+            try:
+                yield decode(type_, data)
+            except Foreign:
+                counts.foreign += 1
+            except Damaged:
+                counts.damaged += 1
     finally:
-        network.close()
-
-
-def _decoded(type_, wanted, received):
-    for channel, data in received:
-        if channel != wanted:
-            continue
-        try:
-            yield decode(type_, data)
-        except (Damaged, Foreign):
-            continue
+        receiver.close()

@@ -10,7 +10,7 @@ from .websocket import BINARY, WebSocket
 
 DEFAULT_PORT = 8765
 END_OF_FRAME = (None, b"")  # follows the messages of each frame
-_PATIENCE = 5.0             # seconds in which a server must answer
+_PATIENCE = 5.0             # seconds in which a server must have answered when it is connected to
 _RETRY = 1.0                # seconds between attempts to connect again
 _CHUNK = struct.Struct("<cBxxI")
 
@@ -34,8 +34,9 @@ class Page:
     """Receives the messages of the hands from a live page. The first connection must succeed. If it ends later, another
     one is tried every second. Not thread-safe."""
 
-    def __init__(self, url, counts, newest=False):
-        """`newest`: the server sends a frame only when it is asked for one, and then the newest."""
+    def __init__(self, url, counts, newest=False, timeout=None):
+        """Connects within `timeout` [s], 5 s at most. `newest`: the server sends a frame only when it is asked for one, and
+        then the newest."""
         self._address = host, port, _ = parse_url(url)
         self._home = f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
         self.url = url
@@ -43,7 +44,7 @@ class Page:
         self._messages = deque()
         self._trouble = self._reason = ""  # what the page says; why there is no connection
         self._retry_at = 0.0
-        self._connect()
+        self._connect(timeout)
         if not self._socket:
             raise Error(f"cannot connect to the live page: {self._reason}", url, "start `barehand track --view`; it refuses "
                         "names other than localhost, an address or the machine's own")
@@ -104,10 +105,10 @@ class Page:
             self._owes = False
             self._socket.send(b'{"type": "ack"}')
 
-    def _connect(self):
+    def _connect(self, timeout):
         self._socket, self._owes = None, False
         try:
-            self._socket = WebSocket(*self._address, _PATIENCE)
+            self._socket = WebSocket(*self._address, _PATIENCE if timeout is None else min(timeout, _PATIENCE))
             self._socket.send(json.dumps({"type": "want", "rate": 1000, "window": 1 if self._newest else 0}).encode())
         except OSError as error:
             self._drop(error)
@@ -121,11 +122,12 @@ class Page:
         end = None if timeout is None else time.monotonic() + timeout
         while not self._socket:
             wait = max(0, self._retry_at - time.monotonic())
-            if end is not None and time.monotonic() + wait > end:
-                time.sleep(max(0, end - time.monotonic()))
+            left = None if end is None else end - time.monotonic()
+            if left is not None and wait >= left:
+                time.sleep(max(0, left))
                 return False
             time.sleep(wait)
-            self._connect()
+            self._connect(None if left is None else left - wait)
         return True
 
     def close(self):

@@ -1,18 +1,12 @@
 """Hands, frame by frame, from a network, a live page or a log."""
-import os
-import time
-import warnings
-
-from . import log
 from .counts import Counts
 from .error import Error
 from .hand import Hand, Hands
 from .messages import Damaged, Foreign, decode, glove_state_t, hand_joints_t, hand_state_t
-from .network import Network
-from .page import END_OF_FRAME, Page
+from .page import END_OF_FRAME
+from .receiver import Receiver
 
 _PARTS = {"HAND_STATE": hand_state_t, "GLOVE_STATE": glove_state_t, "HAND_JOINTS": hand_joints_t}
-_SILENCE = 5.0  # seconds without a message after which a warning says what to check
 
 
 def hands(source=None, prefix="", timeout=None, newest=False):
@@ -45,19 +39,11 @@ class HandStream:
 
     def __init__(self, source, prefix, timeout, newest):
         self.counts = Counts()
-        self._source, self._timeout, self._newest = source, timeout, newest
-        self._warned = set()
-        self._network = None
-        is_page = source is not None and os.fspath(source).startswith(("ws://", "wss://"))
-        self._frames = _Frames("" if is_page else prefix, self.counts, is_page)
-        if is_page:
-            self._network, self._newest = Page(source, self.counts, newest), False  # the server skips frames itself
-            self._hands = self._live()
-        elif source is None or "://" in os.fspath(source):
-            self._network = Network(source, self.counts)
-            self._hands = self._live()
-        else:
-            self._hands = self._logged(log.events(source, self.counts))
+        self._source = source
+        self._receiver = Receiver(source, prefix, list(_PARTS), self.counts, timeout, newest)
+        self._newest = newest and self._receiver.network and not self._receiver.is_page  # a page skips frames itself
+        self._frames = _Frames(self._receiver.prefix, self.counts, self._receiver.is_page)
+        self._hands = self._collect()
 
     def __iter__(self):
         return self
@@ -74,53 +60,31 @@ class HandStream:
     def close(self):
         """Ends the iteration and closes the network or the connection."""
         self._hands.close()
-        if self._network:
-            self._network.close()
+        self._receiver.close()
 
-    def _live(self):
-        heard = time.monotonic()
-        while True:
-            message = self._network.receive(_SILENCE if self._timeout is None else min(self._timeout, _SILENCE))
-            done = self._frames.add(*message) if message else []
-            self._warn_of_trouble()
-            if message and self._frames.carries_hands(message[0]):
-                heard = time.monotonic()
-            else:
-                self._warn_of_silence(time.monotonic() - heard)
-
-            # If several frames have arrived, return only the last one.
-            while self._newest and done and (message := self._network.receive(0)):
-                newer = self._frames.add(*message)
-                self.counts.superseded += len(newer)
-                done = newer[-1:] or done
+    def _collect(self):
+        for message in self._receiver:
+            done = self._frames.add(*message)
+            if self._newest and done:
+                done = self._newest_of(done)
+            self._receiver.warn_of_trouble()
             yield from done
-            if done:
-                heard = time.monotonic()  # reset, so that the time that the consumer took does not count as silence
 
-    def _logged(self, events):
-        for _, channel, data in events:
-            yield from self._frames.add(channel, data)
-            self._warn_of_trouble()
-        yield from self._frames.rest()
-        self._warn_of_trouble()
+        # Only a log ends.
+        last = self._frames.rest()
+        self._receiver.warn_of_trouble()
+        yield from last
         if not self.counts.messages:
-            raise Error(f"the log holds no hand states on {self._frames.prefix}HAND_STATE", self._source,
+            raise Error(f"the log holds no hand states on {self._receiver.prefix}HAND_STATE", self._source,
                         "barehand track --source log:FILE --states-log STATES makes them of a recording")
 
-    def _warn_of_trouble(self):
-        for kind in ("lost", "fragments", "damaged", "foreign", "incomplete"):
-            if getattr(self.counts, kind) and kind not in self._warned:
-                self._warned.add(kind)
-                warnings.warn(f"barehand: left out so far: {self.counts.trouble()} (further ones are counted in `counts`)",
-                              RuntimeWarning, stacklevel=4)
-
-    def _warn_of_silence(self, seconds):
-        said = f"no message on {self._frames.prefix}HAND_STATE for {seconds:.0f} s"
-        if self._timeout is not None and seconds >= self._timeout:
-            raise Error(said, self._network.url, self._network.remedy)
-        if seconds >= _SILENCE and "silence" not in self._warned:
-            self._warned.add("silence")
-            warnings.warn(f"barehand: {self._network.url}: {said} ({self._network.remedy})", RuntimeWarning, stacklevel=4)
+    def _newest_of(self, done):
+        """The last one of the frames `done` and of those that have arrived, too, as a list."""
+        for message in self._receiver.arrived():
+            newer = self._frames.add(*message)
+            self.counts.superseded += len(newer)
+            done = newer[-1:] or done
+        return done
 
 
 class _Frame:
@@ -140,9 +104,6 @@ class _Frames:
         self.prefix, self._counts, self._marked = prefix, counts, marked
         self._types = {(prefix + name).encode(): (name, type_) for name, type_ in _PARTS.items()}
         self._open, self._expected, self._last = {}, {}, {}  # by sensor: open frame, expected hands, last frame
-
-    def carries_hands(self, channel):
-        return channel in self._types
 
     def add(self, channel, data):
         """Adds a message and returns the list of the frames (Hands) that it completes."""

@@ -16,30 +16,52 @@ _LARGEST_ANSWER = 1 << 16    # of the server to the handshake, bytes
 _KEEPALIVE = (("TCP_KEEPIDLE", 5), ("TCP_KEEPINTVL", 2), ("TCP_KEEPCNT", 3), ("TCP_USER_TIMEOUT", 11_000))
 
 
+def _connected(host, port, end, receive_buffer):
+    """A socket that is connected to one of the addresses of the host until the time `end`."""
+    found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+    failure = OSError("the host has no address")
+    for i, (family, kind, protocol, _, address) in enumerate(found):
+        one = socket.socket(family, kind, protocol)
+        try:
+            if receive_buffer is not None:
+                one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)  # before a connection grants a window
+            one.settimeout(max(1e-3, (end - time.monotonic()) / (len(found) - i)))  # an address that is silent leaves time
+            one.connect(address)
+            one.settimeout(max(1e-3, end - time.monotonic()))
+            return one
+        except OSError as error:
+            failure = error
+            one.close()
+    raise failure
+
+
 class WebSocket:
     """A connection. Errors of the network, and of the protocol, are OSError; after one, the connection is useless. Not
     thread-safe."""
 
-    def __init__(self, host, port, path, timeout):
-        """Connects within `timeout` seconds."""
+    def __init__(self, host, port, path, timeout, protocol="", receive_buffer=None):
+        """Connects within `timeout` seconds, beside the time in which the system looks up the host's name. Later, sending may
+        take as long. `protocol`: the subprotocol to ask for, if any. `receive_buffer`: size of the kernel's buffer [bytes]."""
         self._buffer, self._parts, self._kind = bytearray(), bytearray(), None
-        self._socket = socket.create_connection((host, port), timeout)
+        end = time.monotonic() + timeout
+        self._socket = _connected(host, port, end, receive_buffer)
         try:
             self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
             for name, value in _KEEPALIVE:
                 if hasattr(socket, name):  # not every system has all of them
                     self._socket.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
-            self._shake_hands(f"[{host}]:{port}" if ":" in host else f"{host}:{port}", path, time.monotonic() + timeout)
+            self._shake_hands(f"[{host}]:{port}" if ":" in host else f"{host}:{port}", path, protocol, end)
             self._socket.settimeout(timeout)  # for sending; receive() waits by itself
         except BaseException:
             self.close()
             raise
 
-    def _shake_hands(self, host, path, end):
+    def _shake_hands(self, host, path, protocol, end):
         key = base64.b64encode(os.urandom(16)).decode()
+        wish = f"Sec-WebSocket-Protocol: {protocol}\r\n" if protocol else ""
         self._socket.sendall((f"GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-                              f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n").encode())
+                              f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n{wish}\r\n").encode())
         while b"\r\n\r\n" not in self._buffer:
             if len(self._buffer) > _LARGEST_ANSWER or not self._read(end - time.monotonic()):
                 raise ConnectionError("no answer to the request for a WebSocket")
@@ -49,6 +71,8 @@ class WebSocket:
         expected = base64.b64encode(hashlib.sha1((key + _GUID).encode()).digest()).decode()
         if status.split(" ")[1:2] != ["101"] or headers.get("sec-websocket-accept") != expected:
             raise ConnectionError(f'the answer is "{status[:80]}", not a WebSocket')
+        if headers.get("sec-websocket-protocol", "") != protocol:
+            raise ConnectionError(f'the server does not agree on the subprotocol "{protocol}"')
 
     def send(self, data, kind=TEXT):
         """Sends a message of bytes, masked as the protocol demands of clients."""
@@ -104,8 +128,9 @@ class WebSocket:
         """The message that this frame completes, or None."""
         if opcode == PING:
             self.send(payload, PONG)
-        elif opcode == CLOSE:
-            raise ConnectionError("the server closed the connection")
+        elif opcode == CLOSE:  # after a code of 2 bytes the server may say why
+            reason = payload[2:].decode(errors="replace")
+            raise ConnectionError("the server closed the connection" + (f": {reason}" if reason else ""))
         elif opcode in (TEXT, BINARY, _CONTINUATION):
             if (opcode == _CONTINUATION) != (self._kind is not None):
                 raise ConnectionError("the server breaks the WebSocket protocol")

@@ -93,6 +93,7 @@ class LogShow {
 
 void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
   constexpr std::int64_t kPatienceUs = 50'000;  // longest wait, which limits the time that stopping takes
+  std::int64_t told_us = 0;                     // time of the last status
   std::unique_lock lock(mutex_);
   while (!stop) {
     if (!server.has_clients() && !stop) {  // wait, since playing starts when a page connects
@@ -100,7 +101,10 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
       position_.wait(clock_.steady_us());
       continue;
     }
-    const bool moved = position_.advance(clock_.steady_us()), tell = moved || commanded_;
+    const std::int64_t begin_us = clock_.steady_us();
+    const bool moved = position_.advance(begin_us);
+    const bool tell = moved || commanded_ || begin_us - told_us >= kStatusPeriodUs;  // clients take silence for the end
+    if (tell) told_us = begin_us;
     const PlayedLog state = position_.state();
     commanded_ = false;
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
+constexpr int kTryAgainLater = 1013;               // code of a WebSocket's end
 
 std::string_view header(const mg_connection* connection, const char* name) {
   const char* value = mg_get_header(connection, name);
@@ -51,6 +52,11 @@ bool WebSocket::send_binary(std::span<const std::uint8_t> bytes) {
 bool WebSocket::send(int opcode, const char* data, std::size_t size) {
   // The result counts the written bytes of header and data. If it is less than the data alone, the frame was cut off.
   return mg_websocket_write(connection_, opcode, data, size) >= static_cast<int>(size) && size > 0;
+}
+
+void WebSocket::ask_to_close(int code, const std::string& reason) {
+  const std::string payload{static_cast<char>(code >> 8), static_cast<char>(code & 0xff)};
+  (void)send(MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, (payload + reason).data(), payload.size() + reason.size());
 }
 
 class WebServer::Impl {
@@ -92,12 +98,13 @@ class WebServer::Impl {
   std::vector<const char*> protocol_names_;
   mg_websocket_subprotocols protocols_{};  // civetweb keeps a pointer to this member
   mg_context* context_ = nullptr;
-  std::atomic<int> clients_ = 0;
+  std::atomic<int> open_ = 0, clients_ = 0;  // WebSockets; those of them with a peer
 };
 
 Result<int> WebServer::Impl::start() {
   // Every WebSocket occupies one of the server's threads while it is open.
-  const std::string threads = std::to_string(kMaxClients + 8), stuck = std::to_string(kStuckSeconds * 1000);
+  const std::string threads = std::to_string(kMaxClients + kMaxTurnedAway + 8),
+                    stuck = std::to_string(kStuckSeconds * 1000);
   const std::string port = options_.address + ":" + std::to_string(options_.port);
   const char* settings[] = {"listening_ports",
                             port.c_str(),
@@ -192,12 +199,21 @@ int WebServer::Impl::answer(mg_connection* connection) const {
 
 bool WebServer::Impl::admit(const mg_connection* connection) {
   if (!is_allowed(connection)) return false;
-  if (++clients_ <= kMaxClients) return true;
-  --clients_;
+  if (++open_ <= kMaxClients + kMaxTurnedAway) return true;
+  --open_;
   return false;
 }
 
 void WebServer::Impl::ready(mg_connection* connection) {
+  // A page cannot see why a request for a WebSocket fails, so the reason is given when it is open.
+  if (++clients_ > kMaxClients) {
+    --clients_;
+    const std::string places = std::to_string(kMaxClients);
+    return WebSocket(connection)
+        .ask_to_close(kTryAgainLater, "Barehand serves " + places + " pages and viewers already, and no more.");
+  }
+
+  // Create the program's side of the connection.
   auto made = std::make_unique<Connection>();
   const auto& connect = chosen_protocol(connection) ? options_.connect_protocol : options_.connect;
   made->peer = connect(WebSocket(connection));
@@ -220,7 +236,8 @@ bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::strin
 
 void WebServer::Impl::closed(const mg_connection* connection) {
   const std::unique_ptr<Connection> known(connection_of(connection));
-  --clients_;
+  --open_;
+  if (known) --clients_;
 }
 
 WebServer::WebServer() = default;

@@ -26,6 +26,8 @@ class WebSocket {
   /// gone, or has accepted nothing for kStuckSeconds.
   bool send_text(std::string_view text);
   bool send_binary(std::span<const std::uint8_t> bytes);
+  /// Asks the client to close the connection; a browser shows `reason` (at most 123 bytes) to the page's script.
+  void ask_to_close(int code, const std::string& reason);
 
  private:
   bool send(int opcode, const char* data, std::size_t size);
@@ -52,7 +54,8 @@ struct WebFile {
 /// Requests for other hosts or from other origins are refused (own_origin.h).
 class WebServer {
  public:
-  static constexpr int kMaxClients = 32;    ///< maximum number of open WebSockets; further ones are refused
+  static constexpr int kMaxClients = 32;    ///< maximum number of WebSockets with a peer
+  static constexpr int kMaxTurnedAway = 8;  ///< further ones that are just being told that there is no place for them
   static constexpr int kStuckSeconds = 10;  ///< a client that accepts nothing for this time is disconnected
 
   struct Options {
