@@ -310,7 +310,8 @@ Result<void> McapWriter::append(const Bytes& bytes) {
   const int reason = errno;
   const auto end = static_cast<off_t>(good_);
   failed_ = file_.direct() || ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) != end;
-  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+  const std::string why = reason == EAGAIN ? "the reader of this pipe is behind" : std::strerror(reason);
+  return fail("cannot be written: " + why, path_,
               failed_ ? "the file ends in an incomplete chunk, which readers skip"
                       : "the " + std::to_string(messages_) + " messages before are kept; free some space");
 }
