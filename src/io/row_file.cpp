@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "io/pipe_room.h"
+
 namespace barehand {
 
 Result<RowFile> RowFile::create(const std::string& path, std::string_view header, bool overwrite) {
@@ -41,6 +43,8 @@ bool RowFile::append(std::string_view text) {
 Result<void> RowFile::write(std::string_view rows) {
   if (!file_) return fail("the table is finished, nothing more is written", path_);
   if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
+  if (!has_room(fileno(file_.get()), header_.size() + rows.size()))
+    return fail("the reader of this pipe is behind", path_, "rows are left out until it has read more");
   if (unread_ ? append(header_ + std::string(rows)) : append(rows)) {
     unread_ = false;
     has_rows_ = true;

@@ -4,7 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <sstream>
 
 #include "io/hand/hand_json.h"
 #include "io/hand/result_table.h"
@@ -133,6 +135,65 @@ TEST_F(PipedOutputs, AReaderThatGoesAndComesBackCostsNothingElse) {
   std::size_t states = 0;
   for (const LogEntry& entry : log->entries()) states += entry.channel == "HAND_STATE";
   EXPECT_THAT(track.output(), ContainsRegex("states log +" + std::to_string(states) + " "));
+}
+
+/// A live run goes on with everything else while the reader of a pipe does nothing.
+TEST_F(PipedOutputs, AReaderThatDoesNotReadDelaysNothingElse) {
+  const std::string pipe = folder_ / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  test::write_text(folder_ / "no_scans.yaml", test::replaced(test::quick_config(), "scans: 3", "scans: 0"));
+  ChildProcess track({BAREHAND_PROGRAM, "track", "--source", "sim:fist,width=160,height=120,live=true,loop=true,fps=60",
+                      "--hand", folder_ / "take/hand.json", "--init", folder_ / "take/start_pose.json", "--no-publish",
+                      "--config", folder_ / "no_scans.yaml", "--result", pipe, "--states-log",
+                      folder_ / "live.lcmlog"});
+  ASSERT_TRUE(track.wait_for("waiting for a program to read the pipe " + pipe)) << track.output();
+  const int reader = open(pipe.c_str(), O_RDONLY);
+  std::string table = some_of(pipe, reader);
+  constexpr int kSmall = 1 << 16;  // bytes; so that the pipe is full soon
+  ASSERT_EQ(fcntl(reader, F_SETPIPE_SZ, kSmall), kSmall);
+  ASSERT_TRUE(track.wait_for("the reader of this pipe is behind")) << track.output();
+
+  // When it reads again, rows come again, and the end of the run is not waited for.
+  while (table.size() < 2 * kSmall) table += some_of(pipe, reader);
+  track.signal(SIGTERM);
+  EXPECT_EQ(track.finish(), 0) << track.output();
+  char piece[4096];
+  for (ssize_t size = 0; (size = read(reader, piece, sizeof piece)) > 0;)
+    table.append(piece, static_cast<std::size_t>(size));
+  close(reader);
+
+  // There are whole rows only.
+  EXPECT_TRUE(table.ends_with('\n'));
+  std::istringstream rows(table);
+  std::string row;
+  std::getline(rows, row);
+  const auto columns = std::ranges::count(row, ',');
+  while (std::getline(rows, row)) ASSERT_EQ(std::ranges::count(row, ','), columns) << row;
+
+  // The other output has everything.
+  const auto log = LcmLogReader::open(folder_ / "live.lcmlog");
+  ASSERT_TRUE(log) << log.error().message();
+  const auto states = std::ranges::count(log->entries(), std::string("HAND_STATE"), &LogEntry::channel);
+  EXPECT_THAT(track.output(), ContainsRegex("states log +" + std::to_string(states) + " "));
+}
+
+TEST_F(PipedOutputs, ARecordingWaitsForAReaderAndCanBeStopped) {
+  const std::string take = "folder:" + (folder_ / "take");
+  for (const std::string name : {"pipe.lcmlog", "pipe.mcap"}) {
+    ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
+    ChildProcess stopped({BAREHAND_PROGRAM, "record", "--source", take, "--out", folder_ / name});
+    ASSERT_TRUE(stopped.wait_for("waiting for a program to read the pipe")) << stopped.output();
+    stopped.signal(SIGINT);
+    EXPECT_EQ(stopped.finish(), 130) << stopped.output();
+
+    const Outcome read = run("cat $D/" + name + " >$D/read-" + name + " & $B convert $D/take $D/" + name +
+                             "; rc=$?; wait; $B convert $D/take $D/whole-" + name + "; exit $rc");
+    EXPECT_EQ(read.exit_code, 0) << read.output;
+    EXPECT_EQ(text_of(("read-" + name).c_str()), text_of(("whole-" + name).c_str()));
+  }
+  const Outcome folder = run("$B convert $D/take /dev/stdout");
+  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_THAT(folder.output, HasSubstr("/dev/stdout: is no folder (a file, also a pipe"));
 }
 
 TEST_F(PipedOutputs, ARunThatWaitsForAReaderCanBeStopped) {

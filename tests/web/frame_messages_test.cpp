@@ -25,7 +25,7 @@ HandMessages messages_at(std::int64_t utime, TrackStatus status = TrackStatus::t
 
 TEST(FrameMessages, BecomeAFrame) {
   const HandMessages made = messages_at(4'000'000);
-  const std::vector<LcmMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
+  const std::vector<ReceivedMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
   ShownHands hands = mean_hands();
   const auto content = frame_content(messages, hands, {});
   EXPECT_EQ(content.utime, 4'000'000);
@@ -38,7 +38,7 @@ TEST(FrameMessages, BecomeAFrame) {
 
 TEST(FrameMessages, GiveViewersOfRosTheHandsThatAreWhole) {
   const HandMessages made = messages_at(4'000'000);
-  std::vector<LcmMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
+  std::vector<ReceivedMessage> messages = {{"A", encode_message(made.state)}, {"B", encode_message(made.glove)}};
   ShownHands hands = mean_hands();
   EXPECT_TRUE(frame_content(messages, hands, {}).hands.empty()) << "its joints are missing";
   messages.push_back({"C", encode_message(made.joints)});
@@ -57,11 +57,11 @@ TEST(FrameMessages, PassOnWhatTheHandTouches) {
   object_state_t object = {};
   object.object_id = 7;
   ShownHands hands = mean_hands();
-  const auto content = frame_content(std::vector<LcmMessage>{{"A", encode_message(made.state)},
-                                                             {"B", encode_message(made.glove)},
-                                                             {"C", encode_message(made.joints)},
-                                                             {"D", encode_message(contact)},
-                                                             {"E", encode_message(object)}},
+  const auto content = frame_content(std::vector<ReceivedMessage>{{"A", encode_message(made.state)},
+                                                                  {"B", encode_message(made.glove)},
+                                                                  {"C", encode_message(made.joints)},
+                                                                  {"D", encode_message(contact)},
+                                                                  {"E", encode_message(object)}},
                                      hands, {});
   ASSERT_EQ(content.messages.size(), 5u);
   EXPECT_STREQ(content.messages[3].channel, "CONTACT_STATE");
@@ -77,7 +77,7 @@ TEST(FrameMessages, AreLeftOutWhereDamaged) {
   auto bytes = encode_message(messages_at(4'000'000).state);
   bytes.resize(bytes.size() / 2);
   ShownHands hands = mean_hands();
-  EXPECT_TRUE(frame_content(std::vector<LcmMessage>{{"A", bytes}}, hands, {}).messages.empty());
+  EXPECT_TRUE(frame_content(std::vector<ReceivedMessage>{{"A", bytes}}, hands, {}).messages.empty());
 }
 
 TEST(ShownHands, AreAsLargeAsTheTrackedHand) {
@@ -148,7 +148,7 @@ TEST(LogIndex, ReadsMcapFilesWithTheirImages) {
   EXPECT_TRUE(index->doubts().empty());
 
   // A frame has the messages of the bus and its own image.
-  const std::vector<LcmMessage> messages = index->messages(3);
+  const std::vector<ReceivedMessage> messages = index->messages(3);
   ASSERT_EQ(messages.size(), 3u);
   EXPECT_EQ(messages[0].bytes, encode_message(messages_at(1'300'000).state));
   ShownHands hands = mean_hands();

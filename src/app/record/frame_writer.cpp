@@ -113,6 +113,10 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
     if (!file) return tl::unexpected(file.error());
     return std::make_unique<McapFrameWriter>(path, options, std::move(*file));
   }
+  std::error_code ignored;
+  if (const auto there = std::filesystem::status(path, ignored); exists(there) && !is_directory(there))
+    return fail("is no folder", path,
+                "a file, also a pipe that a program reads, has a name that ends in .lcmlog or .mcap");
   RecordingWriter::Options folder;
   folder.fps = options.fps;
   folder.colour_ending = options.encoding.colour == ColourEncoding::jpeg ? "jpg" : "png";

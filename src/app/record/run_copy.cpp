@@ -9,11 +9,14 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stop_token>
+#include <utility>
 
 #include "app/record/copy_frames.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/interrupt.h"
 #include "app/shared/outputs.h"
+#include "app/shared/pipe_readers.h"
 #include "app/shared/run_inputs.h"
 #include "io/data_files.h"
 #include "pipeline/service_manager.h"
@@ -126,10 +129,12 @@ class ServiceReport {
 int run_copy(const CopyRequest& request, const std::string& command) {
   const SystemClock clock;
   std::atomic<bool> stop = false;
+  std::stop_source stop_waiting;
   ServiceManager service(clock);
   const InterruptWatcher interrupt([&] {
     service.stopping();
     stop = true;
+    stop_waiting.request_stop();
   });
   const auto refuse = [&](const Error& error) {
     std::cerr << command << ": " << error.message() << "\n";
@@ -167,6 +172,22 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     }
     lock = std::move(*taken);
   }
+  // Opening a pipe would wait for its reader, and could not be stopped.
+  PipeReaders readers;
+  bool told = false;
+  const auto path = readers.wait_for(request.out, PipeReaders::Behind::wait, stop_waiting.get_token(), [&] {
+    service.ready("waiting for a reader of " + request.out);
+    service.alive();
+    if (!std::exchange(told, true))
+      std::cerr << command << ": waiting for a program to read the pipe " << request.out << std::endl;
+  });
+  const bool live = source->source->live();
+  if (!path) {
+    CopyResult nothing;
+    nothing.stopped = true;
+    return exit_code_of(nothing, live, interrupt.signal());
+  }
+
   auto writer = open_frame_writer(request.out, written_as);
   if (!writer) return refuse(writer.error());
 
@@ -180,7 +201,6 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   service.ready("recording " + source->source->name());
   CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
   if (const auto finished = (*writer)->finish(); !finished && !result.error) result.error = finished.error();
-  const bool live = source->source->live();
   if (!result.error && !result.stopped) result.error = failure_of(result, source->source->name(), live);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");

@@ -12,10 +12,10 @@
 
 #include "app/shared/exit_code.h"
 #include "app/shared/interrupt.h"
+#include "app/shared/pipe_readers.h"
 #include "app/shared/run_inputs.h"
 #include "app/shared/source_factory.h"
 #include "app/shared/standard_streams.h"
-#include "app/track/pipe_readers.h"
 #include "app/track/track_outputs.h"
 #include "core/available_memory.h"
 #include "core/parallel/parallel.h"
@@ -198,7 +198,9 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
 Step TrackRun::await_readers() {
   for (const auto file : TrackOptions::kFiles) {
     std::string& path = options_.*file;
-    const auto opened = readers_.wait_for(path, stop_.get_token(), [&] {
+    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // which is written at the end
+    const auto behind = patient ? PipeReaders::Behind::wait : PipeReaders::Behind::leave_out;
+    const auto opened = readers_.wait_for(path, behind, stop_.get_token(), [&] {
       log_.warn("reader of " + path, "waiting for a program to read the pipe " + path);
       service_.ready("waiting for a reader of " + path);
       service_.alive();

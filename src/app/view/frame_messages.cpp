@@ -30,7 +30,7 @@ struct HandParts {
   std::optional<contact_state_t> contact;
 };
 
-void add(ViewFrame::Content& content, const char* channel, const LcmMessage& message) {
+void add(ViewFrame::Content& content, const char* channel, const ReceivedMessage& message) {
   ViewMessage& added = content.messages.emplace_back();
   added.channel = channel;
   added.bytes.assign(message.bytes.begin(), message.bytes.end());
@@ -61,7 +61,7 @@ ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {
   return skins_[side];
 }
 
-ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
+ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, ShownHands& hands,
                                  const GivenIntrinsics& foreign, FramePtr image) {
   ViewFrame::Content content;
   content.frame = std::move(image);
@@ -69,7 +69,7 @@ ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHand
   std::map<std::int32_t, HandParts> parts;  // by hand_id
 
   // The messages of hands are passed on as received; an image is decoded.
-  for (const LcmMessage& message : messages) {
+  for (const ReceivedMessage& message : messages) {
     const MessageKind kind = kind_of(message_hash(message.bytes));
     if (kind == MessageKind::hand_state) {
       const auto state = decode_message<hand_state_t>(message.bytes);

@@ -22,7 +22,7 @@ enum class MessageKind { hand_state, glove_state, hand_joints, contact_state, ob
 MessageKind kind_of(std::int64_t hash);
 
 /// A message as it was received.
-struct LcmMessage {
+struct ReceivedMessage {
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };
@@ -43,7 +43,7 @@ class ShownHands {
 
 /// Collects what the messages of one frame contain; damaged messages are left out. `foreign`: intrinsics of frames
 /// whose type carries none. `image`: the frame's images if they are in no message; null: they may be.
-ViewFrame::Content frame_content(std::span<const LcmMessage> messages, ShownHands& hands,
+ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, ShownHands& hands,
                                  const GivenIntrinsics& foreign, FramePtr image = nullptr);
 
 }  // namespace barehand

@@ -34,7 +34,7 @@ PipelineHealth health_of(const health_t& m) {
   return health;
 }
 
-std::int64_t utime_of(const LcmMessage& message) { return message_word(message.bytes, 1); }
+std::int64_t utime_of(const ReceivedMessage& message) { return message_word(message.bytes, 1); }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void LiveView::step(std::chrono::milliseconds patience) {
   if (now_us - status_us_ >= kStatusPeriodUs) show_status();
 }
 
-void LiveView::take(LcmMessage message) {
+void LiveView::take(ReceivedMessage message) {
   const MessageKind kind = kind_of(message_hash(message.bytes));
   record(message, kind);
   if (kind == MessageKind::health) {
@@ -72,14 +72,14 @@ void LiveView::take(LcmMessage message) {
 }
 
 /// Passes a message to the recorder as it was received. A health message belongs to no frame, so its frame time is 0.
-void LiveView::record(const LcmMessage& message, MessageKind kind) {
+void LiveView::record(const ReceivedMessage& message, MessageKind kind) {
   if (!options_.recorder || !options_.recorder->recording()) return;
   const std::int64_t utime = utime_of(message);
   options_.recorder->post(kind == MessageKind::health ? 0 : utime,
                           [message, utime](auto& log) { return log.send(message.channel, message.bytes, utime); });
 }
 
-void LiveView::keep_image(LcmMessage message) {
+void LiveView::keep_image(ReceivedMessage message) {
   if (images_.size() == kImages) images_.erase(images_.begin());
   images_.push_back(std::move(message));
 }

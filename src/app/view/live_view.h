@@ -26,9 +26,9 @@ class LiveView {
   bool broken() const { return listener_.broken(); }
 
  private:
-  void take(LcmMessage message);
-  void record(const LcmMessage& message, MessageKind kind);
-  void keep_image(LcmMessage message);
+  void take(ReceivedMessage message);
+  void record(const ReceivedMessage& message, MessageKind kind);
+  void keep_image(ReceivedMessage message);
   void show_gathered();
   void show_status();
 
@@ -37,11 +37,11 @@ class LiveView {
   ShownHands hands_;
   ViewServer& server_;
   const Clock& clock_;
-  std::vector<LcmMessage> gathered_;  // messages of one frame, without its image
-  std::vector<LcmMessage> images_;    // the latest images, oldest first; states arrive after their image
+  std::vector<ReceivedMessage> gathered_;  // messages of one frame, without its image
+  std::vector<ReceivedMessage> images_;    // the latest images, oldest first; states arrive after their image
   std::optional<PipelineHealth> health_;
   std::int64_t frame_us_, status_us_ = 0, gathered_us_ = 0;  // times by the steady clock [us]
-  BoundedQueue<LcmMessage> queue_{"LCM", 64, Overflow::drop_oldest};
+  BoundedQueue<ReceivedMessage> queue_{"LCM", 64, Overflow::drop_oldest};
   LcmListener listener_;  // declared last: its thread fills the queue
 };
 

@@ -101,8 +101,8 @@ double LogIndex::seconds(std::int64_t frame) const {
   return static_cast<double>(frames_[static_cast<std::size_t>(frame)].utime - frames_.front().utime) * 1e-6;
 }
 
-std::vector<LcmMessage> LogIndex::messages(std::int64_t frame) {
-  std::vector<LcmMessage> messages;
+std::vector<ReceivedMessage> LogIndex::messages(std::int64_t frame) {
+  std::vector<ReceivedMessage> messages;
   for (const Place& place : frames_[static_cast<std::size_t>(frame)].places) {
     const LogEntry& entry = logs_[place.log].messages.entries()[place.entry];
     if (auto bytes = logs_[place.log].messages.read(entry)) messages.push_back({entry.channel, std::move(*bytes)});

@@ -26,7 +26,7 @@ class LogIndex {
   /// Sequences of frames in which no hand has a pose; empty if there are no states.
   const std::vector<LostFrames>& lost() const { return lost_; }
   /// The messages of a frame; those that cannot be read are left out.
-  std::vector<LcmMessage> messages(std::int64_t frame);
+  std::vector<ReceivedMessage> messages(std::int64_t frame);
   /// The images of a frame where they are ROS messages of an MCAP file; null: there are none, or none that can be read.
   FramePtr image(std::int64_t frame);
   /// Sentences that say what of the logs is not shown, such as what is damaged or cut off.

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 
+#include "io/pipe_room.h"
+
 namespace barehand {
 
 LcmLogWriter::LcmLogWriter(std::string path, WholeFile file, std::unique_ptr<lcm::LogFile> log)
@@ -55,6 +57,9 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   if (channel.empty() || channel.size() > kLongestChannel)
     return fail("channel names have 1 to 63 bytes, \"" + channel + "\" has " + std::to_string(channel.size()), path_);
+  if (!has_room(fileno(log_->getFilePtr()), kEventHeader + channel.size() + message.size()))
+    return fail("the reader of this pipe is behind", path_, "events are left out until it has read more");
+
   lcm::LogEvent event;
   event.eventnum = 0;  // LogFile sets the event's number
   event.timestamp = utime;

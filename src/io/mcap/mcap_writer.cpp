@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include "io/mcap/mcap_format.h"
+#include "io/pipe_room.h"
 
 namespace barehand::mcap {
 namespace {
@@ -288,10 +290,13 @@ Result<void> McapWriter::finish() {
 }
 
 Result<void> McapWriter::append(const Bytes& bytes) {
+  constexpr std::chrono::milliseconds kPatience{100};  // longest wait for the reader of a pipe (pipe_room.h)
+  const auto end_of_patience = std::chrono::steady_clock::now() + kPatience;
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN && wait_for_room(descriptor_, end_of_patience)) continue;
     if (written < 0) break;
     done += static_cast<std::size_t>(written);
   }
@@ -305,7 +310,8 @@ Result<void> McapWriter::append(const Bytes& bytes) {
   const int reason = errno;
   const auto end = static_cast<off_t>(good_);
   failed_ = file_.direct() || ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) != end;
-  return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
+  const std::string why = reason == EAGAIN ? "the reader of this pipe is behind" : std::strerror(reason);
+  return fail("cannot be written: " + why, path_,
               failed_ ? "the file ends in an incomplete chunk, which readers skip"
                       : "the " + std::to_string(messages_) + " messages before are kept; free some space");
 }
