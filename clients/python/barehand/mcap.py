@@ -18,7 +18,7 @@ _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _DATA_END = 2, 3, 4, 5, 6, 15
 _TYPE = b"barehand_msgs/msg/LcmMessage"
 _RECORD = struct.Struct("<BQ")
 _FOOTER_SIZE = _RECORD.size + 20
-_ZSTD = b"\4\0\0\0zstd"                   # the name of the compression in a chunk,
+_ZSTD = b"\4\0\0\0zstd"                      # the name of the compression in a chunk,
 _BEFORE_ZSTD = _RECORD.size + 8 + 8 + 8 + 4  # and the number of bytes before it
 _DAMAGED = "damaged"
 _LARGEST_CHUNK = 256 << 20  # bytes
@@ -150,10 +150,10 @@ def _summary(view):
 
 def _next_chunk(data, at):
     """The position from `at` on at which a chunk that zstd has compressed seems to begin; the end if there is none."""
-    sign = data.find(_ZSTD, at + _BEFORE_ZSTD)
+    view, sign = memoryview(data), data.find(_ZSTD, at + _BEFORE_ZSTD)
     while sign >= 0:
         start = sign - _BEFORE_ZSTD
-        if data[start] == _CHUNK and _record(data, start):
+        if view[start] == _CHUNK and _record(view, start):
             return start
         sign = data.find(_ZSTD, sign + 1)
     return len(data)

@@ -172,6 +172,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     }
     lock = std::move(*taken);
   }
+
   // Opening a pipe would wait for its reader, and could not be stopped.
   PipeReaders readers;
   bool told = false;
