@@ -65,7 +65,21 @@ export function decodeObjectState(view) {
           held: read.int8() !== 0, hand_id: read.int32(), since: read.int64()};
 }
 
+// Decodes a grasp_state_t; probabilities are NaN and classes negative where nothing is known.
+export function decodeGraspState(view) {
+  const read = new Reader(view, 8);
+  return {...header(read), grasp: read.int8(), probability: read.double(), since: read.int64(),
+          probabilities: read.doubles(18), kind: read.int8(), kind_probability: read.double(), opposition: read.int8(),
+          opposition_probability: read.double(), thumb: read.int8(), thumb_probability: read.double(),
+          first_finger: read.int8(), last_finger: read.int8(), finger_probability: read.double(),
+          aperture: read.double(), closure: read.double()};
+}
+
 export const kTouching = 3;  // state of a contact
+export const kGraspNames = ["none", "wrap", "index extension", "thumb along", "ring", "sphere 3", "sphere 4", "extension",
+  "adduction", "tripod variation", "lateral tripod", "lateral", "pinch", "tripod", "quadpod", "five fingers",
+  "parallel extension", "writing tripod"];
+export const kGraspKinds = ["none", "power", "intermediate", "precision"];
 export const kSegmentNames = ["palm", ...["thumb", "index", "middle", "ring", "little"].flatMap((finger) =>
   (finger === "thumb" ? ["metacarpal", "proximal", "distal"] : ["proximal", "intermediate", "distal"])
     .map((bone) => `${finger} ${bone}`))];

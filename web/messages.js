@@ -1,5 +1,5 @@
 // Decodes the binary messages of the WebSocket (docs/view_protocol.md lists their chunks).
-import {decodeContactState, decodeGloveState, decodeHandState, decodeObjectState} from "./lcm.js";
+import {decodeContactState, decodeGloveState, decodeGraspState, decodeHandState, decodeObjectState} from "./lcm.js";
 
 function lcmMessage(view, frame) {
   const length = view.getUint8(0);
@@ -8,6 +8,7 @@ function lcmMessage(view, frame) {
   if (channel === "HAND_STATE") frame.states.push(decodeHandState(message));
   if (channel === "GLOVE_STATE") frame.gloves.push(decodeGloveState(message));
   if (channel === "CONTACT_STATE") frame.contacts.push(decodeContactState(message));
+  if (channel === "GRASP_STATE") frame.grasps.push(decodeGraspState(message));
   if (channel === "OBJECT_STATE") frame.objects.push(decodeObjectState(message));
 }
 
@@ -37,10 +38,10 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// Decodes a message to {header, states, gloves, contacts, objects, skins, cloud, picture}; header, cloud and picture are
-// null if missing.
+// Decodes a message to {header, states, gloves, contacts, grasps, objects, skins, cloud, picture}; header, cloud and
+// picture are null if missing.
 export function decodeFrame(buffer) {
-  const frame = {header: null, states: [], gloves: [], contacts: [], objects: [], skins: [], cloud: null, picture: null};
+  const frame = {header: null, states: [], gloves: [], contacts: [], grasps: [], objects: [], skins: [], cloud: null, picture: null};
   const whole = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
     const kind = String.fromCharCode(whole.getUint8(at)), index = whole.getUint8(at + 1);

@@ -29,6 +29,7 @@ TrackedFrame tracked(std::int64_t utime) {
   contacts->hands.resize(1);
   contacts->objects.emplace_back().id = 7;
   out.contacts = contacts;
+  out.grasps = std::make_shared<const FrameGrasps>(1);
   out.estimates.push_back(std::make_shared<const HandEstimate>(estimate_of(*test::adult_hand(), {}, utime)));
   return out;
 }
@@ -48,7 +49,7 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   const TrackedFrame frame = tracked(3'000'000);
   ASSERT_TRUE(sink.consume(frame));
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLD");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLLD");
   const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
   const auto state = encode_message(messages.state), glove = encode_message(messages.glove),
              joints = encode_message(messages.joints);
@@ -59,7 +60,10 @@ TEST(ViewSink, SendsWhatTheBusGets) {
       chunks[5].payload.starts_with("\x0d"
                                     "CONTACT_STATE"));
   EXPECT_TRUE(
-      chunks[6].payload.starts_with("\x0c"
+      chunks[6].payload.starts_with("\x0b"
+                                    "GRASP_STATE"));
+  EXPECT_TRUE(
+      chunks[7].payload.starts_with("\x0c"
                                     "OBJECT_STATE"));
 
   ASSERT_TRUE(sink.consume(tracked(3'033'000)));

@@ -1,13 +1,13 @@
-"""What the hands touch: messages about contacts and objects, from a network or a log."""
+"""What the hands touch and how they grasp: messages about contacts, grasps and objects, from a network or a log."""
 import os
 import time
 
 from . import log
 from .counts import Counts
 from .error import Error
-from .messages import Damaged, Foreign, contact_state_t, decode, object_state_t
+from .messages import Damaged, Foreign, contact_state_t, decode, grasp_state_t, object_state_t
 from .network import Network
-from .outlets import SEGMENTS
+from .outlets import GRASPS, SEGMENTS
 from .page import Page
 
 
@@ -16,6 +16,17 @@ def contacts(source=None, prefix="", timeout=None):
     of barehand.hands() with the same names; `utime` and `hand_id` say which hand a message belongs to. Messages of other types and damaged
     ones are left out."""
     return _messages(contact_state_t, "CONTACT_STATE", source, prefix, timeout)
+
+
+def grasps(source=None, prefix="", timeout=None):
+    """Iterates over grasp_state_t (lcmtypes/grasp_state_t.lcm): one for each hand and frame. The arguments are those of
+    barehand.hands() with the same names."""
+    return _messages(grasp_state_t, "GRASP_STATE", source, prefix, timeout)
+
+
+def grasp_name(grasp):
+    """The name of the class that a grasp_state_t states: "none", "wrap" ..., or "unknown"."""
+    return GRASPS[grasp.grasp] if 0 <= grasp.grasp < len(GRASPS) else "unknown"
 
 
 def objects(source=None, prefix="", timeout=None):
@@ -50,7 +61,8 @@ def _live(network, channel, timeout):
             message = network.receive(left)
             if message is None:
                 raise Error(f"no message on {channel} for {timeout:.0f} s", network.url,
-                            "start `barehand track` with the same LCM URL and channel prefix, and contact.enabled: true")
+                            "start `barehand track` with the same LCM URL and channel prefix, and "
+                            f"{'grasp' if channel.endswith('GRASP_STATE') else 'contact'}.enabled: true")
             if message[0] == channel.encode():
                 yield message
                 heard = time.monotonic()
