@@ -91,7 +91,8 @@ TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
   std::vector<std::string> channels;
   for (const LogEntry& entry : log->entries()) channels.push_back(entry.channel);
   const std::vector<std::string> once = {"DESK_RGBD_FRAME",  "DESK_HAND_STATE",    "DESK_GLOVE_STATE",
-                                         "DESK_HAND_JOINTS", "DESK_CONTACT_STATE", "DESK_OBJECT_STATE"};
+                                         "DESK_HAND_JOINTS", "DESK_CONTACT_STATE", "DESK_GRASP_STATE",
+                                         "DESK_OBJECT_STATE"};
   std::vector<std::string> twice = once;
   twice.insert(twice.end(), once.begin(), once.end());
   EXPECT_EQ(channels, twice);
@@ -156,7 +157,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   ASSERT_TRUE(sink.consume(moved(3)));
   const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLL");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLL");
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 

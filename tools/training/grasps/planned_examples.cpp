@@ -1,14 +1,15 @@
-// Writes the features of grasps as the simulator plans them, without rendering and tracking, for the training of the
-// grasp classifier: many more hands and objects than there is time to track.
+// Writes the true features of simulated grasps, without rendering and tracking, for the training of the grasp
+// classifier: many more hands and objects than there is time to track.
 //
-//   planned_examples OUT FIRST_SEED COUNT
+//   planned_examples OUT FIRST_SEED COUNT classes      every class of each seed, open, closing and holding
+//   planned_examples OUT FIRST_SEED COUNT sequences    the sequences of collect.py, 15 frames a second
 //
-// For each seed and class, three rows (example_file.h) of one hand: open, closing, holding. They begin with the class
-// and the fraction by which the hand is closed; the spread is that of joints that err by 1 rad each.
+// Each row (example_file.h) begins with the class, or the number of the sequence, and the time in the sequence [s]; the
+// spread is that of joints that err by 1 rad each.
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
-#include "drivers/synthetic/grasps/grasp_plan.h"
 #include "drivers/synthetic/grasps/varied_grasp.h"
 #include "drivers/synthetic/hand/hand_mesh_file.h"
 #include "drivers/synthetic/hand/measured_profile.h"
@@ -33,27 +34,16 @@ HandEstimate estimate_of(const std::shared_ptr<const HandProfile>& profile, cons
   return estimate;
 }
 
-/// The angles between two shapes of a hand; 0: the first.
-HandAngles between(const HandAngles& a, const HandAngles& b, double fraction) {
-  HandAngles out = a;
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
-    out[f].abduction += fraction * (b[f].abduction - a[f].abduction);
-    for (std::size_t k = 0; k < 3; ++k) out[f].flexion[k] += fraction * (b[f].flexion[k] - a[f].flexion[k]);
-  }
-  return out;
-}
-
-Result<void> write_examples(const HandMesh& mesh, std::uint64_t seed, std::ofstream& out) {
-  const HandMesh own = reshaped(mesh, drawn_hand({}, seed));
-  const HandRig rig{own, measure_profile(own)};
+/// The rows of one sequence.
+Result<void> write_examples(const HandRig& rig, int type, std::uint64_t seed, double origin,
+                            const std::vector<double>& times, std::ofstream& out) {
+  const auto sequence =
+      make_varied_grasp(rig, {"", std::string(grasp_types()[static_cast<std::size_t>(type)].name)}, seed);
+  if (!sequence) return tl::unexpected(sequence.error());
   const auto profile = std::make_shared<const HandProfile>(rig.profile);
-  for (int type = 0; type < kGraspTypeCount; ++type) {
-    const std::vector<std::string> objects = objects_for(type, seed >= kFirstTestSeed);
-    const auto plan = plan_grasp(rig, type, objects[(seed + static_cast<std::size_t>(type)) % objects.size()], seed);
-    if (!plan) return tl::unexpected(plan.error());
-    for (const double closed : {0.0, 0.3, 1.0})
-      write_example(out, type, closed, grasp_features(estimate_of(profile, between(plan->open, plan->held, closed))));
-  }
+  for (const double time : times)
+    write_example(out, origin, time,
+                  grasp_features(estimate_of(profile, (*sequence)->at(time).hands[0].skeleton.angles)));
   return {};
 }
 
@@ -64,8 +54,21 @@ Result<void> run(char** argv) {
   if (!mesh) return tl::unexpected(mesh.error());
   std::ofstream out(argv[1], std::ios::binary);
   const auto first = std::strtoull(argv[2], nullptr, 10), count = std::strtoull(argv[3], nullptr, 10);
-  for (auto seed = first; seed < first + count; ++seed)
-    if (const auto written = write_examples(*mesh, seed, out); !written) return written;
+  const bool sequences = std::string_view(argv[4]) == "sequences";
+  std::vector<double> times = {0.3, 1.0, 1.45, 3.0};
+  if (sequences) {
+    times.clear();
+    for (int frame = 0; frame < 80; ++frame) times.push_back(frame / 15.0);
+  }
+  for (auto seed = first; seed < first + count; ++seed) {
+    const HandMesh own = reshaped(*mesh, drawn_hand({}, seed));
+    const HandRig rig{own, measure_profile(own)};
+    for (int type = 0; type < kGraspTypeCount; ++type) {
+      if (sequences && type != static_cast<int>(seed % kGraspTypeCount)) continue;
+      const auto origin = sequences ? static_cast<double>(seed - first) : static_cast<double>(type);
+      if (const auto written = write_examples(rig, type, seed, origin, times, out); !written) return written;
+    }
+  }
   if (!out.flush()) return fail("cannot be written", argv[1], "is the disk full?");
   return {};
 }
@@ -73,8 +76,8 @@ Result<void> run(char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: planned_examples OUT FIRST_SEED COUNT\n");
+  if (argc != 5) {
+    std::fprintf(stderr, "usage: planned_examples OUT FIRST_SEED COUNT classes|sequences\n");
     return 2;
   }
   const auto done = run(argv);

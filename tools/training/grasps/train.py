@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Trains the classifier of grasps.
 
-    tools/training/grasps/train.py configs/grasps.json --planned planned.f32 --tracked tracked.f32 --sequences DIR
+    tools/training/grasps/train.py configs/grasps.json --planned planned.f32 --exact exact.f32 --tracked tracked.f32 --sequences DIR
 
-`planned.f32` and `tracked.f32` are files of planned_examples and tracked_examples; `--sequences` is the folder of
-collect.py, whose logs, in the order of their seeds, tracked_examples got. Needs Debian's python3-numpy. The same files give
-the same classifier; docs/grasp_states.md has the commands.
+`planned.f32` and `exact.f32` are files of planned_examples, of classes and of sequences from seed 0 on; `tracked.f32` is one
+of tracked_examples, which got the logs in DIR in the order of their seeds. DIR is the folder of collect.py. Needs Debian's
+python3-numpy. The same files give the same classifier; docs/recognised_grasps.md has the commands.
 """
 import argparse
 import csv
@@ -21,6 +21,7 @@ CLASSES = ("none", "wrap", "index_extension", "thumb_along", "ring", "sphere_3",
 KINDS = np.array([0] + [1] * 7 + [2] * 4 + [3] * 6)
 FINGER = np.array([0] * 5 + [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4)  # of each joint angle
 ABDUCTION = np.isin(np.arange(ANGLES), (1, 3, 6, 10, 14, 18))
+GRASPED = 1.9   # s, when the sequences begin to hold the object
 CLOSING = 0.6   # s before and after a grasp that are neither learned nor counted
 ROWS = ("none",) * 17 + CLASSES[1:]  # row k: a hand that is open for class k + 1; row 17 + k: that holds so
 NONE_WEIGHT = 4  # of all hands that hold nothing, against one class
@@ -40,18 +41,23 @@ class Examples:
         self.spread = rows[:, 2 + FEATURES:].reshape(-1, ANGLES, FEATURES).transpose(0, 2, 1)
 
 
-def noisy(planned, random, repeats):
-    """Planned examples with the errors of a tracker, and their rows: some fingers are hidden, and err by more."""
+def noisy(planned, errors, random, repeats):
+    """Planned examples with errors of the tracker, and their rows: what it got wrong in a frame of another sequence
+    (`errors`: one array [n, 52] for each sequence), or errors of joints that are drawn."""
     parts = []
-    for _ in range(repeats):
+    for repeat in range(repeats):
         n = len(planned.x)
         hidden = random.random((n, 5)) < random.choice((0.0, 0.3, 0.6), (n, 1))
         deviation = np.where(hidden, random.uniform(0.2, 0.6, (n, 5)), random.uniform(0.03, 0.18, (n, 1)))[:, FINGER]
         together = random.normal(size=(n, 5))[:, FINGER]  # the joints of a finger err alike, in part
         own = random.normal(size=(n, ANGLES))
-        error = deviation * np.where(ABDUCTION, 0.5 * own, 0.7 * together + 0.7 * own)
-        parts.append(planned.x + np.einsum("nfa,na->nf", planned.spread, error))
-    return np.concatenate(parts), np.tile(planned.origin + np.where(planned.second == 1, 17, 0), repeats)
+        error = np.einsum("nfa,na->nf", planned.spread,
+                          deviation * np.where(ABDUCTION, 0.5 * own, 0.7 * together + 0.7 * own))
+        if errors and repeat % 2 == 1:
+            chosen = [errors[k][random.integers(len(errors[k]))] for k in random.integers(len(errors), size=n)]
+            error = 0.3 * error + np.array(chosen)
+        parts.append(planned.x + error)
+    return np.concatenate(parts), np.tile(planned.origin + np.where(planned.second > GRASPED, 17, 0), repeats)
 
 
 def truth_of(folder):
@@ -171,31 +177,38 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path)
     parser.add_argument("--planned", type=Path, required=True)
+    parser.add_argument("--exact", type=Path, required=True)
     parser.add_argument("--tracked", type=Path, required=True)
     parser.add_argument("--sequences", type=Path, required=True)
-    parser.add_argument("--repeats", type=int, default=3, help="noisy copies of each planned example")
+    parser.add_argument("--repeats", type=int, default=4, help="copies of each planned example with errors")
     a = parser.parse_args()
-    random = np.random.default_rng(SEED)
     planned, tracked, truth = Examples(a.planned), Examples(a.tracked), truth_of(a.sequences)
     label, row = labels_of(tracked, truth)
-    noisy_x, noisy_row = noisy(planned, random, a.repeats)
 
-    # Tracked sequences that show a grasp.
+    # Tracked sequences that show a grasp, and what the tracker got wrong in them.
+    exact = Examples(a.exact)
+    by_time = {(number, round(time * 1000)): x for number, time, x in zip(exact.origin, exact.second, exact.x)}
+    seeds = sorted(int(path.stem) for path in a.sequences.glob("*.csv"))
     sequences = [np.flatnonzero((tracked.origin == k) & (label >= 0)) for k in range(len(truth))]
     sequences = [rows for rows in sequences if (label[rows] > 0).any()]
+    errors = [tracked.x[rows] - np.array([by_time[seeds[tracked.origin[i]], round(tracked.second[i] * 1000)] for i in rows])
+              for rows in sequences]
 
     def train(learned, share):
-        """A classifier from the planned examples and these sequences, which count `share` times as much."""
-        rows = np.concatenate(learned)
-        return Classifier(np.concatenate((noisy_x, tracked.x[rows])), np.concatenate((noisy_row, row[rows])),
-                          np.concatenate((balanced(noisy_row), share * balanced(row[rows]))))
+        """A classifier from the planned examples, with the tracker's errors in these sequences, and the sequences
+        themselves, which count `share` times as much."""
+        random = np.random.default_rng(SEED)
+        x, rows = noisy(planned, [errors[k] for k in learned], random, a.repeats)
+        own = np.concatenate([sequences[k] for k in learned])
+        return Classifier(np.concatenate((x, tracked.x[own])), np.concatenate((rows, row[own])),
+                          np.concatenate((balanced(rows), share * balanced(row[own]))))
 
     # Choose what tracked sequences count and the factor of the spread, each sequence judged by a classifier that has not
     # learned from it.
     choices = {}
     for share in SHARES:
-        folds = [(train([rows for k, rows in enumerate(sequences) if k % 3 != fold], share),
-                  sequences[fold::3]) for fold in range(3)]
+        folds = [(train([k for k in range(len(sequences)) if k % 3 != fold], share), sequences[fold::3])
+                 for fold in range(3)]
         for factor in FACTORS:
             figures = [evaluate(classifier, tracked, label, left_out, factor) for classifier, left_out in folds]
             mean = {key: float(np.mean([f[key] for f in figures])) for key in figures[0]}
@@ -204,7 +217,7 @@ def main():
     _, share, factor = min(choices)
 
     # Train on all sequences.
-    classifier = train(sequences, share)
+    classifier = train(range(len(sequences)), share)
     show(f"chosen: share {share} factor {factor}; on the same sequences", evaluate(classifier, tracked, label, sequences, factor))
     a.out.write_text(file_text(classifier, factor), encoding="ascii")
 
