@@ -7,8 +7,8 @@
 
 namespace barehand {
 
-/// The estimate that a message states, as far as the recognition of grasps needs it, with a profile that has the lengths
-/// of the hand.
+/// The estimate that a message states, as far as the recognition of grasps needs it, with a profile that has the
+/// lengths of the hand.
 inline HandEstimate estimate_of(const hand_state_t& state) {
   const auto profile = std::make_shared<HandProfile>();
   HandEstimate estimate;
