@@ -2,7 +2,8 @@
 // fingerprint of its type (8 bytes). The decoders throw an error for a message of another type and for a damaged one.
 
 const kFingerprints = {hand_state_t: 0x32c649d4163b8eb2n, glove_state_t: 0x5e477470f8db147en,
-                       contact_state_t: 0xf0c0b3e2f622f768n, object_state_t: 0x455512028ee352e3n};
+                       contact_state_t: 0xf0c0b3e2f622f768n, grasp_state_t: 0xd272e38d8b1abbe8n,
+                       object_state_t: 0x455512028ee352e3n};
 
 class Reader {
   constructor(view) { this.view = view; this.at = 8; }
@@ -79,7 +80,21 @@ export function decodeObjectState(view) {
     held: read.int8() !== 0, hand_id: read.int32(), since: read.int64()}));
 }
 
+// Decodes a grasp_state_t; probabilities are NaN and classes negative where nothing is known.
+export function decodeGraspState(view) {
+  return decode("grasp_state_t", view, (read) => ({
+    ...header(read), grasp: read.int8(), probability: read.double(), since: read.int64(),
+    probabilities: read.doubles(18), kind: read.int8(), kind_probability: read.double(), opposition: read.int8(),
+    opposition_probability: read.double(), thumb: read.int8(), thumb_probability: read.double(),
+    first_finger: read.int8(), last_finger: read.int8(), finger_probability: read.double(), aperture: read.double(),
+    closure: read.double()}));
+}
+
 export const kTouching = 3;  // state of a contact
+export const kGraspNames = ["none", "wrap", "index extension", "thumb along", "ring", "sphere 3", "sphere 4", "extension",
+  "adduction", "tripod variation", "lateral tripod", "lateral", "pinch", "tripod", "quadpod", "five fingers",
+  "parallel extension", "writing tripod"];
+export const kGraspKinds = ["none", "power", "intermediate", "precision"];
 export const kSegmentNames = ["palm", ...["thumb", "index", "middle", "ring", "little"].flatMap((finger) =>
   (finger === "thumb" ? ["metacarpal", "proximal", "distal"] : ["proximal", "intermediate", "distal"])
     .map((bone) => `${finger} ${bone}`))];

@@ -87,7 +87,7 @@ function loop(now) {
   if (now - (loop.slowAt || 0) > 100) {
     loop.slowAt = now;
     plots.draw(theme());
-    if (shown && open) showHands(shown.states, shown.contacts, shown.objects);
+    if (shown && open) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
     meter.show(status && status.live, performance.now());
     notice(problem());
   }

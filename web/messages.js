@@ -1,8 +1,9 @@
 // Decodes the binary messages of the WebSocket (docs/view_protocol.md lists their chunks).
-import {decodeContactState, decodeGloveState, decodeHandState, decodeObjectState} from "./lcm.js";
+import {decodeContactState, decodeGloveState, decodeGraspState, decodeHandState, decodeObjectState} from "./lcm.js";
 
 const kDecoders = {HAND_STATE: ["states", decodeHandState], GLOVE_STATE: ["gloves", decodeGloveState],
-                   CONTACT_STATE: ["contacts", decodeContactState], OBJECT_STATE: ["objects", decodeObjectState]};
+                   CONTACT_STATE: ["contacts", decodeContactState], GRASP_STATE: ["grasps", decodeGraspState],
+                   OBJECT_STATE: ["objects", decodeObjectState]};
 
 function lcmMessage(view, frame) {
   const length = view.getUint8(0);
@@ -43,11 +44,11 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// Decodes a message to {header, states, gloves, contacts, objects, skins, cloud, picture, damage}; header, cloud and
-// picture are null if missing. `damage` says of each LCM message that was left out why.
+// Decodes a message to {header, states, gloves, contacts, grasps, objects, skins, cloud, picture, damage}; header, cloud
+// and picture are null if missing. `damage` says of each LCM message that was left out why.
 export function decodeFrame(buffer) {
-  const frame = {header: null, states: [], gloves: [], contacts: [], objects: [], skins: [], cloud: null, picture: null,
-                 damage: []};
+  const frame = {header: null, states: [], gloves: [], contacts: [], grasps: [], objects: [], skins: [], cloud: null,
+                 picture: null, damage: []};
   const whole = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
     const kind = String.fromCharCode(whole.getUint8(at)), index = whole.getUint8(at + 1);

@@ -1,5 +1,5 @@
 // The panels with text and numbers: the states of the hands, the health of the pipeline, and notices over the view.
-import {kSegmentNames, kSideNames, kStatusNames, kTouching} from "./lcm.js";
+import {kGraspKinds, kGraspNames, kSegmentNames, kSideNames, kStatusNames, kTouching} from "./lcm.js";
 
 const byId = (id) => document.getElementById(id);
 const kChip = {searching: "warn", tracking: "good", holding: "warn", lost: "lost"};
@@ -25,7 +25,18 @@ function touchesOf(state, contacts, objects) {
   return parts.join(" ");
 }
 
-export function showHands(states, contacts = [], objects = []) {
+// How a hand grasps, in words; "" if that is not known.
+function graspOf(state, grasps) {
+  const grasp = grasps.find((g) => g.hand_id === state.hand_id);
+  if (!grasp || grasp.grasp < 0) return "";
+  const percent = (probability) => `${Math.round(probability * 100)} %`;
+  const opening = `thumb ${Math.round(grasp.aperture * 1e3)} mm from the fingers`;
+  if (grasp.grasp === 0) return `No grasp (${percent(grasp.probability)}), ${opening}.`;
+  return `Grasp: ${kGraspNames[grasp.grasp]} (${percent(grasp.probability)}), ${kGraspKinds[grasp.kind]} ` +
+         `(${percent(grasp.kind_probability)}), ${opening}.`;
+}
+
+export function showHands(states, contacts = [], grasps = [], objects = []) {
   const box = byId("hands");
   if (states.length === 0) { box.textContent = "Not known."; return; }
   box.replaceChildren(...states.map((state) => {
@@ -38,6 +49,8 @@ export function showHands(states, contacts = [], objects = []) {
     row.append(element("span", state.has_pose
       ? `${seen} of 16 segments seen, mean confidence ${mean.toFixed(2)}, mismatch ${(state.score * 1e3).toFixed(1)} mm`
       : "No pose.", {class: "numbers"}));
+    const grasp = graspOf(state, grasps);
+    if (grasp) row.append(element("span", grasp, {class: "numbers grasp"}));
     const touches = touchesOf(state, contacts, objects);
     if (touches) row.append(element("span", touches, {class: "numbers touches"}));
     return row;

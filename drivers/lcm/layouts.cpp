@@ -62,6 +62,12 @@ void walk(WireWalker& walker, const contact_state_t*) {
   walker.skip(3 * 16 * (1 + 1 + (3 + 4 * 3) * kDouble + 4 + 1));
 }
 
+void walk(WireWalker& walker, const grasp_state_t*) {
+  walk_hand_header(walker);
+  walker.skip(1 + kDouble + 8 + 18 * kDouble);
+  walker.skip(3 * (1 + kDouble) + 2 + kDouble + 2 * kDouble);
+}
+
 void walk(WireWalker& walker, const object_state_t*) {
   walker.skip(8 + 8);
   walker.string();

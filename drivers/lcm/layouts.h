@@ -3,6 +3,7 @@
 #include "barehand/command_t.hpp"
 #include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
+#include "barehand/grasp_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "barehand/health_t.hpp"
@@ -23,6 +24,7 @@ void walk(WireWalker& walker, const hand_state_t*);
 void walk(WireWalker& walker, const glove_state_t*);
 void walk(WireWalker& walker, const hand_joints_t*);
 void walk(WireWalker& walker, const contact_state_t*);
+void walk(WireWalker& walker, const grasp_state_t*);
 void walk(WireWalker& walker, const object_state_t*);
 void walk(WireWalker& walker, const health_t*);
 void walk(WireWalker& walker, const kinect::frame_msg_t*);

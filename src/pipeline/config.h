@@ -8,6 +8,7 @@
 #include "sensor/given_intrinsics.h"
 #include "stages/contact/contact_params.h"
 #include "stages/detection/params.h"
+#include "stages/grasp/grasp_params.h"
 #include "stages/preprocess/params.h"
 #include "stages/publish/publish_params.h"
 #include "tracking/tracker_params.h"
@@ -21,6 +22,7 @@ struct Config {
   PreprocessParams preprocess;
   TrackerParams tracker;
   ContactParams contact;
+  GraspParams grasp;
   PublishParams publish;
   CameraPlacement world;
   GivenIntrinsics foreign_camera;
@@ -33,6 +35,7 @@ void visit(V& v, Config& c) {
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("contact", c.contact, "what the hands touch");
+  v("grasp", c.grasp, "how the hands grasp");
   v("publish", c.publish, "from estimates to LCM messages");
   v("world", c.world, "the room in which the camera stands, for the live page");
   v("foreign_camera", c.foreign_camera, "intrinsics for kinect.frame_msg_t and bot_core.images_t, which carry none");

@@ -33,7 +33,8 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
               Queue{"to sinks", capacity(stages_.source, options), Overflow::block}},
       preprocess_monitor_("preprocess", clock),
       track_monitor_("track", clock),
-      contact_monitor_("contact", clock) {
+      contact_monitor_("contact", clock),
+      grasp_monitor_("grasp", clock) {
   for (const Sink* sink : stages_.sinks) sink_monitors_.push_back(std::make_unique<StageMonitor>(sink->name(), clock));
 }
 
@@ -209,8 +210,19 @@ void Pipeline::find_contacts(Item& item) {
     report(contact_monitor_, item, contacts.error());
 }
 
+/// Likewise.
+void Pipeline::find_grasps(Item& item) {
+  if (!stages_.grasp) return;
+  auto grasps = grasp_monitor_.run(stages_.grasp, item.data.estimates);
+  if (grasps)
+    item.data.grasps = std::move(*grasps);
+  else
+    report(grasp_monitor_, item, grasps.error());
+}
+
 void Pipeline::deliver(Item item) {
   find_contacts(item);
+  find_grasps(item);
 
   // Pass the frame to every sink.
   bool delivered = true;
@@ -302,6 +314,7 @@ PipelineHealth Pipeline::health() const {
   PipelineHealth health = counts();
   health.stages = {preprocess_monitor_.health(), track_monitor_.health()};
   if (stages_.contact) health.stages.push_back(contact_monitor_.health());
+  if (stages_.grasp) health.stages.push_back(grasp_monitor_.health());
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->health());
   std::unique_lock lock(mutex_);
   health.latency = latency_.summary();
@@ -313,6 +326,7 @@ PipelineHealth Pipeline::take_interval_health() {
   PipelineHealth health = counts();
   health.stages = {preprocess_monitor_.take_interval(), track_monitor_.take_interval()};
   if (stages_.contact) health.stages.push_back(contact_monitor_.take_interval());
+  if (stages_.grasp) health.stages.push_back(grasp_monitor_.take_interval());
   for (const auto& monitor : sink_monitors_) health.stages.push_back(monitor->take_interval());
   std::unique_lock lock(mutex_);
 

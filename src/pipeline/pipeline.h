@@ -37,6 +37,8 @@ struct PipelineStages {
   /// What the hands touch; runs before the sinks, on their thread. Empty: frames have no contacts.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)>
       contact = {};
+  /// How the hands grasp; runs after the contacts, likewise. Empty: frames have no grasps.
+  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp = {};
 };
 
 /// How the pipeline runs.
@@ -115,6 +117,7 @@ class Pipeline {
   bool preprocess(Item& item, const HandEstimates& feedback);
   bool track(Item& item);
   void find_contacts(Item& item);
+  void find_grasps(Item& item);
   void deliver(Item item);
   void idle();
   void finish_sinks();
@@ -136,7 +139,7 @@ class Pipeline {
 
   std::array<Queue, kQueueCount> queues_;
   Feedback<HandEstimates> feedback_;
-  StageMonitor preprocess_monitor_, track_monitor_, contact_monitor_;
+  StageMonitor preprocess_monitor_, track_monitor_, contact_monitor_, grasp_monitor_;
   std::vector<std::unique_ptr<StageMonitor>> sink_monitors_;
   std::atomic<bool> stop_ = false, ending_ = false;
   std::atomic<std::int64_t> published_ = 0, failed_ = 0, skipped_ = 0, answers_ = 0;

@@ -12,8 +12,8 @@ namespace {
 /// Whether a key cannot change while the pipeline runs: sources, channels and limits of failures are set up once, and
 /// a fit to the person that has begun keeps its parameters.
 bool fixed(const std::string& key) {
-  constexpr const char* kFixed[] = {"run.",     "contact.",          "detection.", "world.", "foreign_camera.",
-                                    "openni2.", "tracker.shape_fit."};
+  constexpr const char* kFixed[] = {"run.",   "contact.",        "grasp.",   "detection.",
+                                    "world.", "foreign_camera.", "openni2.", "tracker.shape_fit."};
   return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
 }
 

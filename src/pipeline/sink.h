@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "hand/contacts.h"
+#include "hand/grasps/frame_grasps.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 
@@ -15,6 +16,7 @@ struct TrackedFrame {
   HandObservations observations;
   HandEstimates estimates;
   FrameContactsPtr contacts = {};  ///< null: nobody asked for them, or their stage failed
+  FrameGraspsPtr grasps = {};      ///< null: likewise
 };
 
 /// An output of the pipeline: the bus, a table, a log, images. Used by one thread, in the order of the frames.

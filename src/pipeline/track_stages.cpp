@@ -4,15 +4,24 @@
 #include "io/data_files.h"
 #include "stages/contact/contact_stage.h"
 #include "stages/detection/detection_stage.h"
+#include "stages/grasp/grasp_stage.h"
 #include "stages/preprocess/preprocess.h"
 
 namespace barehand {
 namespace {
 
-/// The folder with the networks: a name without a slash means one of the folders in configs/.
-std::string networks_folder(const std::string& name) {
+/// A file or folder that a configuration names: a name without a slash means one in configs/.
+std::string path_in_configs(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   return find_data_file("configs/" + name).value_or(name);
+}
+
+/// The stage that recognises grasps; none, with a warning, if its classifier cannot be used.
+std::shared_ptr<GraspStage> make_grasp_stage(const GraspParams& params, RepeatLog& log) {
+  auto classifier = GraspClassifier::load(path_in_configs(params.classifier));
+  if (classifier) return std::make_shared<GraspStage>(std::move(*classifier));
+  log.logger().warn("grasps are not recognised: {}", classifier.error().message());
+  return nullptr;
 }
 
 }  // namespace
@@ -23,9 +32,17 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
+<<<<<<< HEAD
   const auto only = hands == 1 ? std::optional(profiles[0]->handedness) : std::nullopt;
   auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
                                                     config.preprocess.use_colour, workers, log.shared_logger(), only);
+||||||| 96ff02c
+  auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
+                                                    config.preprocess.use_colour, workers, log.shared_logger());
+=======
+  auto detection = std::make_shared<DetectionStage>(config.detection, path_in_configs(config.detection.networks),
+                                                    config.preprocess.use_colour, workers, log.shared_logger());
+>>>>>>> grasp
   auto tracker =
       std::make_shared<CommandedTracker>(config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers,
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
@@ -33,6 +50,9 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   TrackStages stages;
   if (config.contact.enabled)
     stages.contact = std::bind_front(&ContactStage::process, std::make_shared<ContactStage>(config.contact));
+  if (config.grasp.enabled)
+    if (const auto grasp = make_grasp_stage(config.grasp, log))
+      stages.grasp = std::bind_front(&GraspStage::process, grasp);
   stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
     if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);

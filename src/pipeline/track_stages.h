@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel/parallel.h"
 #include "hand/contacts.h"
+#include "hand/grasps/frame_grasps.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
 #include "pipeline/config.h"
@@ -21,6 +22,8 @@ struct TrackStages {
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
   /// Empty if the configuration wants no contacts.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
+  /// Empty if the configuration wants no grasps, or the classifier cannot be used, which is logged.
+  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp;
 };
 
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.

@@ -4,6 +4,7 @@
 
 #include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
+#include "barehand/grasp_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "stages/publish/pose_hold.h"
@@ -19,6 +20,7 @@ struct HandMessages {
   glove_state_t glove;
   hand_joints_t joints;
   std::optional<contact_state_t> contact = {};  ///< none: contacts are switched off
+  std::optional<grasp_state_t> grasp = {};      ///< none: grasps are switched off
 };
 
 /// The publish stage: converts the estimates of one hand, in order, to messages. Equal estimates give equal bytes,

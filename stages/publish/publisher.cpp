@@ -28,6 +28,7 @@ Result<void> Publisher::send(const HandMessages& messages) {
   send("GLOVE_STATE", messages.glove, result);
   send("HAND_JOINTS", messages.joints, result);
   if (messages.contact) send("CONTACT_STATE", *messages.contact, result);
+  if (messages.grasp) send("GRASP_STATE", *messages.grasp, result);
   return result;
 }
 

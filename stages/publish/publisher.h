@@ -11,7 +11,7 @@
 namespace barehand {
 
 /// Sends messages to every sink (a bus, a log, or both), on the channels HAND_STATE, GLOVE_STATE, HAND_JOINTS,
-/// CONTACT_STATE, OBJECT_STATE and HEALTH with the prefix in front. The sinks must outlive this object.
+/// CONTACT_STATE, GRASP_STATE, OBJECT_STATE and HEALTH with the prefix in front. The sinks must outlive this object.
 class Publisher {
  public:
   /// Errors: with this prefix, a channel name would be too long for LCM (63 bytes).

@@ -10,8 +10,8 @@ from barehand.messages import Damaged, Foreign, decode
 from barehand.stream import _Frames
 from support import golden_bytes, messages_of
 
-TYPES = ("command_t", "contact_state_t", "glove_state_t", "hand_joints_t", "hand_state_t", "health_t", "object_state_t",
-         "rgbd_frame_t")
+TYPES = ("command_t", "contact_state_t", "glove_state_t", "grasp_state_t", "hand_joints_t", "hand_state_t", "health_t",
+         "object_state_t", "rgbd_frame_t")
 
 
 def places(data):

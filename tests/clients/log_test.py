@@ -170,6 +170,25 @@ class McapFiles(Folder):
             list(barehand.hands(self.path))
 
 
+class GraspsInLogs(Folder):
+    def test_grasps_come_in_order_and_have_names(self):
+        path = self.folder / "take.lcmlog"
+        with open(path, "wb") as file:
+            for frame, state in enumerate((-1, 0, 12, 17)):
+                grasp = barehand.grasp_state_t()
+                grasp.utime, grasp.grasp = frame, state
+                log.write_event(file, frame, frame, b"GRASP_STATE", grasp.encode())
+                log.write_event(file, frame, frame, b"GRASP_STATE", grasp.encode()[:-1])
+        grasps = list(barehand.grasps(path))
+        self.assertEqual([grasp.utime for grasp in grasps], [0, 1, 2, 3])
+        self.assertEqual([barehand.grasp_name(grasp) for grasp in grasps], ["unknown", "none", "pinch", "writing_tripod"])
+        self.assertEqual(list(barehand.contacts(path)), [])
+
+    def test_names_are_those_of_the_constants(self):
+        for number, name in enumerate(barehand.GRASPS):
+            self.assertEqual(getattr(barehand.grasp_state_t, name.upper()), number)
+
+
 class ContactsInLogs(Folder):
     def test_contacts_and_objects_come_in_order_and_others_are_left_out(self):
         path = self.folder / "take.lcmlog"

@@ -112,6 +112,20 @@ hand_joints_t hand_joints() {
   return m;
 }
 
+grasp_state_t grasp_state() {
+  grasp_state_t m;
+  fill_header(m);
+  Counter counter;
+  for (std::int8_t* field : {&m.grasp, &m.kind, &m.opposition, &m.thumb, &m.first_finger, &m.last_finger})
+    counter.fill(*field);
+  for (double* field : {&m.probability, &m.kind_probability, &m.opposition_probability, &m.thumb_probability,
+                        &m.finger_probability, &m.aperture, &m.closure})
+    counter.fill(*field);
+  m.since = m.utime - 1;
+  counter.fill(m.probabilities);
+  return m;
+}
+
 contact_state_t contact_state() {
   contact_state_t m;
   fill_header(m);

@@ -49,6 +49,10 @@ contact_state_t fixed() {
   return golden::contact_state();
 }
 template <>
+grasp_state_t fixed() {
+  return golden::grasp_state();
+}
+template <>
 object_state_t fixed() {
   return golden::object_state();
 }
@@ -63,8 +67,8 @@ command_t fixed() {
 
 template <class Message>
 class GoldenMessage : public testing::Test {};
-using Types = testing::Types<rgbd_frame_t, hand_state_t, glove_state_t, hand_joints_t, contact_state_t, object_state_t,
-                             health_t, command_t>;
+using Types = testing::Types<rgbd_frame_t, hand_state_t, glove_state_t, hand_joints_t, contact_state_t, grasp_state_t,
+                             object_state_t, health_t, command_t>;
 TYPED_TEST_SUITE(GoldenMessage, Types);
 
 TYPED_TEST(GoldenMessage, EncodesAndDecodesAsEver) {

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   write(argv[1], glove_state());
   write(argv[1], hand_joints());
   write(argv[1], contact_state());
+  write(argv[1], grasp_state());
   write(argv[1], object_state());
   write(argv[1], health());
   write(argv[1], command());

@@ -221,6 +221,25 @@ TEST(RosHand, TouchesAreSpheresWhereTheSurfaceIs) {
   EXPECT_GT(drawn.markers[1].color.r, drawn.markers[2].color.r) << "objects and hands have colours of their own";
 }
 
+TEST(RosHand, TheGraspIsPartOfTheDiagnosis) {
+  HandState state = hand(true);
+  const auto has = [&state](const char* key, const char* text) {
+    const auto values = diagnostic(state).values;
+    return std::ranges::any_of(values, [&](const KeyValue& value) { return value.key == key && value.value == text; });
+  };
+  EXPECT_FALSE(has("grasp", "pinch"));
+  state.grasp.emplace();
+  state.grasp->grasp = grasp_state_t::PINCH;
+  state.grasp->kind = grasp_state_t::PRECISION;
+  state.grasp->aperture = 0.025;
+  EXPECT_TRUE(has("grasp", "pinch"));
+  EXPECT_TRUE(has("grasp kind", "precision"));
+  EXPECT_TRUE(has("aperture [m]", "0.025"));
+  state.grasp->grasp = grasp_state_t::UNKNOWN;
+  EXPECT_FALSE(has("grasp", "unknown")) << "what is not known is left out";
+  EXPECT_EQ(lcm_messages(state).back().channel, "GRASP_STATE");
+}
+
 std::vector<std::string> names_of(const std::vector<Topic>& topics) {
   std::vector<std::string> names;
   for (const Topic& topic : topics) names.push_back(topic.name);

@@ -75,7 +75,8 @@ struct World {
                           [this](const FramePtr& f, const HandEstimates& before) { return preprocess(f, before); },
                           [this](const HandObservations& o) { return track(o); },
                           {&sink},
-                          contact};
+                          contact,
+                          grasp};
     pipeline = std::make_unique<Pipeline>(std::move(stages), options, clock, log);
     return pipeline->run();
   }
@@ -106,6 +107,7 @@ struct World {
   RepeatLog log{make_silent_logger(), clock};
   RecordingSink sink;
   std::function<Result<FrameContactsPtr>(const HandObservations&, const HandEstimates&)> contact;
+  std::function<Result<FrameGraspsPtr>(const HandEstimates&)> grasp;
   std::function<void(const FramePtr&)> before_preprocess;
   std::function<Result<void>(const FramePtr&)> before_track;
   std::vector<int> feedback;
@@ -160,6 +162,25 @@ TEST_P(PipelineLifecycle, SinksGetTheContactsOfTheirFrameAndDoWithoutThoseThatFa
   EXPECT_THAT(got, ElementsAre(0, 1, 2, -1, 4, 5));
   EXPECT_EQ(result.health.published, 6);
   EXPECT_EQ(result.health.stages[2].name, "contact");
+  EXPECT_EQ(result.health.stages[2].failed, 1);
+}
+
+TEST_P(PipelineLifecycle, SinksGetTheGraspsOfTheirFrameAndDoWithoutThoseThatFailed) {
+  world_.grasp = [](const HandEstimates& estimates) -> Result<FrameGraspsPtr> {
+    if (estimates[0]->number == 2) return fail("bad");
+    auto grasps = std::make_shared<FrameGrasps>(1);
+    (*grasps)[0].grasp = static_cast<int>(estimates[0]->number);
+    return grasps;
+  };
+  std::vector<int> got;
+  world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
+    got.push_back(tracked.grasps ? (*tracked.grasps)[0].grasp : -1);
+    return {};
+  };
+  ScriptedSource source(false, frames_then_end(4));
+  const RunResult result = world_.run(source);
+  EXPECT_THAT(got, ElementsAre(0, 1, -1, 3));
+  EXPECT_EQ(result.health.stages[2].name, "grasp");
   EXPECT_EQ(result.health.stages[2].failed, 1);
 }
 

@@ -66,6 +66,17 @@ TEST(Publisher, SendsContactsAndObjectsWhereThereAreSome) {
   EXPECT_EQ(decode_message<object_state_t>(sink.received.at("OBJECT_STATE"))->object_id, 7);
 }
 
+TEST(Publisher, SendsGraspsWhereTheyAreKnown) {
+  MemorySink sink;
+  Publisher publisher = Publisher::create("DESK_", {&sink}).value();
+  HandMessages hand = messages();
+  hand.grasp = grasp_state_t{};
+  hand.grasp->grasp = grasp_state_t::PINCH;
+  ASSERT_TRUE(publisher.send(hand));
+  ASSERT_EQ(sink.received.size(), 4u);
+  EXPECT_EQ(decode_message<grasp_state_t>(sink.received.at("DESK_GRASP_STATE"))->grasp, grasp_state_t::PINCH);
+}
+
 TEST(Publisher, OneBrokenSinkDoesNotSilenceTheOthers) {
   MemorySink broken, healthy;
   broken.refuse = true;

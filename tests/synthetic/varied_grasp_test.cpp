@@ -6,11 +6,12 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "drivers/synthetic/grasped_object.h"
 #include "drivers/synthetic/grasps/grasp_plan.h"
 #include "drivers/synthetic/grasps/grasp_recipe.h"
-#include "drivers/synthetic/grasps/grasp_types.h"
+#include "hand/grasps/grasp_types.h"
 #include "tests/synthetic/small_simulator.h"
 #include "tests/synthetic/test_hand.h"
 
@@ -72,11 +73,10 @@ TEST(DailyObjects, AreClosedSolidsOfASizeThatFitsAHand) {
 TEST(GraspTypes, AreThe17ClassesWithTheirObjectsForTrainingAndForTesting) {
   ASSERT_EQ(grasp_types().size(), 17u);
   ASSERT_EQ(grasp_recipes().size(), 17u);
-  std::set<std::string> cells;
+  std::set<std::tuple<GraspKind, Opposition, ThumbPosition, int, int>> cells;
   for (int type = 0; type < 17; ++type) {
     const GraspType& t = grasp_types()[type];
-    cells.insert(std::string(t.family) + "|" + std::string(t.opposition) + "|" + std::string(t.thumb) + "|" +
-                 std::string(t.fingers));
+    cells.insert({t.kind, t.opposition, t.thumb, t.first_finger, t.last_finger});
     EXPECT_FALSE(objects_for(type, false).empty()) << t.name;
     EXPECT_FALSE(objects_for(type, true).empty()) << t.name;
   }

@@ -49,26 +49,47 @@ TEST(FrameMessages, GiveViewersOfRosTheHandsThatAreWhole) {
   EXPECT_STREQ(content.messages[2].channel, "HAND_JOINTS");
 }
 
-TEST(FrameMessages, PassOnWhatTheHandTouches) {
+TEST(FrameMessages, PassOnWhatTheHandTouchesAndHowItGrasps) {
   const HandMessages made = messages_at(4'000'000);
   contact_state_t contact = {};
   contact.hand_id = made.state.hand_id;
   contact.own[6].state = contact_state_t::TOUCHING;
+  grasp_state_t grasp = {};
+  grasp.hand_id = made.state.hand_id;
+  grasp.grasp = grasp_state_t::TRIPOD;
   object_state_t object = {};
   object.object_id = 7;
   ShownHands hands = mean_hands();
+<<<<<<< HEAD
   const auto content = frame_content(std::vector<ReceivedMessage>{{"A", encode_message(made.state)},
                                                                   {"B", encode_message(made.glove)},
                                                                   {"C", encode_message(made.joints)},
                                                                   {"D", encode_message(contact)},
                                                                   {"E", encode_message(object)}},
+||||||| 96ff02c
+  const auto content = frame_content(std::vector<LcmMessage>{{"A", encode_message(made.state)},
+                                                             {"B", encode_message(made.glove)},
+                                                             {"C", encode_message(made.joints)},
+                                                             {"D", encode_message(contact)},
+                                                             {"E", encode_message(object)}},
+=======
+  const auto content = frame_content(std::vector<LcmMessage>{{"A", encode_message(made.state)},
+                                                             {"B", encode_message(made.glove)},
+                                                             {"C", encode_message(made.joints)},
+                                                             {"D", encode_message(contact)},
+                                                             {"E", encode_message(object)},
+                                                             {"F", encode_message(grasp)}},
+>>>>>>> grasp
                                      hands, {});
-  ASSERT_EQ(content.messages.size(), 5u);
+  ASSERT_EQ(content.messages.size(), 6u);
   EXPECT_STREQ(content.messages[3].channel, "CONTACT_STATE");
   EXPECT_STREQ(content.messages[4].channel, "OBJECT_STATE");
+  EXPECT_STREQ(content.messages[5].channel, "GRASP_STATE");
   ASSERT_EQ(content.hands.size(), 1u);
   ASSERT_TRUE(content.hands[0].contact);
   EXPECT_EQ(content.hands[0].contact->own[6].state, contact_state_t::TOUCHING);
+  ASSERT_TRUE(content.hands[0].grasp);
+  EXPECT_EQ(content.hands[0].grasp->grasp, grasp_state_t::TRIPOD);
   ASSERT_EQ(content.objects.size(), 1u);
   EXPECT_EQ(content.objects[0].object_id, 7);
 }

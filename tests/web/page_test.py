@@ -161,6 +161,10 @@ class Live(Page):
         self.press("t", "document.documentElement.dataset.theme === 'light'")
         self.wait_for_hand("light")
 
+    def test_the_grasp_is_said_in_words(self):
+        self.open_with_hand(self.program)
+        self.wait_for("/(Grasp: |No grasp)/.test(document.getElementById('hands').textContent)")
+
     def test_a_phone_shows_all_in_its_width(self):
         self.browser.size(360, 740, phone=True)
         self.open_with_hand(self.program)

@@ -29,6 +29,7 @@ TrackedFrame tracked(std::int64_t utime) {
   contacts->hands.resize(1);
   contacts->objects.emplace_back().id = 7;
   out.contacts = contacts;
+  out.grasps = std::make_shared<const FrameGrasps>(1);
   out.estimates.push_back(std::make_shared<const HandEstimate>(estimate_of(*test::adult_hand(), {}, utime)));
   return out;
 }
@@ -48,7 +49,7 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   const TrackedFrame frame = tracked(3'000'000);
   ASSERT_TRUE(sink.consume(frame));
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLD");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLLD");
   const HandMessages messages = HandMessageMaker(params).process(*frame.estimates[0]);
   const auto state = encode_message(messages.state), glove = encode_message(messages.glove),
              joints = encode_message(messages.joints);
@@ -59,7 +60,10 @@ TEST(ViewSink, SendsWhatTheBusGets) {
       chunks[5].payload.starts_with("\x0d"
                                     "CONTACT_STATE"));
   EXPECT_TRUE(
-      chunks[6].payload.starts_with("\x0c"
+      chunks[6].payload.starts_with("\x0b"
+                                    "GRASP_STATE"));
+  EXPECT_TRUE(
+      chunks[7].payload.starts_with("\x0c"
                                     "OBJECT_STATE"));
 
   ASSERT_TRUE(sink.consume(tracked(3'033'000)));
@@ -87,7 +91,8 @@ TEST(ViewSink, RecordsFramesAndStatesAlsoWhereNobodyLooks) {
   std::vector<std::string> channels;
   for (const LogEntry& entry : log->entries()) channels.push_back(entry.channel);
   const std::vector<std::string> once = {"DESK_RGBD_FRAME",  "DESK_HAND_STATE",    "DESK_GLOVE_STATE",
-                                         "DESK_HAND_JOINTS", "DESK_CONTACT_STATE", "DESK_OBJECT_STATE"};
+                                         "DESK_HAND_JOINTS", "DESK_CONTACT_STATE", "DESK_GRASP_STATE",
+                                         "DESK_OBJECT_STATE"};
   std::vector<std::string> twice = once;
   twice.insert(twice.end(), once.begin(), once.end());
   EXPECT_EQ(channels, twice);
@@ -152,7 +157,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   ASSERT_TRUE(sink.consume(moved(3)));
   const auto state = encode_message(bus.process(*moved(3).estimates[0]).state);
   const auto chunks = chunks_of(client.binary().value());
-  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLL");
+  ASSERT_EQ(test::kinds_of(chunks), "SFLLLLLL");
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 

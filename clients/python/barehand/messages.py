@@ -2,6 +2,7 @@
 from .command_t import command_t
 from .contact_state_t import contact_state_t
 from .glove_state_t import glove_state_t
+from .grasp_state_t import grasp_state_t
 from .hand_joints_t import hand_joints_t
 from .hand_state_t import hand_state_t
 from .health_t import health_t
@@ -12,8 +13,8 @@ from .segment_contact_t import segment_contact_t
 from .segment_state_t import segment_state_t
 from .stage_health_t import stage_health_t
 
-__all__ = ["command_t", "contact_state_t", "glove_state_t", "hand_joints_t", "hand_state_t", "health_t",
-           "object_state_t", "queue_health_t", "rgbd_frame_t", "segment_contact_t", "segment_state_t", "stage_health_t",
+__all__ = ["command_t", "contact_state_t", "glove_state_t", "grasp_state_t", "hand_joints_t", "hand_state_t",
+           "health_t", "object_state_t", "queue_health_t", "rgbd_frame_t", "segment_contact_t", "segment_state_t", "stage_health_t",
            "Damaged", "Foreign", "decode"]
 
 

@@ -26,6 +26,11 @@ GLOVE_CHANNELS = ("thumb_rotate", "thumb_mpj", "thumb_ij", "thumb_ab", "index_mp
 SEGMENTS = ("palm", "thumb_metacarpal", "thumb_proximal", "thumb_distal",
             *(f"{finger}_{bone}" for finger in _FINGERS for bone in ("proximal", "intermediate", "distal")))
 
+#: Names of the classes of grasps, in the order of the constants of grasp_state_t.
+GRASPS = ("none", "wrap", "index_extension", "thumb_along", "ring", "sphere_3", "sphere_4", "extension", "adduction",
+          "tripod_variation", "lateral_tripod", "lateral", "pinch", "tripod", "quadpod", "five_fingers",
+          "parallel_extension", "writing_tripod")
+
 #: Indices in OPENXR_JOINTS of the 21 landmarks: wrist, thumb (4), index (4), middle (4), ring (4), little finger (4).
 LANDMARKS_21 = (1, 2, 3, 4, 5, 7, 8, 9, 10, 12, 13, 14, 15, 17, 18, 19, 20, 22, 23, 24, 25)
 

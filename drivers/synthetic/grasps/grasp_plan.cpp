@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "core/comma_list.h"
-#include "drivers/synthetic/grasps/grasp_types.h"
 #include "drivers/synthetic/grasps/opposition.h"
 #include "drivers/synthetic/random_keys.h"
 #include "drivers/synthetic/sequences/grasp_planner.h"
+#include "hand/grasps/grasp_types.h"
 #include "math/angles.h"
 #include "math/mesh_distance.h"
 

@@ -5,10 +5,10 @@
 
 #include "core/comma_list.h"
 #include "drivers/synthetic/grasps/grasp_plan.h"
-#include "drivers/synthetic/grasps/grasp_types.h"
 #include "drivers/synthetic/random_keys.h"
 #include "drivers/synthetic/rendering/shapes.h"
 #include "drivers/synthetic/sequences/keyframes.h"
+#include "hand/grasps/grasp_types.h"
 #include "math/angles.h"
 
 namespace barehand::synthetic {

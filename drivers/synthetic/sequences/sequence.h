@@ -47,7 +47,7 @@ class Sequence {
   virtual double duration() const = 0;  ///< duration of the sequence [s]
   virtual const std::vector<SceneObject>& objects() const = 0;
   virtual SceneState at(double time) const = 0;
-  /// Class of the grasp (grasps/grasp_types.h) while the object is held; empty if nothing is grasped.
+  /// Class of the grasp (hand/grasps/grasp_types.h) while the object is held; empty if nothing is grasped.
   virtual std::string_view grasp_type() const { return {}; }
 };
 

@@ -134,7 +134,8 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
                                                        std::move(stages.preprocess),
                                                        std::move(stages.track),
                                                        {publish->get(), &measure},
-                                                       std::move(stages.contact)},
+                                                       std::move(stages.contact),
+                                                       std::move(stages.grasp)},
                                         options, clock, log);
 
   // Begin to count when the warm-up is over.

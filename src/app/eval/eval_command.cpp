@@ -8,6 +8,7 @@
 
 #include "app/eval/eval_report.h"
 #include "app/eval/stated_contacts.h"
+#include "app/eval/stated_grasps.h"
 #include "app/eval/stated_poses.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/outputs.h"
@@ -19,7 +20,7 @@ namespace barehand {
 namespace {
 
 struct EvalOptions {
-  std::vector<std::string> truths, results, labels, states, contacts;
+  std::vector<std::string> truths, results, labels, states, contacts, grasps;
   std::string hand, plots, json, fingertips, recording;
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
@@ -28,13 +29,14 @@ struct EvalOptions {
 
 Result<void> check(const EvalOptions& o) {
   if (o.results.empty() && o.states.empty()) return fail("no result is given", "eval", "give --result or --states");
-  if (o.truths.empty() && o.fingertips.empty())
-    return fail("no reference is given", "eval", "give --truth, or --fingertips with --recording and --hand");
+  if (o.truths.empty() && o.fingertips.empty() && o.grasps.empty())
+    return fail("no reference is given", "eval", "give --truth, --grasps, or --fingertips with --recording and --hand");
   if (!o.results.empty() && o.truths.size() > 1 && o.truths.size() != o.results.size())
     return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
                     std::to_string(o.results.size()) + " results",
                 "eval", "give it once for all results, or once for each");
-  if (!o.states.empty() && o.states.size() != o.truths.size())
+  const bool only_grasps = o.truths.empty() && o.contacts.empty() && !o.grasps.empty();
+  if (!o.states.empty() && !only_grasps && o.states.size() != o.truths.size())
     return fail("--states is given " + std::to_string(o.states.size()) + " times for " +
                     std::to_string(o.truths.size()) + " truths",
                 "eval", "give a log of hand states for each --truth");
@@ -42,6 +44,10 @@ Result<void> check(const EvalOptions& o) {
     return fail("--contacts is given " + std::to_string(o.contacts.size()) + " times for " +
                     std::to_string(o.states.size()) + " logs of states",
                 "eval", "give a contact table for each --states");
+  if (!o.grasps.empty() && o.grasps.size() != o.states.size())
+    return fail("--grasps is given " + std::to_string(o.grasps.size()) + " times for " +
+                    std::to_string(o.states.size()) + " logs of states",
+                "eval", "give a table of grasps for each --states");
   if (!o.labels.empty() && o.labels.size() != o.results.size())
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
@@ -58,6 +64,7 @@ Result<void> check_written(const EvalOptions& o) {
   for (const std::string& path : o.results) inputs.push_back({"--result", path});
   for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
+  for (const std::string& path : o.grasps) inputs.push_back({"--grasps", path});
   for (const std::string& path : o.contacts) inputs.push_back({"--contacts", path});
 
   std::vector<Output> outputs{{"--json", o.json}};
@@ -67,7 +74,7 @@ Result<void> check_written(const EvalOptions& o) {
   if (!o.results.empty() && !o.truths.empty())
     for (const char* name : {"runs.png", "segments.png", "time.png"}) plot(name);
   if (!o.fingertips.empty()) plot("fingertips.png");
-  if (!o.states.empty())
+  if (!o.states.empty() && !o.truths.empty())
     for (const char* name : {"reliability.png", "confidence.png"}) plot(name);
   const SourceFiles recording = o.recording.empty() ? SourceFiles() : files_of_source("folder:" + o.recording);
   return check_outputs(recording, inputs, outputs, o.overwrite);
@@ -127,6 +134,21 @@ Result<void> judge_contacts(const EvalOptions& o, EvalReport& report) {
   return {};
 }
 
+Result<void> judge_grasps(const EvalOptions& o, EvalReport& report) {
+  std::vector<GraspSequence> sequences;
+  for (std::size_t i = 0; i < o.grasps.size(); ++i) {
+    auto truth = read_grasp_truth(o.grasps[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    auto stated = read_stated_grasps(o.states[i]);
+    if (!stated) return tl::unexpected(stated.error());
+    sequences.push_back({std::move(*truth), std::move(*stated)});
+  }
+  auto grasps = evaluate_grasps(sequences);
+  if (!grasps) return tl::unexpected(grasps.error());
+  report.grasps = std::move(*grasps);
+  return {};
+}
+
 Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
                                 const HandProfile& profile, EvalReport& report) {
   const auto labels = read_fingertip_labels(o.fingertips);
@@ -147,10 +169,12 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   }
   EvalReport report;
   if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
-  if (!o.states.empty())
+  if (!o.states.empty() && !o.truths.empty())
     if (const auto judged = judge_states(o, report); !judged) return tl::unexpected(judged.error());
   if (!o.contacts.empty())
     if (const auto judged = judge_contacts(o, report); !judged) return tl::unexpected(judged.error());
+  if (!o.grasps.empty())
+    if (const auto judged = judge_grasps(o, report); !judged) return tl::unexpected(judged.error());
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());
@@ -193,6 +217,7 @@ void add_eval_command(CLI::App& app, int& exit_code) {
                    "log of hand states (LCM or MCAP), one for each truth, to check the stated uncertainty");
   eval->add_option("--contacts", o->contacts,
                    "contact table, one for each log of states, to check the stated contacts");
+  eval->add_option("--grasps", o->grasps, "table of grasps, one for each log of states, to check the stated grasps");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");

@@ -102,6 +102,26 @@ Json to_json(const ContactEvaluation& e) {
           {"touching", to_json(e.probabilities, 1)}};
 }
 
+Json to_json(const GraspCounts& c) {
+  return {{"frames", c.frames},
+          {"unknown", c.unknown},
+          {"right", rounded(c.share(c.right))},
+          {"right_kind", rounded(c.share(c.right_kind))},
+          {"confident_wrong", rounded(c.share(c.confident_wrong))}};
+}
+
+Json to_json(const GraspEvaluation& e) {
+  Json json = {{"held", to_json(e.held)},
+               {"held_seconds", rounded(e.held_seconds)},
+               {"changes_per_second", rounded(e.changes_per_second())},
+               {"probability", to_json(e.probabilities, 1)}};
+  for (int k = 0; k < kGraspCount; ++k) {
+    const GraspCounts& counts = e.classes[static_cast<std::size_t>(k)];
+    if (counts.frames > 0) json["classes"][std::string(grasp_name(k))] = to_json(counts);
+  }
+  return json;
+}
+
 }  // namespace
 
 Result<void> write_json_report(const EvalReport& report, const std::string& path) {
@@ -110,6 +130,7 @@ Result<void> write_json_report(const EvalReport& report, const std::string& path
   if (report.fingertips) json["fingertips"] = to_json(*report.fingertips);
   if (report.reliability) json["reliability"] = to_json(*report.reliability);
   if (report.contacts) json["contacts"] = to_json(*report.contacts);
+  if (report.grasps) json["grasps"] = to_json(*report.grasps);
   return json_fields::write_json(path, json);
 }
 

@@ -129,6 +129,35 @@ void print_contacts(std::string& out, const ContactEvaluation& e) {
   print_bins(out, "touching [%]", e.probabilities, 100);
 }
 
+void print_grasp_row(std::string& out, const std::string& name, const GraspCounts& c, const std::string& rest) {
+  out +=
+      formatted("  %-22s %9zu %9.1f %9.1f %9.1f %9.1f %s\n", name.c_str(), c.frames, 100 * c.share(c.right),
+                100 * c.share(c.right_kind), 100 * c.share(c.confident_wrong), 100 * c.share(c.unknown), rest.c_str());
+}
+
+/// Which other class was stated most often.
+std::string mistaken_for(const GraspCounts& counts, int truth) {
+  int most = -1;
+  for (int k = 0; k < kGraspCount; ++k)
+    if (k != truth && counts.stated[k] > (most < 0 ? 0 : counts.stated[most])) most = k;
+  return most < 0
+             ? ""
+             : formatted("%s %.1f", std::string(grasp_name(most)).c_str(), 100 * counts.share(counts.stated[most]));
+}
+
+void print_grasps(std::string& out, const GraspEvaluation& e) {
+  out += formatted("grasps, %.0f s held, %.2f changes of the stated class a second\n", e.held_seconds,
+                   e.changes_per_second());
+  out += formatted("  %-22s %9s %9s %9s %9s %9s %s\n", "[%]", "frames", "class", "kind", "sure+wrong", "unknown",
+                   "most often taken for");
+  print_grasp_row(out, "held", e.held, "");
+  for (int k = 0; k < kGraspCount; ++k) {
+    const GraspCounts& counts = e.classes[k];
+    if (counts.frames > 0) print_grasp_row(out, std::string(grasp_name(k)), counts, mistaken_for(counts, k));
+  }
+  print_bins(out, "class [%]", e.probabilities, 100);
+}
+
 }  // namespace
 
 std::string text_report(const EvalReport& report) {
@@ -137,6 +166,7 @@ std::string text_report(const EvalReport& report) {
   if (report.fingertips) print_fingertips(out, *report.fingertips);
   if (report.reliability) print_reliability(out, *report.reliability);
   if (report.contacts) print_contacts(out, *report.contacts);
+  if (report.grasps) print_grasps(out, *report.grasps);
   return out;
 }
 

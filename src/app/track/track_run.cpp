@@ -353,8 +353,12 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 
 TrackOutcome TrackRun::run() {
   TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_);
-  PipelineStages stages{
-      *input_.source, std::move(computing.preprocess), std::move(computing.track), {}, std::move(computing.contact)};
+  PipelineStages stages{*input_.source,
+                        std::move(computing.preprocess),
+                        std::move(computing.track),
+                        {},
+                        std::move(computing.contact),
+                        std::move(computing.grasp)};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
   PipelineOptions options;
   options.threaded = !options_.single_threaded;

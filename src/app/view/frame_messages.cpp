@@ -28,6 +28,7 @@ struct HandParts {
   std::optional<glove_state_t> glove;
   std::optional<hand_joints_t> joints;
   std::optional<contact_state_t> contact;
+  std::optional<grasp_state_t> grasp;
 };
 
 void add(ViewFrame::Content& content, const char* channel, const ReceivedMessage& message) {
@@ -43,6 +44,7 @@ MessageKind kind_of(std::int64_t hash) {
   if (hash == glove_state_t::getHash()) return MessageKind::glove_state;
   if (hash == hand_joints_t::getHash()) return MessageKind::hand_joints;
   if (hash == contact_state_t::getHash()) return MessageKind::contact_state;
+  if (hash == grasp_state_t::getHash()) return MessageKind::grasp_state;
   if (hash == object_state_t::getHash()) return MessageKind::object_state;
   if (hash == health_t::getHash()) return MessageKind::health;
   return carries_frames(hash) ? MessageKind::frame : MessageKind::other;
@@ -95,6 +97,11 @@ ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, Show
       if (!contact) continue;
       add(content, "CONTACT_STATE", message);
       parts[contact->hand_id].contact = *contact;
+    } else if (kind == MessageKind::grasp_state) {
+      const auto grasp = decode_message<grasp_state_t>(message.bytes);
+      if (!grasp) continue;
+      add(content, "GRASP_STATE", message);
+      parts[grasp->hand_id].grasp = *grasp;
     } else if (kind == MessageKind::object_state) {
       const auto object = decode_message<object_state_t>(message.bytes);
       if (!object) continue;
@@ -107,7 +114,7 @@ ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, Show
 
   for (const auto& [id, hand] : parts)
     if (hand.state && hand.glove && hand.joints)
-      content.hands.push_back({*hand.state, *hand.glove, *hand.joints, hand.contact});
+      content.hands.push_back({*hand.state, *hand.glove, *hand.joints, hand.contact, hand.grasp});
 
   // Without states, the time and the number of the frame are those of the image.
   if (content.frame && content.utime == 0) {

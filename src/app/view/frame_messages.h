@@ -17,7 +17,17 @@ namespace barehand {
 // The LCM messages of one frame, combined for the live page.
 
 /// The kinds of LCM messages that the page can show.
-enum class MessageKind { hand_state, glove_state, hand_joints, contact_state, object_state, health, frame, other };
+enum class MessageKind {
+  hand_state,
+  glove_state,
+  hand_joints,
+  contact_state,
+  grasp_state,
+  object_state,
+  health,
+  frame,
+  other
+};
 /// The kind of a message, by the fingerprint of its type.
 MessageKind kind_of(std::int64_t hash);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/format.h"
+#include "hand/grasps/grasp_types.h"
 #include "hand/segments.h"
 #include "hand/status_name.h"
 #include "io/ros/ros_frame.h"
@@ -178,6 +179,17 @@ MarkerArray markers(const HandState& hand) {
   return drawing.take();
 }
 
+/// Adds what is known about the grasp.
+void add_grasp(const grasp_state_t& grasp, std::vector<KeyValue>& values) {
+  if (grasp.grasp == grasp_state_t::UNKNOWN) return;
+  values.push_back({"grasp", std::string(grasp_name(grasp.grasp))});
+  values.push_back(value("grasp probability", grasp.probability));
+  values.push_back({"grasp kind", std::string(kind_name(grasp.kind))});
+  values.push_back(value("grasp kind probability", grasp.kind_probability));
+  values.push_back(value("aperture [m]", grasp.aperture));
+  values.push_back(value("closure", grasp.closure));
+}
+
 DiagnosticStatus diagnostic(const HandState& hand) {
   const auto status = static_cast<TrackStatus>(hand.state.status);
   DiagnosticStatus message;
@@ -193,6 +205,7 @@ DiagnosticStatus diagnostic(const HandState& hand) {
   if (!hand.state.has_pose) return message;
   message.values.push_back(value("score [m]", hand.state.score));
   message.values.push_back(value("joint_gap [m]", hand.state.joint_gap));
+  if (hand.grasp) add_grasp(*hand.grasp, message.values);
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const segment_state_t& segment = hand.state.segments[s];
     const std::string name(kSegmentNames[s]);
@@ -208,6 +221,7 @@ std::vector<LcmMessage> lcm_messages(const HandState& hand) {
                                       lcm_message(header, "GLOVE_STATE", hand.glove),
                                       lcm_message(header, "HAND_JOINTS", hand.joints)};
   if (hand.contact) messages.push_back(lcm_message(header, "CONTACT_STATE", *hand.contact));
+  if (hand.grasp) messages.push_back(lcm_message(header, "GRASP_STATE", *hand.grasp));
   return messages;
 }
 

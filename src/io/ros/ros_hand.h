@@ -5,6 +5,7 @@
 
 #include "barehand/contact_state_t.hpp"
 #include "barehand/glove_state_t.hpp"
+#include "barehand/grasp_state_t.hpp"
 #include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "barehand/health_t.hpp"
@@ -21,6 +22,7 @@ struct HandState {
   glove_state_t glove;
   hand_joints_t joints;
   std::optional<contact_state_t> contact = {};  ///< none: not known
+  std::optional<grasp_state_t> grasp = {};      ///< none: not known
 };
 
 /// "right" or "left": the first part of the names of a hand's joints and frames, "right_palm".
@@ -43,10 +45,10 @@ MarkerArray markers(const HandState& hand);
 /// A sphere at each place where a segment touches something: orange on an object, blue on a hand, translucent if
 /// inferred. A marker before them deletes what was drawn before. `hand.contact` must be known.
 MarkerArray contact_markers(const HandState& hand);
-/// The status of the hand and the confidence of each segment.
+/// The status of the hand, its grasp if that is known, and the confidence of each segment.
 DiagnosticStatus diagnostic(const HandState& hand);
-/// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE, HAND_JOINTS and, if it is known,
-/// CONTACT_STATE.
+/// The messages of the hand as they are on the LCM network: HAND_STATE, GLOVE_STATE, HAND_JOINTS and, if they are
+/// known, CONTACT_STATE and GRASP_STATE.
 std::vector<LcmMessage> lcm_messages(const HandState& hand);
 /// The message of an object as it is on the LCM network: OBJECT_STATE.
 LcmMessage lcm_message(const object_state_t& object);

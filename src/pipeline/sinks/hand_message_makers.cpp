@@ -1,6 +1,7 @@
 #include "pipeline/sinks/hand_message_makers.h"
 
 #include "stages/publish/contact_messages.h"
+#include "stages/publish/grasp_messages.h"
 
 namespace barehand {
 
@@ -14,7 +15,10 @@ FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   messages_.resize(estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) messages_[k] = makers_[k].process(*estimates[k]);
 
-  // Add what they touch.
+  // Add how they grasp and what they touch.
+  if (tracked.grasps)
+    for (std::size_t k = 0; k < estimates.size(); ++k)
+      messages_[k].grasp = grasp_message(*estimates[k], (*tracked.grasps)[k]);
   objects_.clear();
   if (const FrameContacts* contacts = tracked.contacts.get()) {
     for (std::size_t k = 0; k < estimates.size(); ++k)

@@ -30,7 +30,7 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   scene.T_world_camera = input_.T_world_camera;
   const FrameMessages messages = makers_.process(tracked);
   for (const HandMessages& hand : messages.hands)
-    scene.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact});
+    scene.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact, hand.grasp});
   scene.objects.assign(messages.objects.begin(), messages.objects.end());
   if (input_.live && clock_.steady_us() - health_us_ >= kHealthPeriodUs) {
     health_us_ = clock_.steady_us();

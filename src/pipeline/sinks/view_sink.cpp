@@ -77,7 +77,8 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const FrameMessag
     content.messages.push_back(encoded("GLOVE_STATE", hand.glove));
     content.messages.push_back(encoded("HAND_JOINTS", hand.joints));
     if (hand.contact) content.messages.push_back(encoded("CONTACT_STATE", *hand.contact));
-    content.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact});
+    if (hand.grasp) content.messages.push_back(encoded("GRASP_STATE", *hand.grasp));
+    content.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact, hand.grasp});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
   for (const object_state_t& object : messages.objects) content.messages.push_back(encoded("OBJECT_STATE", object));

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/frame_memory.h"
+#include "hand/grasps/grasp_types.h"
+
+namespace barehand {
+
+// How the hands of one frame grasp.
+
+/// Probabilities of no grasp, at 0, and of the class k of grasp_types(), at k + 1.
+inline constexpr int kGraspCount = 1 + kGraspTypeCount;
+using GraspProbabilities = std::array<double, kGraspCount>;
+
+/// How one hand grasps, as its pose shows it.
+struct HandGrasp {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  bool known = false;  ///< the hand is tracked; otherwise all that follows is meaningless
+  GraspProbabilities probabilities{};
+  int grasp = 0;               ///< 0: none, otherwise 1 + the index in grasp_types()
+  std::int64_t since = 0;      ///< time of the frame since which `grasp` is what it is [us since the epoch]
+  double aperture = kUnknown;  ///< from the thumb's tip to the middle of the tips of virtual finger 2 [m]
+  double closure = kUnknown;   ///< mean flexion of the fingers over their range: 0 flat, 1 fist
+};
+
+/// How the hands of one frame grasp, in the order of the frame's estimates. Immutable once shared.
+using FrameGrasps = FrameVector<HandGrasp>;
+using FrameGraspsPtr = std::shared_ptr<const FrameGrasps>;
+
+}  // namespace barehand

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hand/grasps/frame_grasps.h"
+
+namespace barehand {
+
+/// The grasp of one hand over time: probabilities averaged over the last moments in the log domain, and a class that
+/// changes with hysteresis. Successive poses of a tracker err alike, so that frames are averaged, not multiplied as
+/// independent evidence: a grasp that lasts does not become surer than its frames are.
+class GraspFilter {
+ public:
+  /// `memory`: time constant of the average [s].
+  explicit GraspFilter(double memory) : memory_(memory) {}
+
+  /// Forgets everything: the next frame counts alone, and the class is none until it is clearly another.
+  void reset();
+  /// Adds what a frame says, `seconds` after the last one.
+  const GraspProbabilities& add(const std::array<double, kGraspCount>& log_probabilities, double seconds);
+  /// 0 unless any grasp is more probable than none; otherwise the most probable class; both with hysteresis.
+  int grasp() const { return grasp_; }
+
+ private:
+  double memory_;
+  bool empty_ = true;
+  std::array<double, kGraspCount> mean_{};  // of the logarithms
+  GraspProbabilities probabilities_{};
+  int grasp_ = 0;
+};
+
+}  // namespace barehand
