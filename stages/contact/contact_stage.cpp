@@ -4,38 +4,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "hand/skin.h"
-
 namespace barehand {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kSkinPoints = 80;            // per segment
-constexpr double kSkinChange = 0.0005;     // change of a bone or a section that is worth a new skin [m]
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
-constexpr float kWrist = 0.02f;            // skin of the palm nearer to the wrist than this lies on the sleeve [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-constexpr float kOwnSkin = 0.004f;         // points this near to skin that faces the same way are the hand's own [m]
+// Fitted to simulated grasps. The error of the distance is smaller towards a touch, since skin does not enter objects;
+// a segment that is hidden so near to an object mostly touches it; and some objects are too thin or too dark to be
+// seen.
+constexpr double kNearer = 1.6, kHidden[2] = {0.7, 0.7}, kOverlooked = 0.03;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
-
-/// Whether two profiles have the same skin, but for fractions of a millimetre.
-bool alike(const HandProfile& a, const HandProfile& b) {
-  if (a.handedness != b.handedness || a.scanned_skin != b.scanned_skin) return false;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentProfile &x = a.segments[s], &y = b.segments[s];
-    double change = std::max((x.distal - y.distal).norm(), (x.T_hand_segment.t - y.T_hand_segment.t).norm());
-    for (int end = 0; end < 2; ++end)
-      change = std::max({change, std::abs(x.half_width[end] - y.half_width[end]),
-                         std::abs(x.half_thickness[end] - y.half_thickness[end]),
-                         std::abs(x.flesh_offset_x[end] - y.flesh_offset_x[end]),
-                         std::abs(x.flesh_offset_y[end] - y.flesh_offset_y[end])});
-    if (change > kSkinChange) return false;
-  }
-  return true;
-}
 
 /// Variance of a point of a segment along a direction, by the covariance of the segment's pose [m^2].
 double variance(const SegmentState& segment, const Vector3d& point, const Vector3d& direction) {
@@ -65,15 +47,23 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   hands_.resize(estimates.size());
 
   // Collect the surfaces around the tracked hands, and tell the objects apart.
+  space_.see(observations);
   points_.clear();
   open_.clear();
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     if (!tracked(*estimates[k])) continue;
-    prepare(hands_[k], *estimates[k]);
-    if (observations[k]->hand_present) cells_.collect(observations, estimates, k, points_, open_);
+    hands_[k].pose(*estimates[k]);
+    if (observations[k]->hand_present) {
+      const auto on_skin = [&](const Vector3f& p) { return hands_[k].contains(p); };
+      cells_.collect(observations, estimates, k, on_skin, points_, open_);
+    }
   }
-  drop_skin(estimates);
-  objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, open_, points_, out->objects);
+  std::erase_if(points_, [&](const SurfacePoint& point) {
+    for (std::size_t k = 0; k < estimates.size(); ++k)
+      if (tracked(*estimates[k]) && hands_[k].owns(point)) return true;
+    return false;
+  });
+  objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, space_, open_, points_, out->objects);
 
   // Measure the distances of each hand's segments.
   for (std::size_t k = 0; k < estimates.size(); ++k) {
@@ -84,72 +74,23 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
   }
+  objects_.note_touches(out->hands);
   return out;
 }
 
-void ContactStage::prepare(Hand& hand, const HandEstimate& estimate) {
-  // Make the skin if this is another hand than before.
-  if (!hand.profile || (hand.profile != estimate.profile && !alike(*hand.profile, *estimate.profile))) {
-    const HandProfile& profile = *estimate.profile;
-    hand.surface = profile.scanned_skin ? surface_points(*profile.scanned_skin, profile, kSkinPoints)
-                                        : make_cylinder_surface(profile, kSkinPoints);
-    hand.rods.emplace(*estimate.profile);
-    hand.profile = estimate.profile;
-  }
-
-  // Pose it.
-  hand.pose = pose_of(estimate.segments);
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentSurface& surface = hand.surface[s];
-    const Eigen::Matrix3f R = hand.pose[s].R.cast<float>();
-    const Vector3f t = hand.pose[s].t.cast<float>();
-    PosedSkin& skin = hand.skin[s];
-
-    // Move its points, and enclose them in a sphere.
-    skin.points.clear();
-    skin.normals.clear();
-    skin.centre.setZero();
-    for (std::size_t i = 0; i < surface.size(); ++i) {
-      if (s == kPalm && surface.z[i] > -kWrist) continue;
-      skin.points.push_back(R * Vector3f(surface.x[i], surface.y[i], surface.z[i]) + t);
-      skin.normals.push_back(R * Vector3f(surface.nx[i], surface.ny[i], surface.nz[i]));
-      skin.centre += skin.points.back();
-    }
-    skin.centre /= static_cast<float>(skin.points.size());
-    skin.radius = 0;
-    for (const Vector3f& p : skin.points) skin.radius = std::max(skin.radius, (p - skin.centre).norm());
-  }
-}
-
-/// Removes points of the hands' own skin that preprocessing took for an object's: near to the skin, and facing the same
-/// way. What touches the skin faces it.
-void ContactStage::drop_skin(const HandEstimates& estimates) {
-  std::erase_if(points_, [&](const SurfacePoint& point) {
-    for (std::size_t k = 0; k < estimates.size(); ++k) {
-      if (!tracked(*estimates[k])) continue;
-      for (const PosedSkin& skin : hands_[k].skin) {
-        const float reach = skin.radius + kOwnSkin;
-        if ((point.p - skin.centre).squaredNorm() > reach * reach) continue;
-        for (std::size_t i = 0; i < skin.points.size(); ++i)
-          if ((point.p - skin.points[i]).squaredNorm() < kOwnSkin * kOwnSkin && point.n.dot(skin.normals[i]) > 0.5f)
-            return true;
-      }
-    }
-    return false;
-  });
-}
-
-void ContactStage::touch_objects(const Hand& hand, const HandEstimate& estimate, double noise,
+void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise,
                                  SegmentContacts& contacts) {
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentState& segment = estimate.segments[s];
     Contact& contact = contacts[s];
-    const auto nearest = distance_.measure(hand.skin[s], points_);
+    const auto nearest = distance_.measure(hand.skin(s), points_, [this](std::int32_t object, const Vector3f& p) {
+      return space_.empty(p) || objects_.seen_empty(object, p);
+    });
     if (!nearest) {
       // Nothing is near what is seen; whether something is near what is not seen is unknown.
       if (segment.seen && segment.visible >= kVisible) {
         contact.state = ContactState::none;
-        contact.probability = 0;
+        contact.probability = kOverlooked;
       }
       continue;
     }
@@ -160,19 +101,21 @@ void ContactStage::touch_objects(const Hand& hand, const HandEstimate& estimate,
                                   kSkinDeviation * kSkinDeviation + nearest->deviation * nearest->deviation);
     contact.inferred = !segment.seen;
     contact.partner = nearest->object;
-    judge(contact);
 
     // Where little of the segment is seen, there may be something nearer than what was found.
-    if (contact.state != ContactState::touching && (!segment.seen || segment.visible < kVisible)) contact = Contact();
+    const double below = (params_.touch_distance - contact.distance) / contact.deviation;
+    const bool visible = segment.seen && segment.visible >= kVisible;
+    judge(contact, visible ? (below > 0 ? kNearer * below : below) : kHidden[0] + kHidden[1] * below);
+    if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
 
-void ContactStage::touch_itself(const Hand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const {
+void ContactStage::touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const {
   all_apart(estimate, contacts);
-  const auto& rods = hand.rods->rods();
+  const auto& rods = hand.rods().rods();
   const SegmentState& palm = estimate.segments[kPalm];
-  for (const auto& [a, b] : hand.rods->apart()) {
-    const RodDistance measured = HandRods::distance(rods[a], hand.pose, rods[b], hand.pose);
+  for (const auto& [a, b] : hand.rods().apart()) {
+    const RodDistance measured = HandRods::distance(rods[a], hand.segments(), rods[b], hand.segments());
     if (measured.distance > params_.near_distance) continue;
 
     // Both segments hang on the palm, whose own error moves them together.
@@ -196,10 +139,10 @@ void ContactStage::touch_itself(const Hand& hand, const HandEstimate& estimate, 
 void ContactStage::touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates,
                               SegmentContacts& contacts) const {
   all_apart(*estimates[own], contacts);
-  const Hand &hand = hands_[own], &partner = hands_[other];
-  for (const HandRods::Rod& a : hand.rods->rods())
-    for (const HandRods::Rod& b : partner.rods->rods()) {
-      const RodDistance measured = HandRods::distance(a, hand.pose, b, partner.pose);
+  const PosedHand &hand = hands_[own], &partner = hands_[other];
+  for (const HandRods::Rod& a : hand.rods().rods())
+    for (const HandRods::Rod& b : partner.rods().rods()) {
+      const RodDistance measured = HandRods::distance(a, hand.segments(), b, partner.segments());
       if (measured.distance > params_.near_distance) continue;
 
       // The poses of two hands err independently.
@@ -222,15 +165,14 @@ Contact ContactStage::touch_of_skins(double distance, double variance, const Seg
   contact.distance = distance;
   contact.deviation = std::sqrt(variance + 2 * kSkinDeviation * kSkinDeviation);
   contact.inferred = !first.seen || !second.seen;
-  judge(contact);
+  judge(contact, (params_.touch_distance - distance) / contact.deviation);
   return contact;
 }
 
-/// Sets the probability of a touch, and the state, from the distance and its deviation.
-void ContactStage::judge(Contact& contact) const {
-  contact.probability =
-      0.5 * std::erfc((contact.distance - params_.touch_distance) / (contact.deviation * std::numbers::sqrt2));
-  contact.state = contact.probability >= 0.5                 ? ContactState::touching
+/// Sets the probability of a touch, and the state, from the distance in deviations below the touch distance.
+void ContactStage::judge(Contact& contact, double deviations) const {
+  contact.probability = 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
+  contact.state = contact.distance <= params_.touch_distance ? ContactState::touching
                   : contact.distance < params_.near_distance ? ContactState::near
                                                              : ContactState::none;
 }

@@ -1,18 +1,15 @@
 #pragma once
 
-#include <array>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/error.h"
 #include "hand/contacts.h"
 #include "hand/hand_pose.h"
-#include "hand/surface.h"
 #include "observe/observation.h"
 #include "stages/contact/contact_params.h"
-#include "stages/contact/hand_rods.h"
 #include "stages/contact/object_tracker.h"
+#include "stages/contact/posed_hand.h"
+#include "stages/contact/seen_space.h"
 #include "stages/contact/surface_cells.h"
 #include "stages/contact/surface_distance.h"
 
@@ -27,29 +24,18 @@ class ContactStage {
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
 
  private:
-  /// The skin of one hand: the scanned one, or tapered cylinders, which take no time to make. Made anew if the profile
-  /// has changed by more than fractions of a millimetre.
-  struct Hand {
-    std::shared_ptr<const HandProfile> profile;  // of the skin
-    HandSurface surface;                         // in the frames of the segments
-    std::optional<HandRods> rods;
-    std::array<PosedSkin, kSegmentCount> skin;
-    HandPose pose;
-  };
-
-  void prepare(Hand& hand, const HandEstimate& estimate);
-  void touch_objects(const Hand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
-  void touch_itself(const Hand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
+  void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
+  void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
-  void judge(Contact& contact) const;
-  void drop_skin(const HandEstimates& estimates);
+  void judge(Contact& contact, double deviations) const;
 
   ContactParams params_;
   SurfaceCells cells_;
   ObjectTracker objects_;
+  SeenSpace space_;
   SurfaceDistance distance_;
-  std::vector<Hand> hands_;  // one per configured hand
+  std::vector<PosedHand> hands_;  // one per configured hand
   std::vector<SurfacePoint> points_;
   std::vector<bool> open_;
 };

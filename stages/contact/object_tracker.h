@@ -1,47 +1,48 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "hand/contacts.h"
-#include "hand/hand_pose.h"
-#include "stages/contact/surface_cells.h"
+#include "stages/contact/object_track.h"
+#include "stages/contact/surface_links.h"
 
 namespace barehand {
 
-/// Joins connected surfaces to objects and keeps their ids from frame to frame. A hand covers parts of what it holds,
-/// so surfaces that are a finger's width apart are one object. An object is held while it moves with a palm; what
-/// continues out of view, as a table does, is never held.
+/// Tells objects apart, keeps their ids from frame to frame, and fuses what is seen of each into a model of it.
+/// Surfaces that lie on the model of an object belong to it; others are one object if they are linked. An object is
+/// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {
  public:
-  /// Removes points of specks, and sets SurfacePoint::object of the others. `open`: as SurfaceCells::collect() fills
-  /// it.
-  void process(std::int64_t utime, const HandEstimates& estimates, const std::vector<bool>& open,
-               std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects);
+  /// Removes points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models that
+  /// are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
+  void process(std::int64_t utime, const HandEstimates& estimates, const SeenSpace& space,
+               const std::vector<bool>& open, std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects);
+  /// Takes note of what the hands touch in this frame: it probably moves with them.
+  void note_touches(std::span<const HandContacts> hands);
+  /// Whether a place (camera frame [m]) was seen to be empty of this object when nothing covered it.
+  bool seen_empty(std::int32_t object, const Eigen::Vector3f& p) const;
 
  private:
-  /// All surfaces of one object in this frame.
+  /// All surfaces of one object in this frame that are linked and on no model.
   struct Thing {
     int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero(), lower, upper;  // of the points
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of the points
     bool open = false;
     int track = -1;  // index into tracks_; -1: a speck
     Eigen::Vector3d centre() const { return sum / count; }
   };
-  struct Track {
-    SeenObject state;
-    std::int64_t seen = 0;          // time of the last frame with a part of it [us]
-    Eigen::Vector3d in_palm, palm;  // place relative to the palm, and place of the palm, when both were first compared
-    std::int32_t companion = -1;    // hand_id of that palm; -1: none
-  };
 
-  void link(const std::vector<bool>& open, const std::vector<SurfacePoint>& points);
-  void match(std::int64_t utime);
-  void update(Track& track, const Thing& thing, std::int64_t utime, const HandEstimates& estimates);
+  void match_models(std::int64_t utime, const std::vector<SurfacePoint>& points);
+  void match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points);
+  void merge(std::int64_t utime);
+  void give_points(std::vector<SurfacePoint>& points);
 
-  std::vector<std::int32_t> parent_;  // of each component, towards the first one of the same object
-  std::vector<std::pair<std::uint64_t, std::int32_t>> voxels_;  // occupied voxels with a component in them, by key
-  std::vector<Thing> things_;  // by first component; those of the other components are empty
-  std::vector<Track> tracks_;
+  SurfaceLinks links_;
+  std::vector<const SurfacePoint*> all_;   // points of the frame
+  std::vector<int> count_, near_, owner_;  // of each component: points; points on each model; the model's track or -1
+  std::vector<Thing> things_;              // by first component; those of the other components are empty
+  std::vector<ObjectTrack> tracks_;
+  std::int64_t last_ = 0;  // time of the last frame [us]
   std::int32_t next_id_ = 1;
 };
 

@@ -37,9 +37,10 @@ bool of_other_hand(const HandObservations& observations, std::size_t own, int u,
 }  // namespace
 
 void SurfaceCells::collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
-                           std::vector<SurfacePoint>& points, std::vector<bool>& open) {
+                           const std::function<bool(const Vector3f&)>& on_skin, std::vector<SurfacePoint>& points,
+                           std::vector<bool>& open) {
   const auto first = static_cast<std::int32_t>(open.size());
-  fill_cells(observations, *estimates[k], k);
+  fill_cells(observations, *estimates[k], k, on_skin);
   fit_planes();
   grow(open);
   for (std::size_t i = 0; i < component_.size(); ++i) {
@@ -52,7 +53,8 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
 }
 
 /// Takes over the depth of every cell that may be an object's, and marks those that are labelled so.
-void SurfaceCells::fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k) {
+void SurfaceCells::fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
+                              const std::function<bool(const Vector3f&)>& on_skin) {
   const HandObservation& seen = *observations[k];
   const SE3 T_palm_camera = estimate.segments[kPalm].T_camera_segment.inverse();
   const Vector3f middle = estimate.segments[segment_of(2, 0)].T_camera_segment.t.cast<float>();
@@ -66,16 +68,19 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
     for (int c = 0; c < place_.width(); ++c) {
       const int u = c * step_, v = r * step_;
       const PixelLabel label = seen.label.at(u, v);
-      if (label != PixelLabel::object && label != PixelLabel::background) continue;
+      if (label == PixelLabel::unknown) continue;
       const Vector3f p = seen.point(u, v);
-      if (p.z() <= 0 || on_forearm(T_palm_camera, p.cast<double>())) continue;
+      if (p.z() <= 0) continue;
+      const bool foreign = label == PixelLabel::hand && !on_skin(p);
+      if (label == PixelLabel::hand && !foreign) continue;
+      if (on_forearm(T_palm_camera, p.cast<double>())) continue;
       if (of_other_hand(observations, k, u + seen.u0, v + seen.v0)) continue;
       if ((p - middle).squaredNorm() > kSurroundings * kSurroundings) {
         beyond_.at(c, r) = std::abs(p.z() - middle.z()) < kSurroundings;
         continue;
       }
       place_.at(c, r) = p;
-      if (label == PixelLabel::object) component_.at(c, r) = kSeed;
+      if (label == PixelLabel::object || foreign) component_.at(c, r) = kSeed;
     }
 }
 

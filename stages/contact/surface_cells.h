@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,15 @@ class SurfaceCells {
  public:
   /// Appends the points of observation `k`, whose estimate must have a pose. Components are numbered from the size of
   /// `open` on; for each one `open` gets whether it continues out of the hand's region, as a table or a body does.
+  /// `on_skin`: whether a place is on the hand's skin; what preprocessing took for the hand and is not on its skin, is
+  /// an object of the colour of skin.
   void collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
-               std::vector<SurfacePoint>& points, std::vector<bool>& open);
+               const std::function<bool(const Eigen::Vector3f&)>& on_skin, std::vector<SurfacePoint>& points,
+               std::vector<bool>& open);
 
  private:
-  void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k);
+  void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
+                  const std::function<bool(const Eigen::Vector3f&)>& on_skin);
   void fit_planes();
   void grow(std::vector<bool>& open);
   bool fit(int c, int r, SurfacePoint& point) const;

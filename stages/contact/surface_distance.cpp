@@ -1,5 +1,6 @@
 #include "stages/contact/surface_distance.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/fast_math.h"
@@ -7,57 +8,127 @@
 namespace barehand {
 namespace {
 
+using Eigen::Vector3f;
+
 constexpr float kBandwidth = 0.006f;  // h: distance over which planes are averaged [m]
 // The surface is known where a point of it is no farther aside than this. Skin that is farther inside than kBehind is
 // behind a surface whose far side is unknown [m].
 constexpr float kAside = 0.004f, kBehind = 0.006f;
-constexpr float kEnd = 0.2f;  // how soon a surface ends where it is not seen: 0 never, 1 at once
+constexpr float kInside = 0.001f;  // how far skin enters a surface at most [m]
+constexpr float kStep = 0.002f;    // along an unseen surface, from one place to the next [m]
+constexpr float kDepth = 0.03f;    // how far an object may go on along the ray behind its edge [m]
+// The bend of a surface where nothing is known of it [1/m], the deviation of a single normal over that of bends,
+// squared [m^2], the most that is believed [1/m], and the distance over which it is measured [m].
+constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kAround = 0.012f;
+constexpr float kSpread = 0.25f;  // error of an unseen surface by its distance from what is seen
 
 }  // namespace
 
-std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, std::span<const SurfacePoint> surface) {
+std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, std::span<const SurfacePoint> surface,
+                                                       const SeenEmpty& empty) {
   // Collect the points near the segment.
   close_.clear();
+  x_.clear(), y_.clear(), z_.clear();
   const float reach = skin.radius + kReach;
   for (const SurfacePoint& point : surface)
-    if ((point.p - skin.centre).squaredNorm() < reach * reach) close_.push_back(&point);
+    if ((point.p - skin.centre).squaredNorm() < reach * reach) {
+      close_.push_back(point);
+      x_.push_back(point.p.x()), y_.push_back(point.p.y()), z_.push_back(point.p.z());
+    }
   if (close_.empty()) return std::nullopt;
   distance_sq_.resize(close_.size());
 
+  // Find the nearest place.
   std::optional<NearestSurface> nearest;
-  for (const Eigen::Vector3f& x : skin.points) {
-    // Find the nearest known point.
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < close_.size(); ++i) {
-      distance_sq_[i] = (x - close_[i]->p).squaredNorm();
-      if (distance_sq_[i] < distance_sq_[best]) best = i;
+  for (const Vector3f& x : skin.points) {
+    Plane plane;
+    if (!find_plane(x, plane)) continue;
+    const float height = plane.height, aside_sq = plane.apart * plane.apart - height * height;
+    if (aside_sq >= kAside * kAside) {
+      if (nearest && std::max(height, 0.f) >= nearest->distance) continue;
+      const NearestSurface unseen = extend(x, plane, empty);
+      if (!nearest || unseen.distance < nearest->distance) nearest = unseen;
+      continue;
     }
-    const float least_sq = distance_sq_[best], least = std::sqrt(least_sq);
-    if (least > kReach) continue;
 
-    // Average the planes around it.
-    float weights = 0, f = 0;
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < close_.size(); ++i) {
-      const float w = fast_exp((least_sq - distance_sq_[i]) / (kBandwidth * kBandwidth));
-      if (w < 1e-3f) continue;
-      weights += w;
-      f += w * close_[i]->n.dot(x - close_[i]->p);
-      normal += w * close_[i]->n;
-    }
-    f /= weights;
-    if (normal.squaredNorm() < 1e-6f) continue;
-    const bool known = least_sq - f * f < kAside * kAside;
-    if (known && f < -kBehind) continue;
-
-    // The surface goes on as that plane, as far as the skin leaves room for it, or ends.
-    const float plane = known ? f : std::max(f, 0.f), open = std::max(0.f, least - std::abs(plane));
-    const float distance = plane + kEnd * open;
-    if (nearest && distance >= nearest->distance) continue;
-    normal.normalize();
-    nearest = NearestSurface{distance, kEnd * open, x - f * normal, normal, close_[best]->object};
+    // The surface is seen right here. Skin that seems to be inside touches it, or is behind something thin.
+    if (height < -kBehind) continue;
+    const float distance = std::max(height, -kInside);
+    if (!nearest || distance < nearest->distance)
+      nearest = {distance, distance - height, x - height * plane.normal, plane.normal, plane.nearest->object};
   }
   return nearest;
+}
+
+/// Finds the known point nearest to x, and averages the planes around it. False: there is none within kReach.
+bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
+  const float px = x.x(), py = x.y(), pz = x.z();
+  for (std::size_t i = 0; i < close_.size(); ++i) {
+    const float dx = px - x_[i], dy = py - y_[i], dz = pz - z_[i];
+    distance_sq_[i] = dx * dx + dy * dy + dz * dz;
+  }
+  const auto best =
+      static_cast<std::size_t>(std::min_element(distance_sq_.begin(), distance_sq_.end()) - distance_sq_.begin());
+  const float least_sq = distance_sq_[best];
+  if (least_sq > kReach * kReach) return false;
+
+  float weights = 0, f = 0;
+  Vector3f normal = Vector3f::Zero();
+  for (std::size_t i = 0; i < close_.size(); ++i) {
+    if (distance_sq_[i] > least_sq + 7 * kBandwidth * kBandwidth) continue;  // it has no weight
+    const float w = fast_exp((least_sq - distance_sq_[i]) / (kBandwidth * kBandwidth));
+    weights += w;
+    f += w * close_[i].n.dot(x - close_[i].p);
+    normal += w * close_[i].n;
+  }
+  if (normal.squaredNorm() < 1e-6f) return false;
+  plane = {&close_[best], std::sqrt(least_sq), f / weights, normal.normalized()};
+  return true;
+}
+
+/// The distance of x from a surface that is seen some way aside only.
+NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, const SeenEmpty& empty) const {
+  // Walk towards the foot of x until a place is seen to be empty.
+  const Vector3f& p = plane.nearest->p;
+  float least = std::max(plane.height, 0.f), most = least;
+  const Vector3f foot = x - least * plane.normal, way = foot - p;
+  const float length = way.norm();
+  const int steps = 1 + static_cast<int>(length / kStep);
+  Vector3f end = p;
+  for (int k = 1; k <= steps; ++k) {
+    const Vector3f at = p + way * (static_cast<float>(k) / static_cast<float>(steps));
+    if (!empty(plane.nearest->object, at)) {
+      end = at;
+      continue;
+    }
+
+    // The object ends here, or goes on along the ray behind this place.
+    const Vector3f ray = end.normalized();
+    const float behind = std::clamp((x - end).dot(ray), 0.f, kDepth);
+    most = (x - end).norm();
+    least = std::min(most, (x - end - behind * ray).norm());
+    break;
+  }
+
+  // It bends away on the way, but the last point that is known is part of it.
+  const float unseen = (end - p).norm(),
+              sag = 0.5f * bend(*plane.nearest, way / std::max(length, 1e-6f)) * unseen * unseen;
+  const float distance = std::min(0.5f * (least + most) + sag, plane.apart);
+  const float deviation = std::min(kSpread * unseen + 0.5f * (most - least), plane.apart);
+  return {distance, deviation, end - std::min(sag, plane.apart) * plane.normal, plane.normal, plane.nearest->object};
+}
+
+/// How much the surface around a point bends away along a direction [1/m]: the slope of its normals.
+float SurfaceDistance::bend(const SurfacePoint& p, const Vector3f& direction) const {
+  float count = 0, s = 0, n = 0, ss = 0, sn = 0;
+  for (const SurfacePoint& point : close_) {
+    const Vector3f d = point.p - p.p;
+    if (d.squaredNorm() > kAround * kAround || point.object != p.object) continue;
+    const float along = d.dot(direction), turn = point.n.dot(direction);
+    count += 1, s += along, n += turn, ss += along * along, sn += along * turn;
+  }
+  const float variance = ss - s * s / count, covariance = sn - s * n / count;
+  return std::clamp((covariance + kPrior * kUsualBend) / (variance + kPrior), 0.f, kMostBend);
 }
 
 }  // namespace barehand

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,20 +30,36 @@ struct NearestSurface {
 ///
 ///     f(x) = sum w_i n_i (x - p_i) / sum w_i,  w_i = exp(-(|x - p_i|^2 - d^2) / h^2),  d = min |x - p_i|
 ///
-/// Where skin covers the surface, the nearest known point is some way aside. The surface may go on as that plane, at
-/// the distance f, or end right there, at the distance d; the estimate lies between, with a deviation to match. It does
-/// not go on into the skin: there, 0 takes the place of a negative f.
+/// Where skin covers the surface, the nearest known point p is some way aside. The surface goes on from there towards
+/// the foot of x in that plane, bent as it is bent around p, until a place that is seen to be empty: there is its edge.
+/// Behind the edge it may go on along the ray, hidden by itself. It does not go on into the skin: there, 0 takes the
+/// place of a negative f.
 class SurfaceDistance {
  public:
   /// Surfaces farther from the skin than this are not measured [m].
   static constexpr float kReach = 0.03f;
+  /// Whether a place (camera frame [m]) is known to be empty of an object.
+  using SeenEmpty = std::function<bool(std::int32_t object, const Eigen::Vector3f& place)>;
 
   /// None: no surface is within kReach, apart from those that the skin is behind.
-  std::optional<NearestSurface> measure(const PosedSkin& skin, std::span<const SurfacePoint> surface);
+  std::optional<NearestSurface> measure(const PosedSkin& skin, std::span<const SurfacePoint> surface,
+                                        const SeenEmpty& empty);
 
  private:
-  std::vector<const SurfacePoint*> close_;  // to the segment
-  std::vector<float> distance_sq_;          // of each of them to a skin point
+  /// The known surface around a skin point.
+  struct Plane {
+    const SurfacePoint* nearest = nullptr;
+    float apart = 0;   // distance of that point [m]
+    float height = 0;  // f [m]
+    Eigen::Vector3f normal;
+  };
+
+  bool find_plane(const Eigen::Vector3f& x, Plane& plane);
+  NearestSurface extend(const Eigen::Vector3f& x, const Plane& plane, const SeenEmpty& empty) const;
+  float bend(const SurfacePoint& p, const Eigen::Vector3f& direction) const;
+
+  std::vector<SurfacePoint> close_;             // to the segment
+  std::vector<float> x_, y_, z_, distance_sq_;  // their places, and their distances from a skin point, squared
 };
 
 }  // namespace barehand

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace barehand {
 namespace {
 
@@ -12,8 +14,8 @@ constexpr std::int64_t kFrame = 33'000;  // [us]
 /// Frames with a palm and square pieces of surface.
 class Objects : public testing::Test {
  protected:
-  void piece(const Vector3f& centre, bool open = false) {
-    for (int i = -4; i <= 4; ++i)
+  void piece(const Vector3f& centre, bool open = false, int from = -4, int to = 4) {
+    for (int i = from; i <= to; ++i)
       for (int j = -4; j <= 4; ++j)
         points_.push_back({centre + Vector3f(0.003f * i, 0.003f * j, 0), {0, 0, -1}, static_cast<int>(open_.size())});
     open_.push_back(open);
@@ -26,13 +28,14 @@ class Objects : public testing::Test {
     estimate->segments[kPalm].T_camera_segment.t = palm;
     objects_.clear();
     utime_ += kFrame;
-    tracker_.process(utime_, {estimate}, open_, points_, objects_);
+    tracker_.process(utime_, {estimate}, space_, open_, points_, objects_);
     left_ = points_;
     points_.clear();
     open_.clear();
     return objects_;
   }
 
+  SeenSpace space_;  // nothing is seen to be empty
   ObjectTracker tracker_;
   std::vector<SurfacePoint> points_, left_;
   std::vector<bool> open_;
@@ -60,6 +63,51 @@ TEST_F(Objects, AnIdStaysWhileTheObjectMoves) {
   }
 }
 
+TEST_F(Objects, AnIdStaysWhileFingersDivideTheObject) {
+  piece({0, 0, 0.5f}, false, -10, 10);
+  const std::int32_t id = frame()[0].id;
+  for (int k = 0; k < 3; ++k) {
+    piece({0, 0, 0.5f}, false, -10, -7);
+    piece({0, 0, 0.5f}, false, 7, 10);
+    ASSERT_EQ(frame().size(), 1u);
+    EXPECT_EQ(objects_[0].id, id);
+    EXPECT_NEAR(objects_[0].T_camera_object.t.x(), 0, 1e-3);
+  }
+}
+
+TEST_F(Objects, WhatIsHiddenIsRemembered) {
+  for (int k = 0; k < 3; ++k) {
+    piece({0, 0, 0.5f}, false, -10, 10);
+    frame();
+  }
+  piece({0, 0, 0.5f}, false, -10, 0);
+  frame();
+  EXPECT_TRUE(std::any_of(left_.begin(), left_.end(), [&](const SurfacePoint& point) {
+    return point.object == objects_[0].id && point.p.x() > 0.025f && std::abs(point.p.z() - 0.5f) < 0.001f;
+  }));
+}
+
+TEST_F(Objects, ATableIsNotJoinedToWhatStandsOnIt) {
+  piece({0, 0, 0.5f}, true, -10, 10);
+  piece({0, 0, 0.49f});
+  EXPECT_EQ(frame().size(), 2u);
+}
+
+TEST_F(Objects, APieceThatIsFlushWithATableIsAPartOfIt) {
+  piece({0, 0, 0.5f}, true, -10, 0);
+  piece({0, 0, 0.5f}, false, 3, 10);
+  EXPECT_EQ(frame().size(), 1u);
+}
+
+TEST_F(Objects, AHeldObjectMovesWithThePalm) {
+  for (int k = 0; k < 8; ++k) {
+    piece({0.01f * k, 0, 0.45f});
+    frame({0.01 * k, 0, 0.5});
+  }
+  EXPECT_NEAR(objects_[0].velocity[0], 0.01 / (1e-6 * kFrame), 0.06);
+  EXPECT_NEAR(objects_[0].T_camera_object.t.x(), 0.07, 0.004);
+}
+
 TEST_F(Objects, AnotherPlaceOrALongAbsenceIsAnotherObject) {
   piece({0, 0, 0.5f});
   const std::int32_t first = frame()[0].id;
@@ -72,7 +120,7 @@ TEST_F(Objects, AnotherPlaceOrALongAbsenceIsAnotherObject) {
 }
 
 TEST_F(Objects, SpecksAreNone) {
-  points_.assign(5, {{0, 0, 0.5f}, {0, 0, -1}, 0});
+  points_.assign(4, {{0, 0, 0.5f}, {0, 0, -1}, 0});
   open_ = {false};
   EXPECT_TRUE(frame().empty());
   EXPECT_TRUE(left_.empty());

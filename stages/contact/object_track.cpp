@@ -1,0 +1,106 @@
+#include "stages/contact/object_track.h"
+
+#include <limits>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d, Eigen::Vector3f;
+
+// A palm that moved so far with the object at the same place in it holds the object; one that the object left by more
+// than kLeft does not [m].
+constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
+constexpr int kGrip = 3;                // segments that touch an object which probably moves with the hand
+constexpr double kPreference = 0.0005;  // how much better the less probable motion must agree with the points [m]
+constexpr double kPlace = 0.005, kTurn = 1.0;  // deviations of an object without a model [m, rad]
+
+}  // namespace
+
+void ObjectTrack::predict(const HandEstimates& estimates, const SeenSpace& space,
+                          std::span<const SurfacePoint* const> all) {
+  points.clear();
+  placed = false;
+  predicted = state.T_camera_object;
+  if (!modelled()) return;
+  for (const HandEstimatePtr& estimate : estimates) {
+    if (estimate->status != TrackStatus::tracking || estimate->hand_id != hand_) continue;
+    const SE3 carried = estimate->segments[kPalm].T_camera_segment * T_palm_object_;
+    const double gain = model.misfit(state.T_camera_object, all, space) - model.misfit(carried, all, space);
+    if (gain > (state.held || touches >= kGrip ? -kPreference : kPreference)) predicted = carried;
+  }
+}
+
+void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates& estimates, const SeenSpace& space) {
+  state.velocity = unknown_velocity();
+  if (points.empty())
+    state.T_camera_object = predicted;
+  else
+    place(elapsed, space);
+  hold(utime, estimates);
+}
+
+/// Updates the pose from the points of this frame, and the model.
+void ObjectTrack::place(double elapsed, const SeenSpace& space) {
+  centre.setZero();
+  for (const SurfacePoint* point : points) centre += point->p.cast<double>() / static_cast<double>(points.size());
+  const SE3 before = state.T_camera_object;
+  if (placed) {
+    state.T_camera_object = model.align(predicted, points, state.covariance);
+    if (elapsed != 0) state.velocity = boxminus(state.T_camera_object, before) / elapsed;
+  } else {
+    // Begin anew in the middle of what is seen.
+    state.T_camera_object = {Eigen::Matrix3d::Identity(), centre};
+    state.covariance = Matrix6d::Zero();
+    state.covariance.topLeftCorner<3, 3>().diagonal().setConstant(kPlace * kPlace);
+    state.covariance.bottomRightCorner<3, 3>().diagonal().setConstant(kTurn * kTurn);
+    model = ObjectModel();
+  }
+
+  // Fuse what is seen, or take its size as it is.
+  Vector3f lower = points[0]->p, upper = lower;
+  for (const SurfacePoint* point : points) lower = lower.cwiseMin(point->p), upper = upper.cwiseMax(point->p);
+  if (!open) {
+    model.fuse(state.T_camera_object, points, space);
+    lower = model.bounds()[0], upper = model.bounds()[1];
+  }
+  state.extent = (upper - lower).cast<double>();
+}
+
+/// States whether the nearest palm holds it.
+void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
+  const HandEstimate* nearest = nullptr;
+  for (const HandEstimatePtr& estimate : estimates) {
+    if (estimate->status != TrackStatus::tracking) continue;
+    const auto distance = [&](const HandEstimate& hand) {
+      return (hand.segments[kPalm].T_camera_segment.t - state.T_camera_object.t).norm();
+    };
+    if (!nearest || distance(*estimate) < distance(*nearest)) nearest = estimate.get();
+  }
+  bool held = false;
+  hand_ = -1;
+  if (nearest && !open) {
+    const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
+    hand_ = nearest->hand_id;
+    T_palm_object_ = T_camera_palm.inverse() * state.T_camera_object;
+
+    // Begin anew with another palm, or if the object has left its place in the palm.
+    const double left =
+        companion_ == hand_ ? (T_palm_object_.t - in_palm_).norm() : std::numeric_limits<double>::infinity();
+    if (left > (state.held ? kLeft : kFirm)) {
+      companion_ = hand_;
+      in_palm_ = T_palm_object_.t;
+      palm_ = T_camera_palm.t;
+    }
+
+    // It is held once it was carried, until it leaves.
+    held = state.held ? left < kLeft : left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried;
+  } else {
+    companion_ = -1;
+  }
+
+  if (held != state.held) state.since = utime;
+  state.held = held;
+  state.hand_id = held ? companion_ : -1;
+}
+
+}  // namespace barehand

@@ -1,0 +1,99 @@
+#include "stages/contact/posed_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hand/skin.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kSkinPoints = 80;         // per segment
+constexpr double kSkinChange = 0.0005;  // change of a bone or a section that is worth a new skin [m]
+constexpr float kWrist = 0.02f;         // skin of the palm nearer to the wrist than this lies on the sleeve [m]
+constexpr float kCuff = 0.035f;         // what is seen nearer to the wrist than this is the hand's, or a sleeve's [m]
+constexpr float kOwn = 0.004f;          // points this near to skin that faces the same way are the hand's own [m]
+// What is farther from the skin than kOff is no hand. Palm and thumb bulge, and their points are some way apart: there,
+// it must be farther than kBulge from the skin around it, up to kApart away [m].
+constexpr float kOff = 0.009f, kBulge = 0.015f, kApart = 0.025f;
+
+/// Whether two profiles have the same skin, but for fractions of a millimetre.
+bool alike(const HandProfile& a, const HandProfile& b) {
+  if (a.handedness != b.handedness || a.scanned_skin != b.scanned_skin) return false;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentProfile &x = a.segments[s], &y = b.segments[s];
+    double change = std::max((x.distal - y.distal).norm(), (x.T_hand_segment.t - y.T_hand_segment.t).norm());
+    for (int end = 0; end < 2; ++end)
+      change = std::max({change, std::abs(x.half_width[end] - y.half_width[end]),
+                         std::abs(x.half_thickness[end] - y.half_thickness[end]),
+                         std::abs(x.flesh_offset_x[end] - y.flesh_offset_x[end]),
+                         std::abs(x.flesh_offset_y[end] - y.flesh_offset_y[end])});
+    if (change > kSkinChange) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void PosedHand::pose(const HandEstimate& estimate) {
+  // Make the skin if this is another hand than before.
+  if (!profile_ || (profile_ != estimate.profile && !alike(*profile_, *estimate.profile))) {
+    const HandProfile& profile = *estimate.profile;
+    surface_ = profile.scanned_skin ? surface_points(*profile.scanned_skin, profile, kSkinPoints)
+                                    : make_cylinder_surface(profile, kSkinPoints);
+    rods_.emplace(profile);
+    profile_ = estimate.profile;
+  }
+
+  // Pose it.
+  pose_ = pose_of(estimate.segments);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentSurface& surface = surface_[s];
+    const Eigen::Matrix3f R = pose_[s].R.cast<float>();
+    const Vector3f t = pose_[s].t.cast<float>();
+    PosedSkin& skin = skin_[s];
+
+    // Move its points, and enclose them in a sphere.
+    skin.points.clear();
+    skin.normals.clear();
+    skin.centre.setZero();
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+      if (s == kPalm && surface.z[i] > -kWrist) continue;
+      skin.points.push_back(R * Vector3f(surface.x[i], surface.y[i], surface.z[i]) + t);
+      skin.normals.push_back(R * Vector3f(surface.nx[i], surface.ny[i], surface.nz[i]));
+      skin.centre += skin.points.back();
+    }
+    skin.centre /= static_cast<float>(skin.points.size());
+    skin.radius = 0;
+    for (const Vector3f& p : skin.points) skin.radius = std::max(skin.radius, (p - skin.centre).norm());
+  }
+}
+
+bool PosedHand::contains(const Vector3f& p) const {
+  if ((pose_[kPalm].inverse() * p.cast<double>()).z() > -kCuff) return true;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const PosedSkin& skin = skin_[s];
+    const bool bulges = s == kPalm || s == segment_of(0, 0) || s == segment_of(0, 1);
+    const float reach = bulges ? kApart : kOff, height = bulges ? kBulge : kOff;
+    if ((p - skin.centre).squaredNorm() > (skin.radius + reach) * (skin.radius + reach)) continue;
+    for (std::size_t i = 0; i < skin.points.size(); ++i) {
+      const Vector3f d = p - skin.points[i];
+      if (d.squaredNorm() < reach * reach && std::abs(skin.normals[i].dot(d)) < height) return true;
+    }
+  }
+  return false;
+}
+
+bool PosedHand::owns(const SurfacePoint& point) const {
+  for (const PosedSkin& skin : skin_) {
+    const float reach = skin.radius + kOwn;
+    if ((point.p - skin.centre).squaredNorm() > reach * reach) continue;
+    for (std::size_t i = 0; i < skin.points.size(); ++i)
+      if ((point.p - skin.points[i]).squaredNorm() < kOwn * kOwn && point.n.dot(skin.normals[i]) > 0.5f) return true;
+  }
+  return false;
+}
+
+}  // namespace barehand

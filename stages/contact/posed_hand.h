@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "hand/hand_pose.h"
+#include "hand/surface.h"
+#include "stages/contact/hand_rods.h"
+#include "stages/contact/surface_cells.h"
+#include "stages/contact/surface_distance.h"
+
+namespace barehand {
+
+/// The skin and the rods of one tracked hand, posed. The skin is the scanned one, or tapered cylinders, which take no
+/// time to make.
+class PosedHand {
+ public:
+  /// Takes over the pose of a tracked hand. The skin is made anew if the profile has changed by more than fractions of
+  /// a millimetre.
+  void pose(const HandEstimate& estimate);
+
+  const PosedSkin& skin(int segment) const { return skin_[segment]; }
+  const HandRods& rods() const { return *rods_; }
+  const HandPose& segments() const { return pose_; }
+
+  /// Whether a place is on or in the skin, or behind the wrist (camera frame [m]).
+  bool contains(const Eigen::Vector3f& p) const;
+  /// Whether a point of a surface is the hand's own skin: near to it, and facing the same way. What touches skin faces
+  /// it.
+  bool owns(const SurfacePoint& point) const;
+
+ private:
+  std::shared_ptr<const HandProfile> profile_;  // of the skin
+  HandSurface surface_;                         // in the frames of the segments
+  std::optional<HandRods> rods_;
+  std::array<PosedSkin, kSegmentCount> skin_;
+  HandPose pose_;
+};
+
+}  // namespace barehand

@@ -1,0 +1,36 @@
+#include "stages/contact/seen_space.h"
+
+namespace barehand {
+namespace {
+
+// Errors of the depth image that pass for a surface's thickness [m]: a constant part, and deviations of the sensor.
+constexpr double kMargin = 0.003, kDeviations = 2;
+
+}  // namespace
+
+void SeenSpace::see(const HandObservations& observations) {
+  views_.clear();
+  for (const HandObservationPtr& observation : observations) {
+    if (!observation->hand_present || observation->depth.empty()) continue;
+    const Intrinsics& camera = observation->frame->camera;
+    views_.push_back({observation.get(), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
+                      static_cast<float>(camera.cx - observation->u0), static_cast<float>(camera.cy - observation->v0),
+                      static_cast<float>(kMargin + kDeviations * observation->noise)});
+  }
+}
+
+SeenSpace::Place SeenSpace::at(const Eigen::Vector3f& p) const {
+  if (p.z() <= 0) return Place::unknown;
+  for (const View& view : views_) {
+    const int u = static_cast<int>(view.fx * p.x() / p.z() + view.cx + 0.5f),
+              v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
+    const Image<float>& depth = view.observation->depth;
+    if (!depth.contains(u, v) || depth.at(u, v) <= 0) continue;
+    const float behind = depth.at(u, v) - p.z();
+    if (behind > view.margin) return Place::empty;
+    if (behind > -view.margin) return Place::surface;
+  }
+  return Place::unknown;
+}
+
+}  // namespace barehand

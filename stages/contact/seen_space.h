@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "observe/observation.h"
+
+namespace barehand {
+
+/// What the rays of a frame say about places in space. Up to the surface that a ray met, space is empty; behind it, and
+/// where nothing was measured, there may be anything.
+class SeenSpace {
+ public:
+  enum class Place { unknown, empty, surface };
+
+  /// Looks at the regions of interest of all hands of a frame.
+  void see(const HandObservations& observations);
+  /// What is seen at a place (camera frame [m]). A surface is as thick as the sensor's error.
+  Place at(const Eigen::Vector3f& p) const;
+  bool empty(const Eigen::Vector3f& p) const { return at(p) == Place::empty; }
+
+ private:
+  struct View {
+    const HandObservation* observation = nullptr;
+    float fx = 0, fy = 0, cx = 0, cy = 0;  // of the region of interest [px]
+    float margin = 0;                      // [m]
+  };
+  std::vector<View> views_;
+};
+
+}  // namespace barehand
