@@ -32,17 +32,9 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
-<<<<<<< HEAD
   const auto only = hands == 1 ? std::optional(profiles[0]->handedness) : std::nullopt;
-  auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
-                                                    config.preprocess.use_colour, workers, log.shared_logger(), only);
-||||||| 96ff02c
-  auto detection = std::make_shared<DetectionStage>(config.detection, networks_folder(config.detection.networks),
-                                                    config.preprocess.use_colour, workers, log.shared_logger());
-=======
   auto detection = std::make_shared<DetectionStage>(config.detection, path_in_configs(config.detection.networks),
-                                                    config.preprocess.use_colour, workers, log.shared_logger());
->>>>>>> grasp
+                                                    config.preprocess.use_colour, workers, log.shared_logger(), only);
   auto tracker =
       std::make_shared<CommandedTracker>(config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers,
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);

@@ -60,26 +60,12 @@ TEST(FrameMessages, PassOnWhatTheHandTouchesAndHowItGrasps) {
   object_state_t object = {};
   object.object_id = 7;
   ShownHands hands = mean_hands();
-<<<<<<< HEAD
   const auto content = frame_content(std::vector<ReceivedMessage>{{"A", encode_message(made.state)},
                                                                   {"B", encode_message(made.glove)},
                                                                   {"C", encode_message(made.joints)},
                                                                   {"D", encode_message(contact)},
-                                                                  {"E", encode_message(object)}},
-||||||| 96ff02c
-  const auto content = frame_content(std::vector<LcmMessage>{{"A", encode_message(made.state)},
-                                                             {"B", encode_message(made.glove)},
-                                                             {"C", encode_message(made.joints)},
-                                                             {"D", encode_message(contact)},
-                                                             {"E", encode_message(object)}},
-=======
-  const auto content = frame_content(std::vector<LcmMessage>{{"A", encode_message(made.state)},
-                                                             {"B", encode_message(made.glove)},
-                                                             {"C", encode_message(made.joints)},
-                                                             {"D", encode_message(contact)},
-                                                             {"E", encode_message(object)},
-                                                             {"F", encode_message(grasp)}},
->>>>>>> grasp
+                                                                  {"E", encode_message(object)},
+                                                                  {"F", encode_message(grasp)}},
                                      hands, {});
   ASSERT_EQ(content.messages.size(), 6u);
   EXPECT_STREQ(content.messages[3].channel, "CONTACT_STATE");

@@ -1,36 +1,8 @@
-<<<<<<< HEAD
-"""What the hands touch: messages about contacts and objects, from a network or a log."""
-||||||| 96ff02c
-"""What the hands touch: messages about contacts and objects, from a network or a log."""
-import os
-import time
-
-from . import log
-=======
 """What the hands touch and how they grasp: messages about contacts, grasps and objects, from a network or a log."""
-import os
-import time
-
-from . import log
->>>>>>> grasp
 from .counts import Counts
-<<<<<<< HEAD
-from .messages import Damaged, Foreign, contact_state_t, decode, object_state_t
-from .outlets import SEGMENTS
-from .receiver import Receiver
-||||||| 96ff02c
-from .error import Error
-from .messages import Damaged, Foreign, contact_state_t, decode, object_state_t
-from .network import Network
-from .outlets import SEGMENTS
-from .page import Page
-=======
-from .error import Error
 from .messages import Damaged, Foreign, contact_state_t, decode, grasp_state_t, object_state_t
-from .network import Network
 from .outlets import GRASPS, SEGMENTS
-from .page import Page
->>>>>>> grasp
+from .receiver import Receiver
 
 
 def contacts(source=None, prefix="", timeout=None):
@@ -65,13 +37,13 @@ def touched(segments):
 
 def _messages(type_, name, source, prefix, timeout):
     counts = Counts()
-    receiver = Receiver(source, prefix, [name], counts, timeout, also="; contact.enabled must be true in its configuration")
+    group = "grasp" if type_ is grasp_state_t else "contact"
+    receiver = Receiver(source, prefix, [name], counts, timeout, also=f"; {group}.enabled must be true in its configuration")
     return _decoded(type_, receiver, counts)
 
 
 def _decoded(type_, receiver, counts):
     try:
-<<<<<<< HEAD
         for channel, data in receiver:
             if channel not in receiver.wanted:
                 continue
@@ -81,29 +53,5 @@ def _decoded(type_, receiver, counts):
                 counts.foreign += 1
             except Damaged:
                 counts.damaged += 1
-||||||| 96ff02c
-        heard = time.monotonic()
-        while True:
-            left = None if timeout is None else max(0.0, heard + timeout - time.monotonic())
-            message = network.receive(left)
-            if message is None:
-                raise Error(f"no message on {channel} for {timeout:.0f} s", network.url,
-                            "start `barehand track` with the same LCM URL and channel prefix, and contact.enabled: true")
-            if message[0] == channel.encode():
-                yield message
-                heard = time.monotonic()
-=======
-        heard = time.monotonic()
-        while True:
-            left = None if timeout is None else max(0.0, heard + timeout - time.monotonic())
-            message = network.receive(left)
-            if message is None:
-                raise Error(f"no message on {channel} for {timeout:.0f} s", network.url,
-                            "start `barehand track` with the same LCM URL and channel prefix, and "
-                            f"{'grasp' if channel.endswith('GRASP_STATE') else 'contact'}.enabled: true")
-            if message[0] == channel.encode():
-                yield message
-                heard = time.monotonic()
->>>>>>> grasp
     finally:
         receiver.close()
