@@ -8,6 +8,7 @@
 #include "core/parallel/parallel.h"
 #include "hand/contacts.h"
 #include "hand/hand_pose.h"
+#include "object/known_object.h"
 #include "observe/observation.h"
 #include "pipeline/config.h"
 #include "pipeline/reload.h"
@@ -19,15 +20,17 @@ namespace barehand {
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
-  /// Empty if the configuration wants no contacts.
+  /// Empty if the configuration wants no contacts and no object is known.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
 };
 
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.
 /// `inbox`: commands from outside; may be empty. `pending`: changed parameters, taken before every frame; may be null.
+/// `objects`: those whose shape is known; if there are any, contacts are found whatever the configuration says.
 /// `workers`, `log` and `pending` must outlive the stages.
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
-                              RepeatLog& log, PendingParams* pending = nullptr);
+                              RepeatLog& log, PendingParams* pending = nullptr,
+                              const std::vector<KnownObjectPtr>& objects = {});
 
 }  // namespace barehand

@@ -13,6 +13,9 @@ namespace barehand {
 /// continues out of view, as a table does, is never held.
 class ObjectTracker {
  public:
+  /// `first_id`: the id of the first object; smaller ones belong to others.
+  explicit ObjectTracker(std::int32_t first_id = 1) : next_id_(first_id) {}
+
   /// Removes points of specks, and sets SurfacePoint::object of the others. `open`: as SurfaceCells::collect() fills
   /// it.
   void process(std::int64_t utime, const HandEstimates& estimates, const std::vector<bool>& open,
@@ -42,7 +45,7 @@ class ObjectTracker {
   std::vector<std::pair<std::uint64_t, std::int32_t>> voxels_;  // occupied voxels with a component in them, by key
   std::vector<Thing> things_;  // by first component; those of the other components are empty
   std::vector<Track> tracks_;
-  std::int32_t next_id_ = 1;
+  std::int32_t next_id_;
 };
 
 }  // namespace barehand
