@@ -8,6 +8,7 @@
 #include "evaluation/contact_evaluation.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/fingertips.h"
+#include "evaluation/object_evaluation.h"
 #include "evaluation/reliability.h"
 
 namespace barehand {
@@ -34,6 +35,7 @@ struct EvalReport {
   std::optional<FingertipEvaluation> fingertips;
   std::optional<Reliability> reliability;
   std::optional<ContactEvaluation> contacts;
+  std::vector<ObjectEvaluation> objects;
 };
 
 /// The report as text tables, in millimetres and pixels.
