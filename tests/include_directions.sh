@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the directions of includes between folders. A folder may include those to its right:
-#   app -> pipeline -> tracking -> person -> stages, drivers -> evaluation -> io, observe -> hand, sensor -> math -> core
+#   app -> pipeline -> tracking -> person -> stages, drivers -> evaluation -> io, observe -> hand, object, sensor ->
+#   math -> core
 # A stage never includes another stage, a driver never another driver, io and observe never each other. Headers of an
 # SDK are included in one folder only. First checks that violations are found.
 #   include_directions.sh SOURCE_TREE
@@ -26,6 +27,7 @@ violations() {  # ROOT: prints every forbidden include
   forbid src/observe "$above|io/"
   above="$above|io/|observe/"
   forbid src/hand "$above"
+  forbid src/object "$above|hand/|sensor/"
   forbid src/sensor "$above|hand/"
   above="$above|hand/|sensor/"
   forbid src/math "$above"
@@ -39,7 +41,7 @@ violations() {  # ROOT: prints every forbidden include
 
   # Libraries that only one folder may use.
   for folder in src/core src/math src/sensor src/hand src/observe src/person stages/segment_tracker stages/fusion \
-                stages/refinement stages/prediction stages/search stages/pose_prior; do
+                stages/refinement stages/prediction stages/search stages/pose_prior stages/known_object src/object; do
     forbid "$folder" 'opencv2/|lcm/|assimp/|yaml-cpp/|nlohmann/'
   done
   forbid drivers 'opencv2/|yaml-cpp/'

@@ -5,6 +5,7 @@
 #include "stages/contact/contact_stage.h"
 #include "stages/detection/detection_stage.h"
 #include "stages/grasp/grasp_stage.h"
+#include "stages/known_object/known_object_stage.h"
 #include "stages/preprocess/preprocess.h"
 
 namespace barehand {
@@ -24,11 +25,18 @@ std::shared_ptr<GraspStage> make_grasp_stage(const GraspParams& params, RepeatLo
   return nullptr;
 }
 
+std::shared_ptr<ContactStage> make_contact_stage(const ContactParams& params,
+                                                 const std::vector<KnownObjectPtr>& objects) {
+  if (objects.empty()) return std::make_shared<ContactStage>(params);
+  KnownObjectFinder find = std::bind_front(&KnownObjectStage::process, std::make_shared<KnownObjectStage>(objects));
+  return std::make_shared<ContactStage>(params, std::move(find), static_cast<int>(objects.size()));
+}
+
 }  // namespace
 
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
-                              RepeatLog& log, PendingParams* pending) {
+                              RepeatLog& log, PendingParams* pending, const std::vector<KnownObjectPtr>& objects) {
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
@@ -40,8 +48,8 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
   TrackStages stages;
-  if (config.contact.enabled)
-    stages.contact = std::bind_front(&ContactStage::process, std::make_shared<ContactStage>(config.contact));
+  if (config.contact.enabled || !objects.empty())
+    stages.contact = std::bind_front(&ContactStage::process, make_contact_stage(config.contact, objects));
   if (config.grasp.enabled)
     if (const auto grasp = make_grasp_stage(config.grasp, log))
       stages.grasp = std::bind_front(&GraspStage::process, grasp);

@@ -9,6 +9,7 @@
 #include "hand/contacts.h"
 #include "hand/grasps/frame_grasps.h"
 #include "hand/hand_pose.h"
+#include "object/known_object.h"
 #include "observe/observation.h"
 #include "pipeline/config.h"
 #include "pipeline/reload.h"
@@ -20,7 +21,7 @@ namespace barehand {
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
-  /// Empty if the configuration wants no contacts.
+  /// Empty if the configuration wants no contacts and no object is known.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
   /// Empty if the configuration wants no grasps, or the classifier cannot be used, which is logged.
   std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp;
@@ -28,9 +29,11 @@ struct TrackStages {
 
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.
 /// `inbox`: commands from outside; may be empty. `pending`: changed parameters, taken before every frame; may be null.
+/// `objects`: those whose shape is known; if there are any, contacts are found whatever the configuration says.
 /// `workers`, `log` and `pending` must outlive the stages.
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
-                              RepeatLog& log, PendingParams* pending = nullptr);
+                              RepeatLog& log, PendingParams* pending = nullptr,
+                              const std::vector<KnownObjectPtr>& objects = {});
 
 }  // namespace barehand

@@ -19,10 +19,14 @@ constexpr double kNearer = 1.6, kHidden[2] = {0.7, 0.7}, kOverlooked = 0.03;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
-/// Variance of a point of a segment along a direction, by the covariance of the segment's pose [m^2].
+/// Variance of a point of a body along a direction, by the body's pose and the covariance of that [m^2].
+double variance(const SE3& T_camera_body, const Matrix6d& covariance, const Vector3d& point,
+                const Vector3d& direction) {
+  const Vector6d row = point_jacobian(point - T_camera_body.t).transpose() * direction;
+  return row.dot(covariance * row);
+}
 double variance(const SegmentState& segment, const Vector3d& point, const Vector3d& direction) {
-  const Vector6d row = point_jacobian(point - segment.T_camera_segment.t).transpose() * direction;
-  return row.dot(segment.covariance * row);
+  return variance(segment.T_camera_segment, segment.covariance, point, direction);
 }
 
 /// States that no segment is near anything; what is not seen is inferred.
@@ -64,18 +68,62 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     return false;
   });
   objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, space_, open_, points_, out->objects);
+  find_known(observations, estimates, out->objects);
 
   // Measure the distances of each hand's segments.
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     if (!tracked(*estimates[k])) continue;
     HandContacts& contacts = out->hands[k];
     touch_objects(hands_[k], *estimates[k], observations[k]->noise, contacts.object);
+    for (int s = 0; s < kSegmentCount; ++s)
+      touch_known(hands_[k].skin(s), estimates[k]->segments[s], contacts.object[s]);
     touch_itself(hands_[k], *estimates[k], contacts.own);
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
   }
   objects_.note_touches(out->hands);
   return out;
+}
+
+/// Finds the known objects. Their meshes take the place of the points that are seen of them.
+void ContactStage::find_known(const HandObservations& observations, const HandEstimates& estimates,
+                              FrameVector<SeenObject>& objects) {
+  if (!find_known_) return;
+  known_ = find_known_(observations, estimates, points_, objects);
+  std::erase_if(points_, [&](const SurfacePoint& point) {
+    return std::ranges::any_of(known_, [&](const PosedObject& known) { return known.object->id == point.object; });
+  });
+}
+
+/// The distance of a segment from the known objects, all of whose surface is known. Nothing changes if none is near.
+void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segment, Contact& contact) const {
+  for (const PosedObject& known : known_) {
+    // Find the place of the skin that is nearest, or deepest inside.
+    const SE3 T_object_camera = known.T_camera_object.inverse();
+    const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
+    const Vector3f t = T_object_camera.t.cast<float>();
+    DistanceGrid::Sample least{SurfaceDistance::kReach, Vector3f::Zero()};
+    if (known.object->grid.distance(R * skin.centre + t) > skin.radius + SurfaceDistance::kReach) continue;
+    const Vector3f* nearest = nullptr;
+    for (const Vector3f& p : skin.points) {
+      const DistanceGrid::Sample sample = known.object->grid.sample(R * p + t);
+      if (sample.distance >= least.distance) continue;
+      least = sample;
+      nearest = &p;
+    }
+    if (!nearest || (contact.state != ContactState::unknown && contact.distance <= least.distance)) continue;
+
+    // State the distance.
+    contact.normal = known.T_camera_object.R * least.gradient.cast<double>().normalized();
+    contact.distance = least.distance;
+    contact.point = nearest->cast<double>() - contact.distance * contact.normal;
+    contact.deviation = std::sqrt(variance(segment, contact.point, contact.normal) +
+                                  variance(known.T_camera_object, known.covariance, contact.point, contact.normal) +
+                                  kSkinDeviation * kSkinDeviation);
+    contact.inferred = !segment.seen;
+    contact.partner = known.object->id;
+    judge(contact, (params_.touch_distance - contact.distance) / contact.deviation);
+  }
 }
 
 void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise,

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/error.h"
 #include "hand/contacts.h"
 #include "hand/hand_pose.h"
+#include "object/known_object.h"
 #include "observe/observation.h"
 #include "stages/contact/contact_params.h"
 #include "stages/contact/object_tracker.h"
@@ -15,28 +17,42 @@
 
 namespace barehand {
 
+/// Finds the objects whose shape is known among the things near the hands. Gives their points in `points` their ids,
+/// and puts them into `objects` in place of the things that they are.
+using KnownObjectFinder =
+    std::function<std::vector<PosedObject>(const HandObservations& observations, const HandEstimates& estimates,
+                                           std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects)>;
+
 /// The contact stage: says what the tracked hands of a frame touch, from their estimates and observations, frame after
 /// frame in order. It changes no estimate. Contacts are stated for hands that are tracked; those of the others are
 /// unknown.
 class ContactStage {
  public:
   explicit ContactStage(const ContactParams& params) : params_(params) {}
+  /// `find_known`: finds `known` objects, whose ids are 1 to `known`.
+  ContactStage(const ContactParams& params, KnownObjectFinder find_known, int known)
+      : params_(params), find_known_(std::move(find_known)), objects_(known + 1) {}
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
 
  private:
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
+  void find_known(const HandObservations& observations, const HandEstimates& estimates,
+                  FrameVector<SeenObject>& objects);
+  void touch_known(const PosedSkin& skin, const SegmentState& segment, Contact& contact) const;
   void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
   void judge(Contact& contact, double deviations) const;
 
   ContactParams params_;
+  KnownObjectFinder find_known_;  // empty: there are none
   SurfaceCells cells_;
   ObjectTracker objects_;
   SeenSpace space_;
   SurfaceDistance distance_;
   std::vector<PosedHand> hands_;  // one per configured hand
   std::vector<SurfacePoint> points_;
+  std::vector<PosedObject> known_;
   std::vector<bool> open_;
 };
 

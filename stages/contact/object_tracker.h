@@ -13,6 +13,9 @@ namespace barehand {
 /// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {
  public:
+  /// `first_id`: the id of the first object; smaller ones belong to others.
+  explicit ObjectTracker(std::int32_t first_id = 1) : next_id_(first_id) {}
+
   /// Removes points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models that
   /// are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
   void process(std::int64_t utime, const HandEstimates& estimates, const SeenSpace& space,
@@ -43,7 +46,7 @@ class ObjectTracker {
   std::vector<Thing> things_;              // by first component; those of the other components are empty
   std::vector<ObjectTrack> tracks_;
   std::int64_t last_ = 0;  // time of the last frame [us]
-  std::int32_t next_id_ = 1;
+  std::int32_t next_id_;
 };
 
 }  // namespace barehand

@@ -6,15 +6,9 @@
 
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
+#include "observe/surface_point.h"
 
 namespace barehand {
-
-/// A point on the seen surface of something that is no hand. Camera frame [m].
-struct SurfacePoint {
-  Eigen::Vector3f p, n;        ///< place and outward unit normal
-  std::int32_t component = 0;  ///< the connected surface that it belongs to
-  std::int32_t object = -1;    ///< SeenObject::id; -1: none
-};
 
 /// Finds surfaces near a hand that belong neither to a hand nor to its forearm: the object pixels of an observation and
 /// what is connected with them in depth, on a grid of cells of about 3.5 mm. Reuses its memory.

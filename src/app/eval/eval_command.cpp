@@ -9,18 +9,20 @@
 #include "app/eval/eval_report.h"
 #include "app/eval/stated_contacts.h"
 #include "app/eval/stated_grasps.h"
+#include "app/eval/stated_objects.h"
 #include "app/eval/stated_poses.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/outputs.h"
 #include "app/shared/standard_streams.h"
 #include "io/hand/hand_json.h"
+#include "io/mesh/mesh_file.h"
 #include "io/recording/recording.h"
 
 namespace barehand {
 namespace {
 
 struct EvalOptions {
-  std::vector<std::string> truths, results, labels, states, contacts, grasps;
+  std::vector<std::string> truths, results, labels, states, contacts, grasps, objects;
   std::string hand, plots, json, fingertips, recording;
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
@@ -48,6 +50,10 @@ Result<void> check(const EvalOptions& o) {
     return fail("--grasps is given " + std::to_string(o.grasps.size()) + " times for " +
                     std::to_string(o.states.size()) + " logs of states",
                 "eval", "give a table of grasps for each --states");
+  if (!o.objects.empty() && o.objects.size() != o.states.size())
+    return fail("--objects is given " + std::to_string(o.objects.size()) + " times for " +
+                    std::to_string(o.states.size()) + " logs of states",
+                "eval", "give a table of object poses for each --states");
   if (!o.labels.empty() && o.labels.size() != o.results.size())
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
@@ -66,6 +72,8 @@ Result<void> check_written(const EvalOptions& o) {
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
   for (const std::string& path : o.grasps) inputs.push_back({"--grasps", path});
   for (const std::string& path : o.contacts) inputs.push_back({"--contacts", path});
+
+  for (const std::string& path : o.objects) inputs.push_back({"--objects", path});
 
   std::vector<Output> outputs{{"--json", o.json}};
   const auto plot = [&](const char* name) {
@@ -149,6 +157,23 @@ Result<void> judge_grasps(const EvalOptions& o, EvalReport& report) {
   return {};
 }
 
+/// The mesh of an object lies beside the table of its poses, as the simulator writes it.
+Result<void> judge_objects(const EvalOptions& o, EvalReport& report) {
+  for (std::size_t i = 0; i < o.objects.size(); ++i) {
+    auto truth = read_object_truth(o.objects[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    const auto folder = std::filesystem::path(o.objects[i]).parent_path();
+    const auto loaded = load_mesh((folder / (truth->name + ".obj")).string(), LengthUnit::metre);
+    if (!loaded) return tl::unexpected(loaded.error());
+    const auto stated = read_stated_objects(o.states[i]);
+    if (!stated) return tl::unexpected(stated.error());
+    auto evaluation = evaluate_object(*truth, *stated, loaded->mesh);
+    if (!evaluation) return tl::unexpected(evaluation.error());
+    report.objects.push_back(std::move(*evaluation));
+  }
+  return {};
+}
+
 Result<void> compare_fingertips(const EvalOptions& o, const std::vector<ResultTable>& results,
                                 const HandProfile& profile, EvalReport& report) {
   const auto labels = read_fingertip_labels(o.fingertips);
@@ -175,6 +200,7 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
     if (const auto judged = judge_contacts(o, report); !judged) return tl::unexpected(judged.error());
   if (!o.grasps.empty())
     if (const auto judged = judge_grasps(o, report); !judged) return tl::unexpected(judged.error());
+  if (const auto judged = judge_objects(o, report); !judged) return tl::unexpected(judged.error());
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());
@@ -218,6 +244,9 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   eval->add_option("--contacts", o->contacts,
                    "contact table, one for each log of states, to check the stated contacts");
   eval->add_option("--grasps", o->grasps, "table of grasps, one for each log of states, to check the stated grasps");
+  eval->add_option("--objects", o->objects,
+                   "table of object poses (objects.csv, with the mesh beside it), one for each log of states, to check "
+                   "the poses of the first --object of track");
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");

@@ -1,6 +1,7 @@
 // Writes the results of `barehand eval` as JSON for programs.
 #include "app/eval/eval_report.h"
 #include "io/hand/json_fields.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -122,6 +123,16 @@ Json to_json(const GraspEvaluation& e) {
   return json;
 }
 
+Json to_json(const ObjectEvaluation& e) {
+  return {{"object", e.name},
+          {"frames", e.frames},
+          {"stated", e.stated},
+          {"lost", e.lost},
+          {"position_mm", to_json(e.position, kMillimetre)},
+          {"rotation_degrees", to_json(e.rotation, 1 / kDegree)},
+          {"surface_mm", to_json(e.surface, kMillimetre)}};
+}
+
 }  // namespace
 
 Result<void> write_json_report(const EvalReport& report, const std::string& path) {
@@ -131,6 +142,7 @@ Result<void> write_json_report(const EvalReport& report, const std::string& path
   if (report.reliability) json["reliability"] = to_json(*report.reliability);
   if (report.contacts) json["contacts"] = to_json(*report.contacts);
   if (report.grasps) json["grasps"] = to_json(*report.grasps);
+  for (const ObjectEvaluation& object : report.objects) json["objects"].push_back(to_json(object));
   return json_fields::write_json(path, json);
 }
 

@@ -9,6 +9,7 @@
 #include "evaluation/evaluation.h"
 #include "evaluation/fingertips.h"
 #include "evaluation/grasp_evaluation.h"
+#include "evaluation/object_evaluation.h"
 #include "evaluation/reliability.h"
 
 namespace barehand {
@@ -36,6 +37,7 @@ struct EvalReport {
   std::optional<Reliability> reliability;
   std::optional<ContactEvaluation> contacts;
   std::optional<GraspEvaluation> grasps;
+  std::vector<ObjectEvaluation> objects;
 };
 
 /// The report as text tables, in millimetres and pixels.

@@ -1,6 +1,7 @@
 // The results of `barehand eval` as text tables for the user.
 #include "app/eval/eval_report.h"
 #include "core/format.h"
+#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -158,6 +159,14 @@ void print_grasps(std::string& out, const GraspEvaluation& e) {
   print_bins(out, "class [%]", e.probabilities, 100);
 }
 
+void print_object(std::string& out, const ObjectEvaluation& e) {
+  out += formatted("object %s: %zu frames, stated %zu, lost %zu\n", e.name.c_str(), e.frames, e.stated, e.lost);
+  print_head(out, "error");
+  print_row(out, "position [mm]", e.position, kMillimetre);
+  print_row(out, "rotation [degrees]", e.rotation, 1 / kDegree);
+  print_row(out, "surface [mm]", e.surface, kMillimetre);
+}
+
 }  // namespace
 
 std::string text_report(const EvalReport& report) {
@@ -167,6 +176,7 @@ std::string text_report(const EvalReport& report) {
   if (report.reliability) print_reliability(out, *report.reliability);
   if (report.contacts) print_contacts(out, *report.contacts);
   if (report.grasps) print_grasps(out, *report.grasps);
+  for (const ObjectEvaluation& object : report.objects) print_object(out, object);
   return out;
 }
 

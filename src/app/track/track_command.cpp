@@ -47,6 +47,19 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track->add_option("--start", o.start, "first frame of a recording; when playing backwards, from there down to 0");
   track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
   track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
+  track
+      ->add_option(
+          "--object", o.objects,
+          "mesh of a thing that the hand may hold (OBJ, PLY, STL, glTF), which is then tracked, too; repeat it "
+          "for several")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  track
+      ->add_option("--object-unit", o.object_units,
+                   "unit of the mesh's file: m, cm or mm; once for all objects or once for each; default: m")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs("--object");
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
   track->add_option("--mcap", o.mcap,

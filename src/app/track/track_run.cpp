@@ -16,6 +16,7 @@
 #include "app/shared/run_inputs.h"
 #include "app/shared/source_factory.h"
 #include "app/shared/standard_streams.h"
+#include "app/track/known_objects.h"
 #include "app/track/track_outputs.h"
 #include "core/available_memory.h"
 #include "core/parallel/parallel.h"
@@ -69,6 +70,7 @@ class TrackRun {
  private:
   Step open_input();
   Step use_hands();
+  Step use_objects();
   Step choose_start();
   Step choose_outputs();
   Step open_outputs();
@@ -107,6 +109,7 @@ class TrackRun {
   std::unique_ptr<Workers> workers_;
   OpenSource input_;
   TwoHandTracker::Profiles profiles_;
+  std::vector<KnownObjectPtr> objects_;
   std::optional<HandPose> initial_;
   std::optional<SE3> world_;  // T_world_camera; none: the pose of the camera in the room is not known
   std::shared_ptr<LcmBus> bus_;
@@ -131,6 +134,7 @@ Step TrackRun::prepare() {
   if (const auto good = LivePage::check(options_); !good) return usage(good.error());
   return open_input()
       .and_then([&] { return use_hands(); })
+      .and_then([&] { return use_objects(); })
       .and_then([&] { return choose_start(); })
       .and_then([&] { return choose_outputs(); })
       .and_then([&] { return open_outputs(); });
@@ -166,6 +170,13 @@ Step TrackRun::use_hands() {
     for (const std::string& doubt : profile_doubts(*hand.profile)) log_.logger().warn("{}: {}", hand.name, doubt);
   }
   profiles_ = profiles_of(*hands);
+  return {};
+}
+
+Step TrackRun::use_objects() {
+  auto objects = load_objects(options_.objects, options_.object_units, log_.logger());
+  if (!objects) return usage(objects.error());
+  objects_ = std::move(*objects);
   return {};
 }
 
@@ -352,7 +363,8 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 }
 
 TrackOutcome TrackRun::run() {
-  TrackStages computing = make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_);
+  TrackStages computing =
+      make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_, objects_);
   PipelineStages stages{*input_.source,
                         std::move(computing.preprocess),
                         std::move(computing.track),

@@ -1,0 +1,30 @@
+// Reads stated poses of a known object from a log of hand states.
+#include "app/eval/stated_objects.h"
+
+#include "barehand/object_state_t.hpp"
+#include "drivers/lcm/layouts.h"
+#include "io/lcm/message_log.h"
+
+namespace barehand {
+
+Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
+  auto log = MessageLog::open(log_path);
+  if (!log) return tl::unexpected(log.error());
+  ObjectPoses poses;
+  for (const LogEntry& entry : log->entries()) {
+    if (entry.hash != object_state_t::getHash()) continue;
+    const auto bytes = log->read(entry);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto state = decode_message<object_state_t>(*bytes);
+    if (!state || state->object_id != 1) continue;
+    const double* q = state->orientation;
+    poses[state->utime] = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(),
+                           Eigen::Vector3d(state->position)};
+  }
+  if (poses.empty())
+    return fail("holds no pose of object 1", log_path,
+                "give a log written by barehand track --states-log or --mcap with --object");
+  return poses;
+}
+
+}  // namespace barehand

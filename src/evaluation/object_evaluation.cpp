@@ -1,0 +1,83 @@
+#include "evaluation/object_evaluation.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "io/file_bytes.h"
+#include "io/hand/table_fields.h"
+#include "object/known_object.h"
+
+namespace barehand {
+
+Result<ObjectTruthTable> read_object_truth(const std::string& path) {
+  auto content = read_text(path);
+  if (!content) return tl::unexpected(content.error());
+  std::istringstream file(std::move(*content));
+  std::string line;
+  std::getline(file, line);
+  if (!line.starts_with("utime,object,held,x,y,z,qw,qx,qy,qz"))
+    return fail("line 1 is not the header of a table of object poses", path,
+                "it must begin with \"utime,object,held,x,y,z,qw,qx,qy,qz\"");
+
+  // Read line by line.
+  ObjectTruthTable table;
+  for (int number = 2; std::getline(file, line); ++number) {
+    if (line.empty()) continue;
+    const auto fields = split_fields(line);
+    std::int64_t utime = 0;
+    std::array<double, 7> value{};
+    bool good = fields.size() >= 10 && parse_number(fields[0], utime);
+    for (std::size_t i = 0; good && i < value.size(); ++i)
+      good = parse_number(fields[3 + i], value[i]) && std::isfinite(value[i]);
+    const Eigen::Quaterniond q(value[3], value[4], value[5], value[6]);
+    if (!good || std::abs(q.norm() - 1) > 1e-3)
+      return fail("line " + std::to_string(number) + ": is \"" + line + "\"", path,
+                  "a line is utime,object,held,x,y,z,qw,qx,qy,qz with a unit quaternion");
+
+    // All rows are of one object.
+    if (table.poses.empty()) table.name = fields[1];
+    if (fields[1] != table.name)
+      return fail("line " + std::to_string(number) + ": is of another object than line 2", path,
+                  "give the table of one object");
+    table.poses[utime] = {q.normalized().toRotationMatrix(), {value[0], value[1], value[2]}};
+  }
+  if (table.poses.empty()) return fail("holds no poses", path, "there is nothing to compare with");
+  return table;
+}
+
+Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const ObjectPoses& stated,
+                                         const ObjectMesh& mesh) {
+  ObjectEvaluation out;
+  out.name = truth.name;
+  const std::vector<SurfaceSample> samples = sample_surface(mesh);
+  const MeshDistance surface(mesh.vertices, mesh.triangles);
+  std::vector<double> position, rotation, apart;
+  for (const auto& [utime, T_true] : truth.poses) {
+    ++out.frames;
+    const auto found = stated.find(utime);
+    if (found == stated.end()) {
+      out.lost += out.stated > 0;
+      continue;
+    }
+
+    // Compare the poses, and where they put the surface.
+    ++out.stated;
+    const SE3& T = found->second;
+    position.push_back((T.t - T_true.t).norm());
+    rotation.push_back(log_so3(T.R * T_true.R.transpose()).norm());
+    const SE3 T_true_stated = T_true.inverse() * T;
+    double sum = 0;
+    for (const SurfaceSample& sample : samples)
+      sum += surface.nearest(T_true_stated * sample.p.cast<double>()).distance;
+    apart.push_back(sum / static_cast<double>(samples.size()));
+  }
+  if (out.stated == 0)
+    return fail("no pose of object 1 is stated in a frame of the truth", truth.name,
+                "track the same recording with --object and this object's mesh");
+  out.position = summarise(std::move(position));
+  out.rotation = summarise(std::move(rotation));
+  out.surface = summarise(std::move(apart));
+  return out;
+}
+
+}  // namespace barehand

@@ -1,0 +1,121 @@
+// Reads the meshes of objects, by way of assimp.
+#include "io/mesh/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "core/format.h"
+
+namespace barehand {
+namespace {
+
+/// A unit with its name and its length [m].
+struct NamedUnit {
+  LengthUnit unit;
+  const char* name;
+  double length;
+};
+constexpr std::array kUnits = {NamedUnit{LengthUnit::metre, "m", 1}, NamedUnit{LengthUnit::centimetre, "cm", 0.01},
+                               NamedUnit{LengthUnit::millimetre, "mm", 0.001}};
+
+const NamedUnit& named(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)]; }
+
+constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a hand can hold and be tracked with [m]
+constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same of most things [m]
+constexpr std::size_t kMostTriangles = 500'000;
+
+/// A length that people can read.
+std::string readable(double metres) {
+  if (metres >= 1) return formatted("%.3g m", metres);
+  return formatted("%.3g mm", 1000 * metres);
+}
+
+/// Adds the triangles of one mesh of the file; lines and points are left out.
+void append(const aiMesh& part, double scale, ObjectMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned v = 0; v < part.mNumVertices; ++v) {
+    const aiVector3D& p = part.mVertices[v];
+    mesh.vertices.push_back((scale * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
+  }
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) continue;
+    mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+  }
+}
+
+/// Checks that the object has the size of something that a hand holds. If not, the error names the unit with which it
+/// would.
+Result<void> check_size(const ObjectMesh& mesh, const std::string& path, LengthUnit unit) {
+  // Measure the longest side.
+  Eigen::Vector3f lower = mesh.vertices.front(), upper = lower;
+  for (const auto& t : mesh.triangles)
+    for (const auto v : t) {
+      lower = lower.cwiseMin(mesh.vertices[v]);
+      upper = upper.cwiseMax(mesh.vertices[v]);
+    }
+  const double size = (upper - lower).cast<double>().maxCoeff();
+  if (size >= kSmallest && size <= kLargest) return {};
+
+  // Look for the unit that makes it an ordinary thing.
+  for (const NamedUnit& other : kUnits) {
+    const double then = size / named(unit).length * other.length;
+    if (then >= kUsualSmallest && then <= kUsualLargest)
+      return fail("the object is " + readable(size) + " long if the file is in " + named(unit).name, path,
+                  std::string("the file is probably in ") + other.name + ", which makes it " + readable(then) +
+                      ": add --object-unit " + other.name);
+  }
+  return fail("the object is " + readable(size) + " long, which no hand can hold and no camera see in it", path,
+              "scale it to between " + readable(kSmallest) + " and " + readable(kLargest));
+}
+
+}  // namespace
+
+Result<LengthUnit> unit_from(const std::string& name) {
+  for (const NamedUnit& unit : kUnits)
+    if (name == unit.name) return unit.unit;
+  return fail("\"" + name + "\" is no unit of length", "--object-unit", "give m, cm or mm");
+}
+
+Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
+  // Check the file itself, for which assimp has no words.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    return fail("there is no such file", path, "give the mesh of the object (OBJ, PLY, STL or glTF)");
+  if (!std::ifstream(path)) return fail("cannot be read", path, "check its permissions");
+  if (std::filesystem::file_size(path, error) == 0) return fail("is empty", path, "export the object's mesh again");
+
+  // Read it; the parts of a scene are placed as its nodes say.
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (!scene)
+    return fail(std::string("cannot be read as a mesh: ") + importer.GetErrorString(), path,
+                "give an OBJ, PLY, STL or glTF file");
+  LoadedMesh loaded;
+  ObjectMesh& mesh = loaded.mesh;
+  mesh.name = std::filesystem::path(path).stem().string();
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], named(unit).length, mesh);
+
+  // Check what it holds.
+  if (mesh.triangles.empty())
+    return fail("holds no triangles", path, "export the object's surface as triangles, not as points or lines");
+  if (mesh.triangles.size() > kMostTriangles)
+    return fail(formatted("has %zu triangles", mesh.triangles.size()), path,
+                formatted("simplify it to %zu or fewer, 10,000 are plenty", kMostTriangles));
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    if (!v.allFinite()) return fail("holds a vertex that is not finite", path, "export the object's mesh again");
+  if (auto good = check_size(mesh, path, unit); !good) return tl::unexpected(good.error());
+
+  auto repair = repair_mesh(mesh, path);
+  if (!repair) return tl::unexpected(repair.error());
+  loaded.repair = *repair;
+  return loaded;
+}
+
+}  // namespace barehand

@@ -1,0 +1,67 @@
+#include "object/known_object.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "math/random.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr int kSamples = 1000;
+// Size of the grid's cells as a fraction of the object, and its bounds [m].
+constexpr double kCells = 1.0 / 60, kFinest = 0.0015, kCoarsest = 0.005;
+
+}  // namespace
+
+std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh) {
+  // Add up the areas.
+  std::vector<double> upto;
+  double area = 0;
+  const auto corner = [&](std::size_t t, int k) -> const Vector3f& { return mesh.vertices[mesh.triangles[t][k]]; };
+  const auto cross = [&](std::size_t t) -> Vector3f {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) upto.push_back(area += 0.5 * cross(t).norm());
+
+  // Draw one place from every equal share of the area.
+  KeyedRandom random(0, 0);
+  std::vector<SurfaceSample> samples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double at = area * (i + random.uniform()) / kSamples;
+    const auto found = std::min(std::upper_bound(upto.begin(), upto.end(), at), upto.end() - 1);
+    const auto t = static_cast<std::size_t>(found - upto.begin());
+    const auto u = static_cast<float>(std::sqrt(random.uniform())), v = static_cast<float>(random.uniform());
+    samples.push_back(
+        {(1 - u) * corner(t, 0) + u * (1 - v) * corner(t, 1) + u * v * corner(t, 2), cross(t).normalized()});
+  }
+
+  // Shuffle them, so that the first few are spread evenly, too.
+  for (std::size_t i = samples.size() - 1; i > 0; --i) std::swap(samples[i], samples[random.bits() % (i + 1)]);
+  return samples;
+}
+
+KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
+  // Measure the mesh.
+  Vector3f lower = mesh.vertices.front(), upper = lower;
+  for (const Vector3f& v : mesh.vertices) lower = lower.cwiseMin(v), upper = upper.cwiseMax(v);
+  const Vector3d extent = (upper - lower).cast<double>(), centre = 0.5 * (lower + upper).cast<double>();
+  double radius = 0;
+  for (const Vector3f& v : mesh.vertices) radius = std::max(radius, (v.cast<double>() - centre).norm());
+
+  // Sample distances and surface.
+  const double cell = std::clamp(kCells * extent.maxCoeff(), kFinest, kCoarsest);
+  const MeshDistance distance(mesh.vertices, mesh.triangles);
+  DistanceGrid grid(distance, lower.cast<double>(), upper.cast<double>(), cell);
+  std::vector<SurfaceSample> samples = sample_surface(mesh);
+
+  // Leave out what one part of the object has within another one.
+  std::erase_if(samples, [&](const SurfaceSample& sample) { return grid.distance(sample.p) < -cell; });
+  return std::make_shared<KnownObject>(
+      KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius});
+}
+
+}  // namespace barehand

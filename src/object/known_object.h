@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "math/se3.h"
+#include "object/distance_grid.h"
+#include "object/object_mesh.h"
+
+namespace barehand {
+
+/// A place on the surface of an object with the outward unit normal, in the object's frame [m].
+struct SurfaceSample {
+  Eigen::Vector3f p, n;
+};
+
+/// An object whose shape is known. Immutable once made.
+struct KnownObject {
+  std::string name;
+  std::int32_t id = 0;                 ///< SeenObject::id of it
+  DistanceGrid grid;                   ///< signed distances
+  std::vector<SurfaceSample> samples;  ///< spread evenly over the surface, in random order
+  Eigen::Vector3d centre;              ///< of the bounding box
+  Eigen::Vector3d extent;              ///< size of the bounding box [m]
+  double radius = 0;                   ///< all of the surface is within this distance of the centre [m]
+};
+using KnownObjectPtr = std::shared_ptr<const KnownObject>;
+
+/// Prepares a closed mesh for tracking, which takes about a second. The frame of the object is that of the mesh.
+KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id);
+
+/// Places spread evenly over the surface of a mesh, in random order; always the same ones.
+std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh);
+
+/// Where a known object is in one frame.
+struct PosedObject {
+  KnownObjectPtr object;
+  SE3 T_camera_object;
+  Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
+};
+
+}  // namespace barehand

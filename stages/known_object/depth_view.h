@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "object/known_object.h"
+#include "observe/observation.h"
+
+namespace barehand {
+
+/// How much of an object a frame shows, counted in samples of the surface that would be seen if nothing were before it.
+struct Visibility {
+  int seen = 0;     ///< its surface is where the pose says
+  int hidden = 0;   ///< a hand is before it, or there is no measurement
+  int blocked = 0;  ///< something else is before it
+  int through = 0;  ///< the camera looks through the place where it would be
+
+  double shown() const { return seen / std::max(1.0, static_cast<double>(seen + hidden + blocked + through)); }
+  /// The part of what is not hidden that contradicts the pose.
+  double contradicted() const { return seen + through == 0 ? 1 : through / static_cast<double>(seen + through); }
+  /// The same, if nothing but hands is supposed to be before the object.
+  double doubtful() const { return (through + blocked) / std::max(1.0, static_cast<double>(seen + through + blocked)); }
+};
+
+/// The depth of one frame without its hands. The observations must be of one frame.
+class DepthView {
+ public:
+  explicit DepthView(const HandObservations& observations);
+
+  /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most.
+  void points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
+                   std::vector<Eigen::Vector3f>& points) const;
+  /// Compares the pose with the depth, with the first `samples` samples of the object.
+  Visibility visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const;
+  double noise() const { return noise_; }
+
+ private:
+  bool of_hand(int u, int v) const;
+
+  const HandObservations& observations_;
+  const RgbdFrame& frame_;
+  double noise_ = 0.001;
+};
+
+}  // namespace barehand

@@ -1,0 +1,66 @@
+#include "stages/known_object/object_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTogether = 6;     // k: neighbouring points that count as one
+constexpr double kAway = 0.1;       // cosine of a surface that faces the camera no more
+constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
+constexpr double kLeastTurn = 0.3;  // information about a rotation that nothing shows, as if it were known to 1.8 rad
+constexpr double kCoarse = 4;       // the first iterations take errors that are so many times as large for small
+
+}  // namespace
+
+SurfaceResidual surface_residual(const DistanceGrid& grid, const SE3& T, const Eigen::Vector3f& point) {
+  const Vector3d arm = point.cast<double>() - T.t;
+  const DistanceGrid::Sample sample = grid.sample((T.R.transpose() * arm).cast<float>());
+  SurfaceResidual residual;
+  residual.value = sample.distance;
+  residual.normal = T.R * sample.gradient.cast<double>();
+  residual.gradient << -residual.normal, residual.normal.cross(arm);
+  return residual;
+}
+
+FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> points, double sigma, const SE3& start,
+                    const PosePrior& prior, int iterations) {
+  FittedPose fitted{start, Matrix6d::Identity()};
+  SE3& T = fitted.T_camera_object;
+  const double unit = 1 / (kTogether * sigma * sigma);
+  Matrix6d information = prior.information;
+  for (int i = 0; i < iterations; ++i) {
+    // Begin with the prior. Iterations at the start see farther.
+    const double coarse = std::max(1.0, kCoarse * (1 - 2.0 * i / iterations));
+    const double scale_sq = 9 * sigma * sigma * coarse * coarse;
+    information = prior.information;
+    information.diagonal().tail<3>().array() += kLeastTurn;
+    Vector6d force = -prior.information * boxminus(T, prior.T_camera_object);
+
+    // Add the points.
+    for (const Eigen::Vector3f& point : points) {
+      const SurfaceResidual r = surface_residual(object.grid, T, point);
+      if (r.normal.dot(point.cast<double>()) > -kAway * point.cast<double>().norm() * r.normal.norm()) continue;
+      const double root = scale_sq / (scale_sq + r.value * r.value), weight = unit * root * root;
+      information.noalias() += weight * r.gradient * r.gradient.transpose();
+      force -= weight * r.value * r.gradient;
+    }
+
+    // Step.
+    information.diagonal().array() += 1e-9 * information.trace();
+    const Vector6d step = information.ldlt().solve(force);
+    if (!step.allFinite()) break;
+    T = boxplus(T, step);
+    if (step.norm() < kStep && coarse == 1) break;
+  }
+  T.R = orthonormalised(T.R);
+  fitted.covariance = information.inverse();
+  return fitted;
+}
+
+}  // namespace barehand

@@ -1,0 +1,155 @@
+#include "stages/known_object/object_search.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "stages/known_object/object_fit.h"
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr int kOrientations = 500;            // about 20 degrees apart
+constexpr std::size_t kFew = 80;              // points and samples that orientations are compared with
+constexpr std::size_t kLeastPoints = 25;      // around a place that is searched
+constexpr int kShifts = 4;                    // steps by which an orientation is moved into place
+constexpr int kCompared = 60, kRefined = 12;  // orientations that are compared with free space, and refined
+constexpr int kFewIterations = 6, kIterations = 12;
+constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
+constexpr double kOnSurface = 0.006, kReach = 0.015;
+constexpr std::size_t kSamples = 300;
+constexpr double kLeastShown = 0.2, kMostDoubtful = 0.15, kLeastExplained = 0.65;
+constexpr int kLeastSeen = 15;
+
+/// Orientations that cover all rotations evenly (super-Fibonacci spirals, Alexa 2022).
+std::vector<Eigen::Matrix3d> spiral(int count) {
+  constexpr double kPsi = 1.533751168755204288118041;
+  std::vector<Eigen::Matrix3d> rotations;
+  for (int i = 0; i < count; ++i) {
+    const double s = i + 0.5, a = 2 * std::numbers::pi * s / std::numbers::sqrt2, b = 2 * std::numbers::pi * s / kPsi;
+    const double r = std::sqrt(s / count), q = std::sqrt(1 - s / count);
+    rotations.push_back(Eigen::Quaterniond(q * std::cos(b), r * std::sin(a), r * std::cos(a), q * std::sin(b))
+                            .normalized()
+                            .toRotationMatrix());
+  }
+  return rotations;
+}
+
+/// A weak prior, which keeps a pose in place that no points hold.
+PosePrior anywhere_near(const SE3& T) {
+  constexpr double kShift = 0.05, kTurn = 1;
+  PosePrior prior{T};
+  prior.information.diagonal() << Vector3d::Constant(1 / (kShift * kShift)), Vector3d::Constant(1 / (kTurn * kTurn));
+  return prior;
+}
+
+}  // namespace
+
+PoseQuality quality_of(const KnownObject& object, const DepthView& view, const SE3& T_camera_object,
+                       std::span<const Vector3f> points) {
+  PoseQuality quality;
+  quality.visibility = view.visibility(object, T_camera_object, kSamples);
+
+  // Count the points that could be the object, and those that are.
+  const SE3 T_object_camera = T_camera_object.inverse();
+  const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
+  const Vector3f t = T_object_camera.t.cast<float>(), centre = object.centre.cast<float>();
+  const auto radius_sq = static_cast<float>(object.radius * object.radius);
+  int within = 0, on_surface = 0;
+  for (const Vector3f& point : points) {
+    const Vector3f p = R * point + t;
+    if ((p - centre).squaredNorm() > radius_sq) continue;
+    ++within;
+    on_surface += std::abs(object.grid.distance(p)) < kOnSurface;
+  }
+  quality.explained = on_surface / std::max(1.0, static_cast<double>(within));
+  return quality;
+}
+
+ObjectSearch::ObjectSearch() : orientations_(spiral(kOrientations)) {}
+
+/// Moves an orientation so that the side that it shows lies over the middle of the points, and refines it on the few.
+SE3 ObjectSearch::place(const KnownObject& object, const Eigen::Matrix3d& R, const Vector3d& middle) const {
+  const Vector3f view = (R.transpose() * middle.normalized()).cast<float>();
+  Vector3f shown = Vector3f::Zero();
+  float count = 0;
+  for (std::size_t i = 0; i < std::min(kFew, object.samples.size()); ++i)
+    if (object.samples[i].n.dot(view) < 0) shown += object.samples[i].p, ++count;
+  const SE3 start{R, middle - R * (shown / std::max(1.f, count)).cast<double>()};
+  return fit_pose(object, few_, kScale / 3, start, anywhere_near(start), kFewIterations).T_camera_object;
+}
+
+/// How badly a pose fits the few points: between 0 and 1.
+double ObjectSearch::misfit(const KnownObject& object, const SE3& T) const {
+  const SE3 T_object_camera = T.inverse();
+  const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
+  const Vector3f t = T_object_camera.t.cast<float>();
+  double sum = 0;
+  for (const Vector3f& p : few_) {
+    const double d = object.grid.distance(R * p + t);
+    sum += d * d / (kScale * kScale + d * d);
+  }
+  return sum / static_cast<double>(few_.size());
+}
+
+/// Collects the points that the object could cover if it were at the place, and moves the place to their middle.
+Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3f> points, Vector3f middle) {
+  const auto radius_sq = static_cast<float>(object.radius * object.radius);
+  for (int i = 0; i < kShifts; ++i) {
+    around_.clear();
+    Vector3f sum = Vector3f::Zero();
+    for (const Vector3f& p : points) {
+      if ((p - middle).squaredNorm() > radius_sq) continue;
+      around_.push_back(p);
+      sum += p;
+    }
+    if (around_.empty()) break;
+    middle = sum / static_cast<float>(around_.size());
+  }
+
+  // Choose a few of them.
+  few_.clear();
+  const std::size_t step = around_.size() / kFew + 1;
+  for (std::size_t i = 0; i < around_.size(); i += step) few_.push_back(around_[i]);
+  return middle;
+}
+
+std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const DepthView& view,
+                                              std::span<const Vector3f> points, const Vector3f& seed) {
+  const Vector3d middle = gather(object, points, seed).cast<double>();
+  if (around_.size() < kLeastPoints) return std::nullopt;
+
+  // Try the orientations; compare the better ones with what is seen through them, too.
+  std::vector<std::pair<double, SE3>> tried;
+  for (const Eigen::Matrix3d& R : orientations_) {
+    const SE3 T = place(object, R, middle);
+    tried.emplace_back(misfit(object, T), T);
+  }
+  const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::nth_element(tried.begin(), tried.begin() + kCompared, tried.end(), less);
+  tried.resize(kCompared);
+  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFew).doubtful();
+  std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
+  tried.resize(kRefined);
+
+  // Refine the best ones.
+  std::optional<FoundPose> found;
+  for (const auto& [cost, start] : tried) {
+    near_.assign(few_.begin(), few_.end());
+    view.points_near(object, start, kReach, 4 * kFew, near_);
+    const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kIterations).T_camera_object;
+    const FoundPose pose{T, quality_of(object, view, T, points)};
+    if (!found || pose.quality.cost() < found->quality.cost()) found = pose;
+  }
+  const auto& [visibility, explained] = found->quality;
+  if (visibility.shown() < kLeastShown || visibility.seen < kLeastSeen || visibility.doubtful() > kMostDoubtful ||
+      explained < kLeastExplained)
+    return std::nullopt;
+  return found;
+}
+
+}  // namespace barehand

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "object/known_object.h"
+#include "stages/known_object/depth_view.h"
+
+namespace barehand {
+
+/// How well a pose agrees with a frame.
+struct PoseQuality {
+  Visibility visibility;
+  double explained = 0;  ///< fraction of the points within the object's bounding sphere that lie on its surface
+  double cost() const { return 1 - explained + 2 * visibility.doubtful(); }
+};
+
+/// A pose that was found, with its quality.
+struct FoundPose {
+  SE3 T_camera_object;
+  PoseQuality quality;
+};
+
+/// Looks for an object around a place without any idea of its pose: tries hundreds of orientations, moves each until it
+/// fits, and refines the best ones. The result depends on the points only. Reuses its memory.
+class ObjectSearch {
+ public:
+  ObjectSearch();
+  /// `points`: of everything that may be the object; `seed`: the place [m]. None: no pose agrees with the frame.
+  std::optional<FoundPose> search(const KnownObject& object, const DepthView& view,
+                                  std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
+
+ private:
+  SE3 place(const KnownObject& object, const Eigen::Matrix3d& R, const Eigen::Vector3d& middle) const;
+  Eigen::Vector3f gather(const KnownObject& object, std::span<const Eigen::Vector3f> points, Eigen::Vector3f middle);
+  double misfit(const KnownObject& object, const SE3& T) const;
+
+  std::vector<Eigen::Matrix3d> orientations_;
+  std::vector<Eigen::Vector3f> around_, few_, near_;  // points around the place, a few of them, points near a pose
+};
+
+/// The quality of a pose. `points`: of everything that may be the object.
+PoseQuality quality_of(const KnownObject& object, const DepthView& view, const SE3& T_camera_object,
+                       std::span<const Eigen::Vector3f> points);
+
+}  // namespace barehand
