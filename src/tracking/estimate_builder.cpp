@@ -9,6 +9,7 @@ namespace barehand {
 namespace {
 
 constexpr double kMicro = 1e-6;
+constexpr double kBadDeviation = 0.03;  // additional deviation of every segment in a bad frame [m]
 
 // Probability that both ends of the segment lie within kConfidenceRadius of their true positions, approximated by that
 // of the less certain end.
@@ -40,7 +41,7 @@ void EstimateBuilder::change() {
 }
 
 HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen,
-                                       const PersonModel& person, Decisions decisions) {
+                                       bool bad, const PersonModel& person, Decisions decisions) {
   auto out = std::allocate_shared<HandEstimate>(FrameAllocator<HandEstimate>());
   out->utime = observation.frame->utime;
   out->number = observation.frame->number;
@@ -51,7 +52,7 @@ HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, Track
   out->profile = person.shared_profile();
   out->decisions = std::move(decisions);
   if (status == TrackStatus::tracking && chosen) {
-    fill_segments(*out, *chosen, person.size_in_view());
+    fill_segments(*out, *chosen, bad, person.size_in_view());
     last_tracked_ = out;
   } else if (last_tracked_ && (status == TrackStatus::holding || status == TrackStatus::lost)) {
     fill_held(*out);
@@ -59,7 +60,7 @@ HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, Track
   return out;
 }
 
-void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen, double size_in_view) {
+void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen, bool bad, double size_in_view) {
   const RefinedPose& refined = chosen.refined;
   const TrackerParams& params = context_.params;
   out.score = refined.score;
@@ -79,6 +80,7 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
     state.T_camera_segment = refined.pose[s];
     state.covariance = covariance[s];
     if (size_in_view != 1) state.covariance += scale_doubt(refined.pose[s], size_in_view);
+    if (bad) state.covariance.diagonal().head<3>().array() += kBadDeviation * kBadDeviation;
     state.visible = refined.visible[s];
     state.seen = !hidden[s];
     state.confidence = confidence(*out.profile, state, s);

@@ -32,12 +32,13 @@ class EstimateBuilder {
   /// Forgets the last tracked pose.
   void reset() { last_tracked_.reset(); }
 
-  /// `chosen`: the pose of this frame; null: there is none. It is used only if `status` is tracking.
-  HandEstimatePtr build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen,
+  /// `chosen`: the pose of this frame; null: there is none. It is used only if `status` is tracking. `bad`: its score
+  /// is that of a bad frame, so that the hand may be in another pose, or elsewhere.
+  HandEstimatePtr build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen, bool bad,
                         const PersonModel& person, Decisions decisions);
 
  private:
-  void fill_segments(HandEstimate& out, const Hypothesis& chosen, double size_in_view);
+  void fill_segments(HandEstimate& out, const Hypothesis& chosen, bool bad, double size_in_view);
   void fill_held(HandEstimate& out) const;
 
   const TrackerContext& context_;

@@ -79,7 +79,9 @@ HandEstimatePtr HandTracker::conclude(const HandObservation& observation, const 
   if (tracked) commit(observation, *best);
 
   // Build the estimate before learning: the pose refers to the hand model as it was in this frame.
-  HandEstimatePtr estimate = estimates_.build(observation, status, best ? &*best : nullptr, person_, choice_.take());
+  const bool bad = evidence.score && *evidence.score > track_.state.bad_threshold(evidence);
+  HandEstimatePtr estimate =
+      estimates_.build(observation, status, best ? &*best : nullptr, bad, person_, choice_.take());
 
   // Learn the person.
   const bool good = tracked && best->score() < track_.state.good_threshold(evidence);

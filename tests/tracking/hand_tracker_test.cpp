@@ -71,6 +71,25 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
   }
 }
 
+TEST(HandTracker, IsNotConfidentInABadFrame) {
+  const std::shared_ptr<const HandProfile> profile = test::adult_hand();
+  const HandPose pose = test::facing_pose(*profile, 0.5);
+  const HandObservationPtr hand = test::observe_skin(make_blended_skin(*profile, 0.004), pose);
+  const auto confidence_if_bad_above = [&](double lost_score) {
+    TrackerParams params = test::quick_tracker();
+    params.loss.lost_score = params.loss.recovered_score = lost_score;
+    params.loss.noise_factor = 0;
+    Workers workers(1);
+    HandTracker tracker(params, profile, 1, workers);
+    tracker.apply(StartAt{pose});
+    const HandEstimatePtr estimate = tracker.process(*test::stamped(*hand, 33'000));
+    EXPECT_EQ(estimate->status, TrackStatus::tracking);
+    return estimate->segments[kPalm].confidence;
+  };
+  EXPECT_GT(confidence_if_bad_above(0.02), 0.9);
+  EXPECT_LT(confidence_if_bad_above(1e-5), 0.3);
+}
+
 TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
   TrackerParams params = test::quick_tracker();
   params.skin_cell = 0.006;  // m: coarse, for few unknowns, but finer than what the scan corrects
