@@ -33,7 +33,7 @@ const GraspProbabilities& GraspFilter::add(const std::array<double, kGraspCount>
   const auto best =
       static_cast<int>(std::max_element(probabilities_.begin() + 1, probabilities_.end()) - probabilities_.begin());
   if (grasp_ == 0) {
-    if (any > kAdvantage * none) grasp_ = best;
+    if (any > none) grasp_ = best;
   } else if (none > kAdvantage * any) {
     grasp_ = 0;
   } else if (probabilities_[best] > kAdvantage * probabilities_[grasp_]) {

@@ -16,7 +16,8 @@ class GraspFilter {
   void reset();
   /// Adds what a frame says, `seconds` after the last one.
   const GraspProbabilities& add(const std::array<double, kGraspCount>& log_probabilities, double seconds);
-  /// 0 unless any grasp is more probable than none; otherwise the most probable class; both with hysteresis.
+  /// A grasp as soon as all together are more probable than none, and until none is clearly more probable; the class
+  /// changes to one that is clearly more probable.
   int grasp() const { return grasp_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -225,6 +226,39 @@ TEST_F(EvalCommand, PathsNeedNotBeUtf8) {
   EXPECT_EQ(run("eval --truth %/truth.csv --result " + old + " --json %/e.json"), 0) << err_;
   const json report = json::parse(test::read_text(folder_ / "e.json"));
   EXPECT_THAT(report["runs"][0]["result"].get<std::string>(), HasSubstr("mess\xef\xbf\xbdng.csv"));
+}
+
+TEST_F(EvalCommand, ComparesGraspsAlsoWithoutTheTruthOfPoses) {
+  // Four frames with a pinch, one of which is taken for a ring.
+  auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
+  ASSERT_TRUE(log);
+  std::string table = "utime,grasp\n";
+  for (int frame = 0; frame < 4; ++frame) {
+    grasp_state_t state{};
+    state.utime = 1'000'000 + 100'000 * frame;
+    state.handedness = hand_state_t::RIGHT;
+    state.grasp = frame == 2 ? grasp_state_t::RING : grasp_state_t::PINCH;
+    state.kind = frame == 2 ? grasp_state_t::POWER : grasp_state_t::PRECISION;
+    state.probability = 0.95;
+    ASSERT_TRUE((*log)->send("GRASP_STATE", encode_message(state), state.utime));
+    table += std::to_string(state.utime) + ",pinch\n";
+  }
+  ASSERT_TRUE((*log)->finish());
+  std::ofstream(folder_ / "grasps.csv") << table;
+
+  ASSERT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --json %/e.json"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("ring 25.0"));
+  const json report = json::parse(test::read_text(folder_ / "e.json"))["grasps"];
+  EXPECT_EQ(report["held"]["frames"], 4);
+  EXPECT_EQ(report["held"]["right"], 0.75);
+  EXPECT_EQ(report["held"]["right_kind"], 0.75);
+  EXPECT_EQ(report["held"]["confident_wrong"], 0.25);
+  EXPECT_NEAR(report["changes_per_second"], 2 / 0.3, 1e-6);
+
+  EXPECT_EQ(run("eval --states %/states.lcmlog --grasps a.csv b.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("--grasps is given 2 times"));
+  EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/truth.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("header"));
 }
 
 }  // namespace

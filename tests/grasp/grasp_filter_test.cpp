@@ -86,6 +86,25 @@ TEST(GraspFilter, SimilarGraspsTogetherAreAGrasp) {
   EXPECT_EQ(filter.grasp(), kWrap);
 }
 
+TEST(GraspFilter, AGraspBeginsEarlierThanItEnds) {
+  const auto none_with = [](double probability) {
+    std::array<double, kGraspCount> out;
+    out.fill(std::log(0.01 / 16));
+    out[0] = std::log(probability);
+    out[kPinch] = std::log(0.99 - probability);
+    return out;
+  };
+  GraspFilter filter = filter_after(0);
+  for (int n = 0; n < 60; ++n) filter.add(none_with(0.52), kFrame);
+  EXPECT_EQ(filter.grasp(), 0);
+  for (int n = 0; n < 60; ++n) filter.add(none_with(0.47), kFrame);
+  EXPECT_EQ(filter.grasp(), kPinch);
+  for (int n = 0; n < 60; ++n) filter.add(none_with(0.55), kFrame);
+  EXPECT_EQ(filter.grasp(), kPinch);
+  for (int n = 0; n < 60; ++n) filter.add(none_with(0.65), kFrame);
+  EXPECT_EQ(filter.grasp(), 0);
+}
+
 TEST(GraspFilter, FramesThatComeTwiceAsOftenCountHalfAsMuch) {
   GraspFilter slow = filter_after(0), fast = filter_after(0);
   double of_slow = 0, of_fast = 0;

@@ -24,9 +24,8 @@ ABDUCTION = np.isin(np.arange(ANGLES), (1, 3, 6, 10, 14, 18))
 GRASPED = 1.9   # s, when the sequences begin to hold the object
 CLOSING = 0.6   # s before and after a grasp that are neither learned nor counted
 ROWS = ("none",) * 17 + CLASSES[1:]  # row k: a hand that is open for class k + 1; row 17 + k: that holds so
-NONE_WEIGHT = 4  # of all hands that hold nothing, against one class
+NONE_WEIGHT = 3  # of all hands that hold nothing, against one class
 MEMORY = 0.3  # of the filter [s]
-SHARES = (0.0, 0.3, 1.0)  # of tracked examples against planned ones
 FACTORS = (0.5, 1.0, 2.0)  # of the spread that the covariance of the pose implies
 SEED = 1
 
@@ -42,8 +41,8 @@ class Examples:
 
 
 def noisy(planned, errors, random, repeats):
-    """Planned examples with errors of the tracker, and their rows: what it got wrong in a frame of another sequence
-    (`errors`: one array [n, 52] for each sequence), or errors of joints that are drawn."""
+    """Planned examples with errors, and their rows. In the first copy the errors of joints are drawn; in the others they
+    are what the tracker got wrong in a frame of another sequence (`errors`: one array [n, 52] for each), too."""
     parts = []
     for repeat in range(repeats):
         n = len(planned.x)
@@ -53,7 +52,7 @@ def noisy(planned, errors, random, repeats):
         own = random.normal(size=(n, ANGLES))
         error = np.einsum("nfa,na->nf", planned.spread,
                           deviation * np.where(ABDUCTION, 0.5 * own, 0.7 * together + 0.7 * own))
-        if errors and repeat % 2 == 1:
+        if repeat > 0:
             chosen = [errors[k][random.integers(len(errors[k]))] for k in random.integers(len(errors), size=n)]
             error = 0.3 * error + np.array(chosen)
         parts.append(planned.x + error)
@@ -72,16 +71,15 @@ def truth_of(folder):
 
 
 def labels_of(tracked, truth):
-    """The true class of each example, -1 where the hand closes or opens, and its row of the classifier."""
-    label, row = np.full(len(tracked.x), -1), np.full(len(tracked.x), -1)
+    """The true class of each example, -1 where the hand closes or opens."""
+    label = np.full(len(tracked.x), -1)
     for number, (seconds, classes) in enumerate(truth):
         rows = np.flatnonzero(tracked.origin == number)
         at = np.clip(np.searchsorted(seconds, tracked.second[rows] - 1e-3), 0, len(seconds) - 1)
         held = seconds[classes > 0]
         near = (seconds > held[0] - CLOSING) & (seconds < held[-1] + CLOSING) & (classes == 0)
         label[rows] = np.where(near[at], -1, classes[at])
-        row[rows] = classes.max() - 1 + np.where(label[rows] > 0, 17, 0)
-    return label, row
+    return label
 
 
 def softmax(score):
@@ -133,7 +131,7 @@ def filtered(log_p, seconds, memory):
         p = softmax(mean[None])[0]
         best = 1 + int(p[1:].argmax())
         if stated == 0:
-            stated = best if 1 - p[0] > 1.5 * p[0] else 0
+            stated = best if p[0] < 0.5 else 0
         elif p[0] > 1.5 * (1 - p[0]):
             stated = 0
         elif p[best] > 1.5 * p[stated]:
@@ -183,7 +181,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=4, help="copies of each planned example with errors")
     a = parser.parse_args()
     planned, tracked, truth = Examples(a.planned), Examples(a.tracked), truth_of(a.sequences)
-    label, row = labels_of(tracked, truth)
+    label = labels_of(tracked, truth)
 
     # Tracked sequences that show a grasp, and what the tracker got wrong in them.
     exact = Examples(a.exact)
@@ -194,31 +192,24 @@ def main():
     errors = [tracked.x[rows] - np.array([by_time[seeds[tracked.origin[i]], round(tracked.second[i] * 1000)] for i in rows])
               for rows in sequences]
 
-    def train(learned, share):
-        """A classifier from the planned examples, with the tracker's errors in these sequences, and the sequences
-        themselves, which count `share` times as much."""
-        random = np.random.default_rng(SEED)
-        x, rows = noisy(planned, [errors[k] for k in learned], random, a.repeats)
-        own = np.concatenate([sequences[k] for k in learned])
-        return Classifier(np.concatenate((x, tracked.x[own])), np.concatenate((rows, row[own])),
-                          np.concatenate((balanced(rows), share * balanced(row[own]))))
+    def train(learned):
+        """A classifier from the planned examples with the tracker's errors in these sequences."""
+        x, rows = noisy(planned, [errors[k] for k in learned], np.random.default_rng(SEED), a.repeats)
+        return Classifier(x, rows, balanced(rows))
 
-    # Choose what tracked sequences count and the factor of the spread, each sequence judged by a classifier that has not
-    # learned from it.
-    choices = {}
-    for share in SHARES:
-        folds = [(train([k for k in range(len(sequences)) if k % 3 != fold], share), sequences[fold::3])
-                 for fold in range(3)]
-        for factor in FACTORS:
-            figures = [evaluate(classifier, tracked, label, left_out, factor) for classifier, left_out in folds]
-            mean = {key: float(np.mean([f[key] for f in figures])) for key in figures[0]}
-            choices[mean["loss"], share, factor] = mean
-            show(f"share {share} factor {factor}", mean)
-    _, share, factor = min(choices)
+    # Choose the factor of the spread, each sequence judged by a classifier without its errors.
+    folds = [(train([k for k in range(len(sequences)) if k % 3 != fold]), sequences[fold::3]) for fold in range(3)]
+    losses = {}
+    for factor in FACTORS:
+        figures = [evaluate(classifier, tracked, label, left_out, factor) for classifier, left_out in folds]
+        mean = {key: float(np.mean([f[key] for f in figures])) for key in figures[0]}
+        losses[mean["loss"]] = factor
+        show(f"factor {factor}", mean)
+    factor = losses[min(losses)]
 
-    # Train on all sequences.
-    classifier = train(range(len(sequences)), share)
-    show(f"chosen: share {share} factor {factor}; on the same sequences", evaluate(classifier, tracked, label, sequences, factor))
+    # Train with the errors in all sequences.
+    classifier = train(range(len(sequences)))
+    show(f"chosen: {factor}; on the same sequences", evaluate(classifier, tracked, label, sequences, factor))
     a.out.write_text(file_text(classifier, factor), encoding="ascii")
 
 
