@@ -2,10 +2,8 @@
 """Measures the contacts of docs/contacts.md: simulates grasps, tracks each with its own hand profile, and compares what
 is stated with the truth.
   tools/measure/measure_contacts.py BAREHAND OUT [SEQUENCE ...]
-SEQUENCE is what `barehand track --source sim:` takes, without noise for `grasp`: even seeds have the noise of a Kinect,
-odd ones that of a time-of-flight camera. By default these are the 30 sequences and the four older ones of the page. What
-is in OUT already is not simulated or tracked again. Prints one row a sequence, then the figures of all grasps, and of the
-older ones."""
+SEQUENCE is what `barehand track --source sim:` takes. By default these are the sequences of the page. What is in OUT
+already is not simulated or tracked again. Prints one row a sequence, then the figures of each group together."""
 import json
 import os
 import subprocess
@@ -13,7 +11,8 @@ import sys
 
 OLDER = ["grasp_mug,noise=kinect,seed=11", "grasp_ball,noise=kinect,seed=11",
          "grasp_mug,noise=kinect,seed=77,scale=1.1", "grasp_ball,noise=tof,seed=78,scale=0.92"]
-TEST = [f"grasp,noise={'tof' if seed % 2 else 'kinect'},seed={seed}" for seed in range(1000001, 1000031)]
+FIRST, OTHERS = ([f"grasp,noise={'tof' if seed % 2 else 'kinect'},seed={seed}" for seed in seeds]
+                 for seeds in (range(1000001, 1000031), range(1000031, 1000047)))
 RATE = 15  # frames per second
 TIPS = ["visible_fingertips", "partly_visible_fingertips", "hidden_fingertips"]
 
@@ -57,7 +56,8 @@ def main(barehand, out, *sequences):
     with open(os.path.join(out, "contacts.yaml"), "w") as config:
         config.write("contact:\n  enabled: true\n")
     print("| sequence | visible fingertips | in part | hidden |\n|---|---|---|---|")
-    for title, group in ((("given", sequences),) if sequences else (("test objects", TEST), ("older ones", OLDER))):
+    for title, group in ((("given", sequences),) if sequences else (("first grasps", FIRST), ("other grasps", OTHERS),
+                                                                 ("older ones", OLDER))):
         folders = []
         for sequence in group:
             folders.append(prepare(barehand, out, sequence))
