@@ -60,8 +60,12 @@ def main(barehand, out, *sequences):
                                                                  ("older ones", OLDER))):
         folders = []
         for sequence in group:
-            folders.append(prepare(barehand, out, sequence))
-            row(sequence, evaluate(barehand, folders[-1:]))
+            folder = prepare(barehand, out, sequence)
+            try:
+                row(sequence, evaluate(barehand, [folder]))
+                folders.append(folder)
+            except subprocess.CalledProcessError as error:  # such as a hand that was never tracked
+                print("| " + sequence + " | left out: " + error.stderr.decode().strip() + " | | |", flush=True)
         together = evaluate(barehand, folders)
         row(title, together)
         for bin in together["touching"]:
