@@ -12,10 +12,9 @@ using Eigen::Vector3f;
 
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-// Fitted to simulated grasps. The error of the distance is smaller towards a touch, since skin does not enter objects;
-// a segment that is hidden so near to an object mostly touches it; and some objects are too thin or too dark to be
-// seen.
-constexpr double kNearer = 1.6, kHidden[2] = {0.7, 0.7}, kOverlooked = 0.03;
+// Fitted to simulated grasps: towards a touch, the error of the distance is smaller, since skin does not enter objects;
+// and some objects are too thin or too dark to be seen.
+constexpr double kNearer = 1.6, kOverlooked = 0.03;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
@@ -153,7 +152,7 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     // Where little of the segment is seen, there may be something nearer than what was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
-    judge(contact, visible ? (below > 0 ? kNearer * below : below) : kHidden[0] + kHidden[1] * below);
+    judge(contact, visible && below > 0 ? kNearer * below : below);
     if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
