@@ -17,7 +17,10 @@ constexpr double kSkinChange = 0.0005;     // change of a bone or a section that
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
 constexpr float kWrist = 0.02f;            // skin of the palm nearer to the wrist than this lies on the sleeve [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-constexpr float kOwnSkin = 0.004f;         // points this near to skin that faces the same way are the hand's own [m]
+// How much the odds of a touch rise if the segment is hidden and its hand holds the object: fingers that are not seen
+// rest on what the hand holds.
+constexpr double kHolds = 3;
+constexpr float kOwnSkin = 0.004f;  // points this near to skin that faces the same way are the hand's own [m]
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
@@ -86,7 +89,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     HandContacts& contacts = out->hands[k];
     touch_objects(hands_[k], *estimates[k], observations[k]->noise, contacts.object);
     for (int s = 0; s < kSegmentCount; ++s)
-      touch_known(hands_[k].skin[s], estimates[k]->segments[s], contacts.object[s]);
+      touch_known(hands_[k].skin[s], estimates[k]->segments[s], estimates[k]->hand_id, contacts.object[s]);
     touch_itself(hands_[k], *estimates[k], contacts.own);
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
@@ -157,7 +160,8 @@ void ContactStage::find_known(const HandObservations& observations, const HandEs
 }
 
 /// The distance of a segment from the known objects, all of whose surface is known. Nothing changes if none is near.
-void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segment, Contact& contact) const {
+void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segment, std::int32_t hand_id,
+                               Contact& contact) const {
   for (const PosedObject& known : known_) {
     // Find the place of the skin that is nearest, or deepest inside.
     const SE3 T_object_camera = known.T_camera_object.inverse();
@@ -183,7 +187,7 @@ void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segmen
                                   kSkinDeviation * kSkinDeviation);
     contact.inferred = !segment.seen;
     contact.partner = known.object->id;
-    judge(contact);
+    judge(contact, contact.inferred && known.hand_id == hand_id ? kHolds : 1);
   }
 }
 
@@ -274,10 +278,12 @@ Contact ContactStage::touch_of_skins(double distance, double variance, const Seg
   return contact;
 }
 
-/// Sets the probability of a touch, and the state, from the distance and its deviation.
-void ContactStage::judge(Contact& contact) const {
-  contact.probability =
+/// Sets the probability of a touch, and the state, from the distance and its deviation. `odds`: how much more likely a
+/// touch is for other reasons.
+void ContactStage::judge(Contact& contact, double odds) const {
+  const double p =
       0.5 * std::erfc((contact.distance - params_.touch_distance) / (contact.deviation * std::numbers::sqrt2));
+  contact.probability = odds * p / (odds * p + 1 - p);
   contact.state = contact.probability >= 0.5                 ? ContactState::touching
                   : contact.distance < params_.near_distance ? ContactState::near
                                                              : ContactState::none;
