@@ -17,7 +17,7 @@ constexpr double kSkinChange = 0.0005;     // change of a bone or a section that
 constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
 constexpr float kWrist = 0.02f;            // skin of the palm nearer to the wrist than this lies on the sleeve [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-// How much the odds of a touch rise if the segment is hidden and its hand holds the object: fingers that are not seen
+// How much the odds of a touch rise if it is a hidden fingertip and its hand holds the object: tips that are not seen
 // rest on what the hand holds.
 constexpr double kHolds = 3;
 constexpr float kOwnSkin = 0.004f;  // points this near to skin that faces the same way are the hand's own [m]
@@ -88,8 +88,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     if (!tracked(*estimates[k])) continue;
     HandContacts& contacts = out->hands[k];
     touch_objects(hands_[k], *estimates[k], observations[k]->noise, contacts.object);
-    for (int s = 0; s < kSegmentCount; ++s)
-      touch_known(hands_[k].skin[s], estimates[k]->segments[s], estimates[k]->hand_id, contacts.object[s]);
+    for (int s = 0; s < kSegmentCount; ++s) touch_known(hands_[k], *estimates[k], s, contacts.object[s]);
     touch_itself(hands_[k], *estimates[k], contacts.own);
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
@@ -160,8 +159,9 @@ void ContactStage::find_known(const HandObservations& observations, const HandEs
 }
 
 /// The distance of a segment from the known objects, all of whose surface is known. Nothing changes if none is near.
-void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segment, std::int32_t hand_id,
-                               Contact& contact) const {
+void ContactStage::touch_known(const Hand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
+  const PosedSkin& skin = hand.skin[s];
+  const SegmentState& segment = estimate.segments[s];
   for (const PosedObject& known : known_) {
     // Find the place of the skin that is nearest, or deepest inside.
     const SE3 T_object_camera = known.T_camera_object.inverse();
@@ -187,7 +187,8 @@ void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segmen
                                   kSkinDeviation * kSkinDeviation);
     contact.inferred = !segment.seen;
     contact.partner = known.object->id;
-    judge(contact, contact.inferred && known.hand_id == hand_id ? kHolds : 1);
+    const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
+    judge(contact, holds ? kHolds : 1);
   }
 }
 
