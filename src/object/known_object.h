@@ -36,6 +36,7 @@ struct PosedObject {
   KnownObjectPtr object;
   SE3 T_camera_object;
   Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
+  std::int32_t hand_id = -1;                   ///< the hand that holds it; -1: none
 };
 
 }  // namespace barehand

@@ -15,6 +15,9 @@ constexpr double kVisible = 0.5;           // visible fraction of a segment that
 // Fitted to simulated grasps: towards a touch, the error of the distance is smaller, since skin does not enter objects;
 // and some objects are too thin or too dark to be seen.
 constexpr double kNearer = 1.6, kOverlooked = 0.03;
+// How much the odds of a touch rise if it is a hidden fingertip and its hand holds the object: tips that are not seen
+// rest on what the hand holds.
+constexpr double kHolds = 3;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
@@ -74,8 +77,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     if (!tracked(*estimates[k])) continue;
     HandContacts& contacts = out->hands[k];
     touch_objects(hands_[k], *estimates[k], observations[k]->noise, contacts.object);
-    for (int s = 0; s < kSegmentCount; ++s)
-      touch_known(hands_[k].skin(s), estimates[k]->segments[s], contacts.object[s]);
+    for (int s = 0; s < kSegmentCount; ++s) touch_known(hands_[k], *estimates[k], s, contacts.object[s]);
     touch_itself(hands_[k], *estimates[k], contacts.own);
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
@@ -95,7 +97,9 @@ void ContactStage::find_known(const HandObservations& observations, const HandEs
 }
 
 /// The distance of a segment from the known objects, all of whose surface is known. Nothing changes if none is near.
-void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segment, Contact& contact) const {
+void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
+  const PosedSkin& skin = hand.skin(s);
+  const SegmentState& segment = estimate.segments[s];
   for (const PosedObject& known : known_) {
     // Find the place of the skin that is nearest, or deepest inside.
     const SE3 T_object_camera = known.T_camera_object.inverse();
@@ -121,7 +125,8 @@ void ContactStage::touch_known(const PosedSkin& skin, const SegmentState& segmen
                                   kSkinDeviation * kSkinDeviation);
     contact.inferred = !segment.seen;
     contact.partner = known.object->id;
-    judge(contact, (params_.touch_distance - contact.distance) / contact.deviation);
+    const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
+    judge(contact, (params_.touch_distance - contact.distance) / contact.deviation, holds ? kHolds : 1);
   }
 }
 
@@ -216,10 +221,12 @@ Contact ContactStage::touch_of_skins(double distance, double variance, const Seg
   return contact;
 }
 
-/// Sets the probability of a touch, and the state, from the distance in deviations below the touch distance.
-void ContactStage::judge(Contact& contact, double deviations) const {
-  contact.probability = 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
-  contact.state = contact.distance <= params_.touch_distance ? ContactState::touching
+/// Sets the probability of a touch, and the state, from the distance in deviations below the touch distance. `odds`:
+/// how much more likely a touch is for other reasons.
+void ContactStage::judge(Contact& contact, double deviations, double odds) const {
+  const double p = 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
+  contact.probability = odds * p / (odds * p + 1 - p);
+  contact.state = contact.probability >= 0.5                 ? ContactState::touching
                   : contact.distance < params_.near_distance ? ContactState::near
                                                              : ContactState::none;
 }

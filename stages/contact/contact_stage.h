@@ -38,11 +38,11 @@ class ContactStage {
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
   void find_known(const HandObservations& observations, const HandEstimates& estimates,
                   FrameVector<SeenObject>& objects);
-  void touch_known(const PosedSkin& skin, const SegmentState& segment, Contact& contact) const;
+  void touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const;
   void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
-  void judge(Contact& contact, double deviations) const;
+  void judge(Contact& contact, double deviations, double odds = 1) const;
 
   ContactParams params_;
   KnownObjectFinder find_known_;  // empty: there are none

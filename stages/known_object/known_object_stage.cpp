@@ -40,7 +40,7 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
     const auto seen = tracker.process(observations.front()->frame->utime, view, estimates, free_);
     if (!seen) continue;
     known.push_back(*seen);
-    posed.push_back({tracker.object(), seen->T_camera_object, seen->covariance});
+    posed.push_back({tracker.object(), seen->T_camera_object, seen->covariance, seen->hand_id});
     const SE3 T_object_camera = seen->T_camera_object.inverse();
     for (SurfacePoint& point : points) {
       const Eigen::Vector3f p = (T_object_camera * point.p.cast<double>()).cast<float>();

@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kPoints = 800;  // of the depth that a pose is refined on
-constexpr std::size_t kFew = 200;     // of the depth that predictions are compared with
-constexpr int kIterations = 10;
+constexpr std::size_t kPoints = 2000;  // of the depth that a pose is refined on
+constexpr std::size_t kFew = 200;      // of the depth that predictions are compared with
+constexpr int kIterations = 15;
 constexpr double kReach = 0.02;      // distance from the prediction of points that may be the object's [m]
 constexpr double kModel = 0.001;     // deviation of the mesh from the object [m]
 constexpr double kCompared = 0.006;  // errors larger than this count as outliers in the comparison of predictions [m]

@@ -14,7 +14,7 @@ constexpr double kTogether = 6;     // k: neighbouring points that count as one
 constexpr double kAway = 0.1;       // cosine of a surface that faces the camera no more
 constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
 constexpr double kLeastTurn = 0.3;  // information about a rotation that nothing shows, as if it were known to 1.8 rad
-constexpr double kCoarse = 4;       // the first iterations take errors that are so many times as large for small
+constexpr double kCoarse = 6;       // the first iterations take errors that are so many times as large for small
 
 }  // namespace
 
@@ -37,7 +37,7 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
   for (int i = 0; i < iterations; ++i) {
     // Begin with the prior. Iterations at the start see farther.
     const double coarse = std::max(1.0, kCoarse * (1 - 2.0 * i / iterations));
-    const double scale_sq = 9 * sigma * sigma * coarse * coarse;
+    const double scale_sq = 4 * sigma * sigma * coarse * coarse;
     information = prior.information;
     information.diagonal().tail<3>().array() += kLeastTurn;
     Vector6d force = -prior.information * boxminus(T, prior.T_camera_object);

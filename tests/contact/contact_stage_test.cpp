@@ -5,6 +5,7 @@
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "support/painted_hand.h"
+#include "support/solid_meshes.h"
 
 namespace barehand {
 namespace {
@@ -123,6 +124,41 @@ TEST_F(Contacts, TwoHandsThatMeetTouchEachOther) {
   EXPECT_EQ(tip.partner, 2);
   EXPECT_EQ(contacts->hands[1].other_hand[segment_of(2, 2)].partner, 1);
   EXPECT_EQ(before(1.2, right).other_hand[segment_of(2, 2)].state, ContactState::unknown) << "there is no other hand";
+}
+
+/// A known wall before which the hand is, whether or not it is seen.
+class KnownWall : public Contacts {
+ protected:
+  Contact touch(double gap, const std::shared_ptr<HandEstimate>& estimate, std::int32_t holder) {
+    const int tip = segment_of(2, 2);
+    ObjectMesh mesh = test::box_mesh({0.6f, 0.6f, 0.05f});
+    const SE3 T{Eigen::Matrix3d::Identity(), {0, 0, back_[tip] + gap + 0.025}};
+    const PosedObject wall{make_known_object(mesh, 1), T, 1e-8 * Matrix6d::Identity(), holder};
+    ContactStage stage(
+        {}, [&](const auto&, const auto&, auto&, auto&) { return std::vector<PosedObject>{wall}; }, 1);
+    return stage.process({test::observe_skin(skin_, pose_, 2)}, {estimate}).value()->hands[0].object[tip];
+  }
+};
+
+TEST_F(KnownWall, TheDistanceFromAMeshIsStatedForHiddenSegmentsToo) {
+  const auto hidden = estimate();
+  for (SegmentState& segment : hidden->segments) segment.seen = false, segment.visible = 0;
+  for (const auto& hand : {estimate(), hidden})
+    for (const double gap : {-0.002, 0.0, 0.01}) {
+      const Contact contact = touch(gap, hand, -1);
+      EXPECT_NEAR(contact.distance, gap, 0.002) << gap;
+      EXPECT_LT(contact.normal.z(), -0.9);
+      EXPECT_EQ(contact.partner, 1);
+      EXPECT_EQ(contact.inferred, hand == hidden);
+    }
+}
+
+TEST_F(KnownWall, AHiddenSegmentRatherTouchesWhatItsHandHolds) {
+  const auto hidden = estimate();
+  for (SegmentState& segment : hidden->segments) segment.seen = false, segment.covariance *= 100;
+  const Contact other = touch(0.01, hidden, 2), own = touch(0.01, hidden, 1), seen = touch(0.01, estimate(), 1);
+  EXPECT_GT(own.probability, other.probability + 0.1);
+  EXPECT_LT(seen.probability, other.probability);
 }
 
 }  // namespace
