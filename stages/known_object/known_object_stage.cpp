@@ -29,7 +29,7 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
                                                    FrameVector<SeenObject>& objects) {
   std::vector<PosedObject> posed;
   if (observations.empty() || !observations.front()->frame) return posed;
-  const DepthView view(observations);
+  const SeenDepth view(observations);
   std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by id: points, and those that were claimed
   for (const SurfacePoint& point : points) ++claimed[point.object].first;
 

@@ -60,7 +60,7 @@ std::vector<KnownObjectTracker::Prediction> KnownObjectTracker::predictions(doub
 }
 
 /// Refines the best prediction. Returns whether the object is there.
-bool KnownObjectTracker::follow(double dt, const DepthView& view, const HandEstimates& estimates,
+bool KnownObjectTracker::follow(double dt, const SeenDepth& view, const HandEstimates& estimates,
                                 std::span<const Vector3f> points) {
   // Compare the predictions on the points near to any of them.
   const auto all = predictions(dt, estimates);
@@ -99,7 +99,7 @@ bool KnownObjectTracker::follow(double dt, const DepthView& view, const HandEsti
 
 /// Searches for the object around one place: by turns between the fingers and around the hands. Returns whether it was
 /// found.
-bool KnownObjectTracker::find(const DepthView& view, const HandEstimates& estimates, std::span<const Vector3f> points) {
+bool KnownObjectTracker::find(const SeenDepth& view, const HandEstimates& estimates, std::span<const Vector3f> points) {
   if (--wait_ > 0 || points.empty()) return false;
   wait_ = kSearchEvery;
 
@@ -128,7 +128,7 @@ void KnownObjectTracker::remember(std::int64_t utime, const HandEstimates& estim
       palms_[estimate->hand_id] = estimate->segments[kPalm].T_camera_segment;
 }
 
-std::optional<SeenObject> KnownObjectTracker::process(std::int64_t utime, const DepthView& view,
+std::optional<SeenObject> KnownObjectTracker::process(std::int64_t utime, const SeenDepth& view,
                                                       const HandEstimates& estimates,
                                                       std::span<const Vector3f> points) {
   // Follow it, or find it.

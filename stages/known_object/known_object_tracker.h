@@ -7,10 +7,10 @@
 #include "hand/contacts.h"
 #include "hand/hand_pose.h"
 #include "object/known_object.h"
-#include "stages/known_object/depth_view.h"
 #include "stages/known_object/holding.h"
 #include "stages/known_object/object_fit.h"
 #include "stages/known_object/object_search.h"
+#include "stages/known_object/seen_depth.h"
 
 namespace barehand {
 
@@ -23,7 +23,7 @@ class KnownObjectTracker {
 
   /// The object in this frame; none: it was not found. `points`: of the things near the hands that are
   /// no other known object.
-  std::optional<SeenObject> process(std::int64_t utime, const DepthView& view, const HandEstimates& estimates,
+  std::optional<SeenObject> process(std::int64_t utime, const SeenDepth& view, const HandEstimates& estimates,
                                     std::span<const Eigen::Vector3f> points);
   const KnownObjectPtr& object() const { return object_; }
 
@@ -34,9 +34,9 @@ class KnownObjectTracker {
     double shift = 0, turn = 0;  // standard deviations [m], [rad]
   };
   std::vector<Prediction> predictions(double dt, const HandEstimates& estimates) const;
-  bool follow(double dt, const DepthView& view, const HandEstimates& estimates,
+  bool follow(double dt, const SeenDepth& view, const HandEstimates& estimates,
               std::span<const Eigen::Vector3f> points);
-  bool find(const DepthView& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
+  bool find(const SeenDepth& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
   void remember(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;

@@ -49,7 +49,7 @@ PosePrior anywhere_near(const SE3& T) {
 
 }  // namespace
 
-PoseQuality quality_of(const KnownObject& object, const DepthView& view, const SE3& T_camera_object,
+PoseQuality quality_of(const KnownObject& object, const SeenDepth& view, const SE3& T_camera_object,
                        std::span<const Vector3f> points) {
   PoseQuality quality;
   quality.visibility = view.visibility(object, T_camera_object, kSamples);
@@ -118,7 +118,7 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
   return middle;
 }
 
-std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const DepthView& view,
+std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const SeenDepth& view,
                                               std::span<const Vector3f> points, const Vector3f& seed) {
   const Vector3d middle = gather(object, points, seed).cast<double>();
   if (around_.size() < kLeastPoints) return std::nullopt;

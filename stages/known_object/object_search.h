@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "object/known_object.h"
-#include "stages/known_object/depth_view.h"
+#include "stages/known_object/seen_depth.h"
 
 namespace barehand {
 
@@ -28,7 +28,7 @@ class ObjectSearch {
  public:
   ObjectSearch();
   /// `points`: of everything that may be the object; `seed`: the place [m]. None: no pose agrees with the frame.
-  std::optional<FoundPose> search(const KnownObject& object, const DepthView& view,
+  std::optional<FoundPose> search(const KnownObject& object, const SeenDepth& view,
                                   std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
 
  private:
@@ -41,7 +41,7 @@ class ObjectSearch {
 };
 
 /// The quality of a pose. `points`: of everything that may be the object.
-PoseQuality quality_of(const KnownObject& object, const DepthView& view, const SE3& T_camera_object,
+PoseQuality quality_of(const KnownObject& object, const SeenDepth& view, const SE3& T_camera_object,
                        std::span<const Eigen::Vector3f> points);
 
 }  // namespace barehand

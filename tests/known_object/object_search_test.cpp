@@ -19,7 +19,7 @@ std::optional<FoundPose> search(const KnownObject& wanted, const test::ObjectSce
   std::vector<Vector3f> points;
   for (const SurfacePoint& point : test::ObjectScene::points(*seen)) points.push_back(point.p);
   if (points.empty()) return std::nullopt;
-  return ObjectSearch().search(wanted, DepthView(observations), points, points.front());
+  return ObjectSearch().search(wanted, SeenDepth(observations), points, points.front());
 }
 
 TEST(ObjectSearch, FindsAnObjectInAnyOrientation) {

@@ -22,9 +22,9 @@ struct Visibility {
 };
 
 /// The depth of one frame without its hands. The observations must be of one frame.
-class DepthView {
+class SeenDepth {
  public:
-  explicit DepthView(const HandObservations& observations);
+  explicit SeenDepth(const HandObservations& observations);
 
   /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most.
   void points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
