@@ -62,7 +62,8 @@ bool ObjectTracker::seen_empty(std::int32_t object, const Eigen::Vector3f& p) co
   return false;
 }
 
-/// Gives every component to the model on which most of it lies.
+/// Gives every component to the model on which most of it lies. What continues out of view, as a table does, is never
+/// given to the model of what stands on it.
 void ObjectTracker::match_models(std::int64_t utime, const std::vector<SurfacePoint>& points) {
   // Count the points of each component on each model.
   const auto components = static_cast<std::size_t>(links_.components());
@@ -79,6 +80,7 @@ void ObjectTracker::match_models(std::int64_t utime, const std::vector<SurfacePo
 
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
+    if (links_.open(static_cast<std::int32_t>(i))) continue;
     int most = std::max(0, static_cast<int>(kOverlap * count_[i]) - 1);
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       if (near_[t * components + i] <= most) continue;
