@@ -49,14 +49,17 @@ void ObjectTrack::place(double elapsed, const SeenSpace& space) {
   if (placed) {
     state.T_camera_object = model.align(predicted, points, state.covariance);
 
-    // A fast motion is not predicted: try where the points are, too.
-    Matrix6d covariance;
-    const SE3 there = model.align(model.centred(predicted, points, space), points, covariance);
-    if (model.misfit(there, points, space) < model.misfit(state.T_camera_object, points, space)) {
-      state.T_camera_object = there;
-      state.covariance = covariance;
-    }
     credible = model.contradiction(state.T_camera_object, points, space) < kDoubtful;
+    if (!credible) {
+      // It may have moved faster than predicted: try where the points are.
+      Matrix6d covariance;
+      const SE3 there = model.align(model.centred(predicted, points, space), points, covariance);
+      if (model.misfit(there, points, space) < model.misfit(state.T_camera_object, points, space)) {
+        state.T_camera_object = there;
+        state.covariance = covariance;
+        credible = model.contradiction(there, points, space) < kDoubtful;
+      }
+    }
     if (elapsed != 0) state.velocity = boxminus(state.T_camera_object, before) / elapsed;
   } else {
     // Begin anew in the middle of what is seen.

@@ -78,9 +78,14 @@ void ObjectTracker::match_models(std::int64_t utime, const std::vector<SurfacePo
       near_[t * components + point.component] += tracks_[t].model.near(R * (point.p - origin));
   }
 
+  // What stands on a table that it is connected with is still there.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
-    if (links_.open(static_cast<std::int32_t>(i))) continue;
+    if (links_.open(static_cast<std::int32_t>(i))) {
+      for (std::size_t t = 0; t < tracks_.size(); ++t)
+        if (near_[t * components + i] >= kSpeck) tracks_[t].seen = utime;
+      continue;
+    }
     int most = std::max(0, static_cast<int>(kOverlap * count_[i]) - 1);
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       if (near_[t * components + i] <= most) continue;
