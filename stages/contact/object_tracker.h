@@ -37,7 +37,7 @@ class ObjectTracker {
     Eigen::Vector3d centre() const { return sum / count; }
   };
 
-  void match_models(std::int64_t utime, const std::vector<SurfacePoint>& points);
+  void match_models(std::int64_t utime, const SeenSpace& space, const std::vector<SurfacePoint>& points);
   void match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points);
   void merge(std::int64_t utime);
   void give_points(std::vector<SurfacePoint>& points);

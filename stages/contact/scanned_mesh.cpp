@@ -23,9 +23,8 @@ constexpr float kSmooth = 0.005f;  // width of the weights of the planes [m]
 constexpr float kSameSide = 0.3f;  // cosine between the normals of samples of one side of a sheet
 // The planes alone hold up to kNear from a sample, the winding number alone from kFar on [m].
 constexpr float kNear = 0.004f, kFar = 0.008f;
-constexpr double kMargin = 0.01;      // around the samples [m]
-constexpr float kCore = 0.003f;       // a sample is no nearer than this to what it winds around [m]
-constexpr std::size_t kFewest = 100;  // samples of something solid
+constexpr double kMargin = 0.01;  // around the samples [m]
+constexpr float kCore = 0.003f;   // a sample is no nearer than this to what it winds around [m]
 
 /// The signed distance from samples of a surface, negative inside.
 class SampledSolid {
@@ -185,7 +184,7 @@ ObjectMesh largest_part(const TriangleMesh& mesh) {
 }  // namespace
 
 ScannedMesh scanned_mesh(std::span<const SurfaceSample> samples, double cell) {
-  if (samples.size() < kFewest) return {};
+  if (samples.size() < kFewestSamples) return {};
 
   // Extract the surface.
   const SampledSolid solid(samples);

@@ -6,6 +6,9 @@
 
 namespace barehand {
 
+/// Fewer samples of a surface than this (about 16 cm^2) make no solid.
+inline constexpr std::size_t kFewestSamples = 100;
+
 /// The closed surface of an object that was seen in parts.
 struct ScannedMesh {
   ObjectMesh mesh;       ///< watertight, in the frame of what was seen [m]; empty if nothing solid was seen

@@ -4,6 +4,7 @@
   compare_mesh.py SCAN.obj                 radius of the sphere that fits what was seen best, and how far that is off it
   compare_mesh.py SCAN.obj TRUE.obj        distances of the seen vertices from the true surface, and the other way round,
                                            after the scan was moved onto it, since its frame is its own
+  compare_mesh.py SCAN.obj TRUE.obj MOVED.obj   also writes the moved scan, whose poses `eval --objects` can then judge
 """
 import sys
 
@@ -85,6 +86,15 @@ def register(scan, truth, rng):
     return align(spread(scan, 3000, rng)[0], spread(truth, 20000, rng), R, t, 15, 0.9)[1:]
 
 
+def write_moved(path, moved_path, R, t):
+    with open(moved_path, "w") as out:
+        for line in open(path):
+            words = line.split()
+            if words[:1] == ["v"]:
+                line = "v %.7f %.7f %.7f\n" % tuple(R @ [float(w) for w in words[1:4]] + t)
+            out.write(line)
+
+
 def show(what, millimetres):
     print(f"{what}: mean {millimetres.mean():.2f} mm, 95 % within {np.quantile(millimetres, 0.95):.2f} mm, "
           f"largest {millimetres.max():.2f} mm")
@@ -111,6 +121,8 @@ def main():
 
     truth = load(sys.argv[2])
     R, t = register(scan, truth, rng)
+    if len(sys.argv) > 3:
+        write_moved(sys.argv[1], sys.argv[3], R, t)
     dense = spread(truth, 40000, rng)
     moved = scan[0][np.unique(scan[1])] @ R.T + t
     index, _ = nearest(moved, dense[0])

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "stages/contact/scanned_mesh.h"
+
 namespace barehand {
 
 void ObjectScan::add(std::span<const ObjectTrack> tracks) {
@@ -28,7 +30,10 @@ void ObjectScan::add(std::span<const ObjectTrack> tracks) {
 
 const ObjectScan::Object* ObjectScan::object() const {
   if (objects_.empty()) return nullptr;
-  const auto merit = [](const Object& object) { return std::tuple(object.held, object.surface.size()); };
+  const auto merit = [](const Object& object) {
+    const std::size_t size = object.surface.size();
+    return std::tuple(size >= kFewestSamples, object.held, size);
+  };
   return &*std::ranges::max_element(objects_, {}, merit);
 }
 

@@ -20,7 +20,8 @@ class ObjectScan {
 
   /// Takes over what is known of the objects after a frame.
   void add(std::span<const ObjectTrack> tracks);
-  /// The object that was held in the most frames; if none was held, the one with the most surface. Null: there is none.
+  /// The object that was held in the most frames, of those that may be a solid; if none was held, the one with the most
+  /// surface. Null: there is none.
   const Object* object() const;
   int frames() const { return frames_; }
 
