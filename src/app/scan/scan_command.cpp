@@ -2,6 +2,7 @@
 #include "app/scan/scan_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -25,6 +26,7 @@ constexpr const char* kHowToScan =
     "Hold the object with your fingertips, and turn it slowly until every side has faced the sensor. Change the grip,\n"
     "so that the fingers uncover what they hide. Ctrl-C ends a live scan; what was seen until then is saved.";
 constexpr double kFine = 0.003, kCoarse = 0.006;  // sizes of the triangles of what is saved, and of what is said [m]
+constexpr int kScanMargin = 80;                   // px, how far around the hand the object is looked at, at least
 constexpr double kLittle = 0.3;                   // share of the surface below which a mesh is hardly of use
 
 struct ScanOptions {
@@ -105,6 +107,7 @@ int run_scan(const ScanOptions& o) {
   auto config = read_configuration(o.track.config);
   if (!config) return complain(config.error(), kExitUsage);
   config->contact.enabled = true;
+  config->preprocess.margin_px = std::max(config->preprocess.margin_px, kScanMargin);
   if (const auto possible = check_name(o.out); !possible) return complain(possible.error(), kExitUsage);
 
   // Track, and look at the objects.
