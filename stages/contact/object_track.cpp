@@ -48,7 +48,6 @@ void ObjectTrack::place(double elapsed, const SeenSpace& space) {
   bool credible = true;
   if (placed) {
     state.T_camera_object = model.align(predicted, points, state.covariance);
-
     credible = model.contradiction(state.T_camera_object, points, space) < kDoubtful;
     if (!credible) {
       // It may have moved faster than predicted: try where the points are.

@@ -33,6 +33,7 @@ TEST_F(ScanObject, SavesAMeshThatTrackReads) {
   const auto loaded = load_mesh(mesh_, LengthUnit::metre);
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_EQ(loaded->repair.closed, 0u);
+  EXPECT_THAT(test::read_text(mesh_), AllOf(HasSubstr("g seen\nf "), HasSubstr("g closed\nf ")));
 }
 
 TEST_F(ScanObject, WritesNothingIfNoObjectIsSeen) {
