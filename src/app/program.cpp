@@ -14,6 +14,7 @@
 #include "app/listen/listen_command.h"
 #include "app/record/convert_command.h"
 #include "app/record/record_command.h"
+#include "app/scan/scan_command.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/standard_streams.h"
 #include "app/sim/sim_command.h"
@@ -39,6 +40,7 @@ int run_program(int argc, char** argv) {
   add_convert_command(app, exit_code);
   add_eval_command(app, exit_code);
   add_calibrate_command(app, exit_code);
+  add_scan_command(app, exit_code);
   add_experiment_command(app, exit_code);
   add_listen_command(app, exit_code);
   add_view_command(app, exit_code);

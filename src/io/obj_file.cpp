@@ -10,7 +10,8 @@
 namespace barehand {
 
 Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
-                      std::span<const std::array<std::uint32_t, 3>> triangles, const std::string& path) {
+                      std::span<const std::array<std::uint32_t, 3>> triangles, const std::string& path,
+                      std::span<const ObjGroup> groups) {
   // Write every place once, with seven decimals (0.1 micrometres).
   constexpr double kStep = 1e-7;
   std::string text = "# metres\n";
@@ -27,7 +28,10 @@ Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
   }
 
   // Write the triangles.
-  for (const auto& t : triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (const ObjGroup& group : groups)
+      if (group.first == i) text += formatted("g %s\n", group.name.c_str());
+    const auto& t = triangles[i];
     const std::size_t a = number[t[0]], b = number[t[1]], c = number[t[2]];
     if (a != b && b != c && c != a) text += formatted("f %zu %zu %zu\n", a, b, c);
   }

@@ -36,7 +36,8 @@ std::shared_ptr<ContactStage> make_contact_stage(const ContactParams& params,
 
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
-                              RepeatLog& log, PendingParams* pending, const std::vector<KnownObjectPtr>& objects) {
+                              RepeatLog& log, PendingParams* pending, const std::vector<KnownObjectPtr>& objects,
+                              ObjectWatcher watch_objects) {
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
@@ -49,7 +50,12 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   if (initial) tracker->start_at(*initial);
   TrackStages stages;
   if (config.contact.enabled || !objects.empty())
-    stages.contact = std::bind_front(&ContactStage::process, make_contact_stage(config.contact, objects));
+    stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects)](
+                         const HandObservations& observations, const HandEstimates& estimates) {
+      auto contacts = contact->process(observations, estimates);
+      if (watch) watch(contact->objects());
+      return contacts;
+    };
   if (config.grasp.enabled)
     if (const auto grasp = make_grasp_stage(config.grasp, log))
       stages.grasp = std::bind_front(&GraspStage::process, grasp);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "core/parallel/parallel.h"
@@ -13,6 +14,7 @@
 #include "observe/observation.h"
 #include "pipeline/config.h"
 #include "pipeline/reload.h"
+#include "stages/contact/object_track.h"
 #include "tracking/commanded_tracker.h"
 
 namespace barehand {
@@ -27,13 +29,17 @@ struct TrackStages {
   std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp;
 };
 
+/// Looks at the objects without a mesh after the contacts of each frame, on the thread of the sinks.
+using ObjectWatcher = std::function<void(std::span<const ObjectTrack> objects)>;
+
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.
 /// `inbox`: commands from outside; may be empty. `pending`: changed parameters, taken before every frame; may be null.
 /// `objects`: those whose shape is known; if there are any, contacts are found whatever the configuration says.
+/// `watch_objects`: may be empty.
 /// `workers`, `log` and `pending` must outlive the stages.
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
                               RepeatLog& log, PendingParams* pending = nullptr,
-                              const std::vector<KnownObjectPtr>& objects = {});
+                              const std::vector<KnownObjectPtr>& objects = {}, ObjectWatcher watch_objects = {});
 
 }  // namespace barehand

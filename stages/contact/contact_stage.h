@@ -33,6 +33,8 @@ class ContactStage {
   ContactStage(const ContactParams& params, KnownObjectFinder find_known, int known)
       : params_(params), find_known_(std::move(find_known)), objects_(known + 1) {}
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
+  /// The objects without a mesh as of the last frame.
+  std::span<const ObjectTrack> objects() const { return objects_.tracks(); }
 
  private:
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);

@@ -15,6 +15,7 @@ constexpr int kSide = 64;          // cells along each side of the grid, whose m
 constexpr float kCell = 0.004f;    // [m]
 constexpr int kReach = 2;          // cells to each side in which a point's surfel is searched
 constexpr float kMostSeen = 20;    // weight up to which a surfel is averaged
+constexpr float kBlank = 1;        // weight that a surfel loses where it should be measured and nothing is
 constexpr float kTrusted = 2;      // weight of a surfel that counts as known
 constexpr int kTrustedEmpty = 3;   // frames that saw a cell empty before it counts as such
 constexpr float kAround = 0.024f;  // how far around the surface empty cells are remembered [m]
@@ -33,6 +34,12 @@ struct Pose {
   Matrix3f R;
   Vector3f t;
 };
+
+/// Whether the camera is on the outer side of a surfel.
+template <class Surfel>
+bool faces_camera(const Pose& T, const Surfel& surfel) {
+  return (T * surfel.p).dot(T.R * surfel.n) < 0;
+}
 
 Vector3i indices(const Vector3f& p) { return ((p / kCell).array() + kSide / 2).floor().cast<int>(); }
 bool inside(const Vector3i& i) { return (i.array() >= 0).all() && (i.array() < kSide).all(); }
@@ -76,11 +83,52 @@ double ObjectModel::misfit(const SE3& T_camera_object, std::span<const SurfacePo
     sum += i < 0 ? kFar : std::min(kFar, (surfels_[i].p - p).norm());
   }
 
-  // Count the surfels where nothing is.
-  int contradicted = 0, all = 0;
-  for (std::size_t i = 0; i < surfels_.size(); i += 1 + surfels_.size() / kMostPoints, ++all)
-    contradicted += space.empty(T * surfels_[i].p);
-  return sum / std::max(count, 1) + kFar * contradicted / std::max(all, 1);
+  return sum / std::max(count, 1) + kFar * contradicted(T_camera_object, space);
+}
+
+double ObjectModel::contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
+                                  const SeenSpace& space) const {
+  int inside = 0, count = 0;
+  const Pose T(T_camera_object);
+  for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / kMostPoints, ++count) {
+    const Vector3f p = T.back(points[k]->p);
+    inside += seen_empty(p) && nearest(p) < 0;
+  }
+  return std::max(contradicted(T_camera_object, space), static_cast<double>(inside) / std::max(count, 1));
+}
+
+/// The share of the surfels where a frame shows that there are none.
+double ObjectModel::contradicted(const SE3& T_camera_object, const SeenSpace& space) const {
+  const Pose T(T_camera_object);
+  int count = 0, all = 0;
+  for (std::size_t i = 0; i < surfels_.size(); i += 1 + surfels_.size() / kMostPoints, ++all) {
+    const Vector3f p = T * surfels_[i].p;
+    count += space.empty(p) || (faces_camera(T, surfels_[i]) && space.blank(p));
+  }
+  return static_cast<double>(count) / std::max(all, 1);
+}
+
+SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* const> points,
+                         const SeenSpace& space) const {
+  Vector3f wanted = Vector3f::Zero();
+  for (const SurfacePoint* point : points) wanted += point->p / static_cast<float>(points.size());
+  SE3 pose = predicted;
+  for (int round = 0; round < 2; ++round) {
+    // Find the middle of what faces the camera and is not hidden.
+    const Pose T(pose);
+    Vector3f sum = Vector3f::Zero();
+    int count = 0;
+    for (const Surfel& surfel : surfels_) {
+      const Vector3f p = T * surfel.p;
+      if (surfel.weight < kTrusted || !faces_camera(T, surfel)) continue;
+      if (round > 0 && space.at(p) == SeenSpace::Place::unknown) continue;
+      sum += p;
+      ++count;
+    }
+    if (count < 8) break;
+    pose.t += (wanted - sum / static_cast<float>(count)).cast<double>();
+  }
+  return pose;
 }
 
 SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const {
@@ -123,11 +171,12 @@ SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const
   return pose;
 }
 
-void ObjectModel::fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
-                       const SeenSpace& space) {
+void ObjectModel::fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space,
+                       bool credible) {
   if (cells_.empty()) cells_.resize(kSide * kSide * kSide);
   const Pose T(T_camera_object);
-  for (const SurfacePoint* point : points) add(T.back(point->p), T.R.transpose() * point->n);
+  if (credible)
+    for (const SurfacePoint* point : points) add(T.back(point->p), T.R.transpose() * point->n);
   remove_contradicted(T_camera_object, space);
   see_empty_cells(T_camera_object, space);
 }
@@ -164,12 +213,17 @@ void ObjectModel::add(const Vector3f& p, const Vector3f& n) {
   surfel.weight = std::min(kMostSeen, surfel.weight + 1);
 }
 
-/// Surfels at places that are seen to be empty lose weight until they are gone.
+/// Surfels at places that are seen to be empty lose weight until they are gone; so do, more slowly, those that should
+/// be measured where nothing is.
 void ObjectModel::remove_contradicted(const SE3& T_camera_object, const SeenSpace& space) {
   const Pose T(T_camera_object);
   for (std::size_t i = 0; i < surfels_.size();) {
     Surfel& surfel = surfels_[i];
-    if (space.empty(T * surfel.p)) surfel.weight = 0.7f * surfel.weight - 0.3f;
+    const Vector3f p = T * surfel.p;
+    if (space.empty(p))
+      surfel.weight = 0.7f * surfel.weight - 0.3f;
+    else if (faces_camera(T, surfel) && space.blank(p))
+      surfel.weight -= kBlank;
     if (surfel.weight > 0.4f) {
       ++i;
       continue;
@@ -225,6 +279,13 @@ void ObjectModel::append_hidden(const SE3& T_camera_object, const SeenSpace& spa
 bool ObjectModel::seen_empty(const Vector3f& p) const {
   const std::int32_t c = cell_of(p);
   return c >= 0 && cells_[c].surfel < 0 && cells_[c].empty >= kTrustedEmpty;
+}
+
+std::vector<SurfaceSample> ObjectModel::surface() const {
+  std::vector<SurfaceSample> samples;
+  for (const Surfel& surfel : surfels_)
+    if (surfel.weight >= kTrusted) samples.push_back({surfel.p, surfel.n});
+  return samples;
 }
 
 std::array<Vector3f, 2> ObjectModel::bounds() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/se3.h"
+#include "object/known_object.h"
 #include "stages/contact/seen_space.h"
 #include "stages/contact/surface_cells.h"
 
@@ -22,11 +23,19 @@ class ObjectModel {
   /// How badly the points of a frame agree with the model at a pose of it: their mean distance from it, kFar at most,
   /// plus kFar times the share of it that is seen to be empty [m].
   double misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space) const;
+  /// How much speaks against a pose: the share of its surface where this frame sees that nothing is, or the share of
+  /// the points at places that were seen to be empty, whichever is larger.
+  double contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
+                       const SeenSpace& space) const;
+  /// A predicted pose, moved so that the middle of what would be seen of the surface is that of the points.
+  SE3 centred(const SE3& predicted, std::span<const SurfacePoint* const> points, const SeenSpace& space) const;
   /// The pose near a predicted one at which the points lie on the model's surface, by point-to-plane ICP. Directions in
   /// which the surface slides over itself stay as predicted. `covariance`: of the pose's boxplus twist.
   SE3 align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const;
-  /// Adds the points of a frame and the space that is seen to be empty, and removes surfels that are there.
-  void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space);
+  /// Adds the points of a frame, if the pose is `credible`, and the space that is seen to be empty, and removes surfels
+  /// that are there.
+  void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space,
+            bool credible = true);
   /// Appends the surfels that are hidden in this frame, in the camera frame.
   void append_hidden(const SE3& T_camera_object, const SeenSpace& space, std::int32_t object,
                      std::vector<SurfacePoint>& points) const;
@@ -37,6 +46,8 @@ class ObjectModel {
     const std::int32_t c = cell_of(p);
     return c >= 0 && cells_[c].around > 0;
   }
+  /// The surface as far as it is known, in the object's frame.
+  std::vector<SurfaceSample> surface() const;
   /// Corners of the surface's bounding box in the object's frame [m].
   std::array<Eigen::Vector3f, 2> bounds() const;
 
@@ -52,6 +63,7 @@ class ObjectModel {
     std::uint8_t around = 0;   // number of surfels up to two cells away
   };
 
+  double contradicted(const SE3& T_camera_object, const SeenSpace& space) const;
   std::int32_t cell_of(const Eigen::Vector3f& p) const;
   int nearest(const Eigen::Vector3f& p) const;
   void count_around(std::int32_t cell, int change);

@@ -12,6 +12,7 @@ using Eigen::Vector3d, Eigen::Vector3f;
 constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 constexpr int kGrip = 3;                // segments that touch an object which probably moves with the hand
 constexpr double kPreference = 0.0005;  // how much better the less probable motion must agree with the points [m]
+constexpr double kDoubtful = 0.25;      // contradiction of a pose at which nothing is added to the model
 constexpr double kPlace = 0.005, kTurn = 1.0;  // deviations of an object without a model [m, rad]
 
 }  // namespace
@@ -44,8 +45,20 @@ void ObjectTrack::place(double elapsed, const SeenSpace& space) {
   centre.setZero();
   for (const SurfacePoint* point : points) centre += point->p.cast<double>() / static_cast<double>(points.size());
   const SE3 before = state.T_camera_object;
+  bool credible = true;
   if (placed) {
     state.T_camera_object = model.align(predicted, points, state.covariance);
+    credible = model.contradiction(state.T_camera_object, points, space) < kDoubtful;
+    if (!credible) {
+      // It may have moved faster than predicted: try where the points are.
+      Matrix6d covariance;
+      const SE3 there = model.align(model.centred(predicted, points, space), points, covariance);
+      if (model.misfit(there, points, space) < model.misfit(state.T_camera_object, points, space)) {
+        state.T_camera_object = there;
+        state.covariance = covariance;
+        credible = model.contradiction(there, points, space) < kDoubtful;
+      }
+    }
     if (elapsed != 0) state.velocity = boxminus(state.T_camera_object, before) / elapsed;
   } else {
     // Begin anew in the middle of what is seen.
@@ -60,7 +73,7 @@ void ObjectTrack::place(double elapsed, const SeenSpace& space) {
   Vector3f lower = points[0]->p, upper = lower;
   for (const SurfacePoint* point : points) lower = lower.cwiseMin(point->p), upper = upper.cwiseMax(point->p);
   if (!open) {
-    model.fuse(state.T_camera_object, points, space);
+    model.fuse(state.T_camera_object, points, space, credible);
     lower = model.bounds()[0], upper = model.bounds()[1];
   }
   state.extent = (upper - lower).cast<double>();

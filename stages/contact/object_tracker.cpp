@@ -10,6 +10,7 @@ constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) ar
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
 constexpr double kOpenPlace = 0.2;   // and the middle of what is seen of a table [m]
 constexpr double kOverlap = 0.4;     // share of a component on the model of an object that makes it a part of it
+constexpr double kGone = 0.25;       // contradiction of a model at its place by which it is no longer there
 constexpr double kSame = 0.7;        // share of it on a second model that makes both the same object
 // Time after which an object that is not seen is forgotten, and one that is held [us].
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
@@ -25,7 +26,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
   all_.clear();
   for (const SurfacePoint& point : points) all_.push_back(&point);
   for (ObjectTrack& track : tracks_) track.predict(estimates, space, all_);
-  match_models(utime, points);
+  match_models(utime, space, points);
   match_centres(utime, points);
   merge(utime);
   give_points(points);
@@ -62,8 +63,9 @@ bool ObjectTracker::seen_empty(std::int32_t object, const Eigen::Vector3f& p) co
   return false;
 }
 
-/// Gives every component to the model on which most of it lies.
-void ObjectTracker::match_models(std::int64_t utime, const std::vector<SurfacePoint>& points) {
+/// Gives every component to the model on which most of it lies. What continues out of view, as a table does, is never
+/// given to the model of what stands on it.
+void ObjectTracker::match_models(std::int64_t utime, const SeenSpace& space, const std::vector<SurfacePoint>& points) {
   // Count the points of each component on each model.
   const auto components = static_cast<std::size_t>(links_.components());
   count_.assign(components, 0);
@@ -77,8 +79,17 @@ void ObjectTracker::match_models(std::int64_t utime, const std::vector<SurfacePo
       near_[t * components + point.component] += tracks_[t].model.near(R * (point.p - origin));
   }
 
+  // What stands on a table that it is connected with is still there.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
+    if (links_.open(static_cast<std::int32_t>(i))) {
+      for (std::size_t t = 0; t < tracks_.size(); ++t) {
+        ObjectTrack& track = tracks_[t];
+        if (near_[t * components + i] >= kSpeck && track.model.contradiction(track.predicted, {}, space) < kGone)
+          track.seen = utime;
+      }
+      continue;
+    }
     int most = std::max(0, static_cast<int>(kOverlap * count_[i]) - 1);
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       if (near_[t * components + i] <= most) continue;

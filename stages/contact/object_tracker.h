@@ -20,6 +20,8 @@ class ObjectTracker {
   /// are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
   void process(std::int64_t utime, const HandEstimates& estimates, const SeenSpace& space,
                const std::vector<bool>& open, std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects);
+  /// The objects as of the last frame.
+  std::span<const ObjectTrack> tracks() const { return tracks_; }
   /// Takes note of what the hands touch in this frame: it probably moves with them.
   void note_touches(std::span<const HandContacts> hands);
   /// Whether a place (camera frame [m]) was seen to be empty of this object when nothing covered it.
@@ -35,7 +37,7 @@ class ObjectTracker {
     Eigen::Vector3d centre() const { return sum / count; }
   };
 
-  void match_models(std::int64_t utime, const std::vector<SurfacePoint>& points);
+  void match_models(std::int64_t utime, const SeenSpace& space, const std::vector<SurfacePoint>& points);
   void match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points);
   void merge(std::int64_t utime);
   void give_points(std::vector<SurfacePoint>& points);

@@ -5,6 +5,7 @@ namespace {
 
 // Errors of the depth image that pass for a surface's thickness [m]: a constant part, and deviations of the sensor.
 constexpr double kMargin = 0.003, kDeviations = 2;
+constexpr int kAround = 2;  // pixels to each side of one without depth that must have none, either
 
 }  // namespace
 
@@ -31,6 +32,22 @@ SeenSpace::Place SeenSpace::at(const Eigen::Vector3f& p) const {
     if (behind > -view.margin) return Place::surface;
   }
   return Place::unknown;
+}
+
+bool SeenSpace::blank(const Eigen::Vector3f& p) const {
+  if (p.z() <= 0) return false;
+  bool in_view = false;
+  for (const View& view : views_) {
+    const int u = static_cast<int>(view.fx * p.x() / p.z() + view.cx + 0.5f),
+              v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
+    const Image<float>& depth = view.observation->depth;
+    if (!depth.contains(u - kAround, v - kAround) || !depth.contains(u + kAround, v + kAround)) continue;
+    in_view = true;
+    for (int y = v - kAround; y <= v + kAround; ++y)
+      for (int x = u - kAround; x <= u + kAround; ++x)
+        if (depth.at(x, y) > 0) return false;
+  }
+  return in_view;
 }
 
 }  // namespace barehand

@@ -16,6 +16,8 @@ class SeenSpace {
   void see(const HandObservations& observations);
   /// What is seen at a place (camera frame [m]). A surface is as thick as the sensor's error.
   Place at(const Eigen::Vector3f& p) const;
+  /// Whether nothing was measured in the direction of a place, nor around it, although it is in view.
+  bool blank(const Eigen::Vector3f& p) const;
   bool empty(const Eigen::Vector3f& p) const { return at(p) == Place::empty; }
 
  private:

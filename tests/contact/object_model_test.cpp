@@ -104,6 +104,33 @@ TEST_F(Model, ForgetsWhatIsSeenToBeElsewhere) {
   EXPECT_FALSE(model_.has_surface());
 }
 
+TEST_F(Model, ForgetsWhatFacesTheCameraAndIsNotMeasured) {
+  const std::size_t all = model_.surface().size();
+  const std::vector<SurfacePoint> nothing;
+  for (int k = 0; k < 25; ++k) fuse(nothing, before_wall(0));
+  EXPECT_LT(model_.surface().size(), 0.75 * all) << "the side that faces the camera is gone";
+  EXPECT_GT(model_.surface().size(), 0.5 * all) << "the sides along the line of sight stay";
+}
+
+TEST_F(Model, AMotionThatIsTooFastForItsPredictionIsFoundByTheMiddleOfWhatIsSeen) {
+  const SE3 truth{Eigen::Matrix3d::Identity(), placed().t + Vector3d(0.03, 0.02, 0.04)};
+  std::vector<SurfacePoint> front;
+  for (const SurfacePoint& point : corner_)
+    if (point.n.z() < 0) front.push_back(point);
+  const auto points = moved(front, truth);
+  const SE3 found = model_.centred(placed(), pointers(points), {});
+  EXPECT_LT((found.t - truth.t).norm(), 0.004) << "it was 54 mm";
+}
+
+TEST_F(Model, APoseThatIsSeenToBeWrongIsNotCredible) {
+  for (int k = 0; k < 5; ++k) fuse(corner_, before_wall(0.503));  // the space before it is empty
+  const auto there = moved(corner_, placed());
+  EXPECT_LT(model_.contradiction(placed(), pointers(there), {}), 0.05);
+  const SE3 behind{Eigen::Matrix3d::Identity(), placed().t + Vector3d(0, 0, 0.012)};
+  EXPECT_GT(model_.contradiction(behind, pointers(there), {}), 0.25) << "points lie where nothing was";
+  EXPECT_GT(model_.contradiction(placed(), {}, before_wall(1)), 0.9) << "one looks through it";
+}
+
 TEST_F(Model, RemembersEmptySpaceAroundIt) {
   const Vector3f before(0.03f, 0.03f, -0.012f), behind(0.03f, 0.03f, 0.04f);
   EXPECT_FALSE(model_.seen_empty(before));

@@ -93,6 +93,26 @@ TEST_F(Objects, ATableIsNotJoinedToWhatStandsOnIt) {
   EXPECT_EQ(frame().size(), 2u);
 }
 
+TEST_F(Objects, ATableIsNotGivenToTheModelOfWhatStoodThere) {
+  piece({0, 0, 0.5f});
+  const std::int32_t id = frame()[0].id;
+  piece({0, 0, 0.5f}, true);  // now it is connected with a table
+  frame();
+  EXPECT_NE(left_[0].object, id);
+}
+
+TEST_F(Objects, WhatIsConnectedWithATableForAWhileIsNotForgotten) {
+  piece({0, 0, 0.5f});
+  const std::int32_t id = frame()[0].id;
+  for (int k = 0; k < 40; ++k) {
+    piece({0, 0, 0.5f}, true);
+    frame();
+  }
+  piece({0, 0, 0.5f});
+  frame();
+  EXPECT_EQ(left_[0].object, id);
+}
+
 TEST_F(Objects, APieceThatIsFlushWithATableIsAPartOfIt) {
   piece({0, 0, 0.5f}, true, -10, 0);
   piece({0, 0, 0.5f}, false, 3, 10);

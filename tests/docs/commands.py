@@ -27,7 +27,7 @@ class Program:
         self.options = {}
         top = self.run("--help")
         commands = top[top.index("Subcommands:"):]
-        self.subcommands = set(re.findall(r"^  (\w+)", commands, flags=re.M))
+        self.subcommands = set(re.findall(r"^  (\w[\w-]*)", commands, flags=re.M))
         self.sequences = set(re.findall(r"^\s*(\w+)", self.run("sim", "--list"), flags=re.M))
 
     def run(self, *arguments):

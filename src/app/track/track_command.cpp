@@ -11,6 +11,24 @@
 
 namespace barehand {
 
+void add_input_options(CLI::App& command, TrackOptions& o) {
+  command.add_option("--source", o.source,
+                     "folder:DIR | log:FILE (LCM or MCAP) | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
+  command
+      .add_option("--config", o.config,
+                  "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
+      ->capture_default_str();
+  command
+      .add_option("--hand", o.hands,
+                  "hand.json, or right, left, both: the shipped mean adult hand; twice for a right and a left hand "
+                  "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--start", o.start, "first frame of a recording; when playing backwards, from there down to 0");
+  command.add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
+  command.add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
+}
+
 void add_view_options(CLI::App& command, TrackOptions& o) {
   command
       .add_option("--view", o.view,
@@ -32,21 +50,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   TrackOptions& o = *options;
   o.threads = available_cores();
   CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
-  track->add_option("--source", o.source,
-                    "folder:DIR | log:FILE (LCM or MCAP) | lcm | openni2[:SENSOR|:FILE.oni] | sim:NAME");
-  track
-      ->add_option("--config", o.config,
-                   "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
-      ->capture_default_str();
-  track
-      ->add_option("--hand", o.hands,
-                   "hand.json, or right, left, both: the shipped mean adult hand; twice for a right and a left hand "
-                   "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  track->add_option("--start", o.start, "first frame of a recording; when playing backwards, from there down to 0");
-  track->add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
-  track->add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
+  add_input_options(*track, o);
   track
       ->add_option(
           "--object", o.objects,

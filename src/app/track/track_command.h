@@ -8,6 +8,9 @@ namespace barehand {
 
 struct TrackOptions;
 
+/// Adds the options that say which frames are tracked, how, and which hands: from --source to --init.
+void add_input_options(CLI::App& command, TrackOptions& options);
+
 /// Adds the options of the live page, which calibrate has, too.
 void add_view_options(CLI::App& command, TrackOptions& options);
 

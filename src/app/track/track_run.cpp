@@ -54,11 +54,12 @@ constexpr double kUsualRate = 30;  // frame rate of a video if that of the sourc
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, const Config& config, std::function<Result<Config>()> reread,
-           std::vector<std::unique_ptr<Sink>> more, std::function<ViewScan()> scan)
+           std::vector<std::unique_ptr<Sink>> more, std::function<ViewScan()> scan, ObjectWatcher watch_objects)
       : options_(options),
         config_(config),
         reread_(std::move(reread)),
         scan_(std::move(scan)),
+        watch_objects_(std::move(watch_objects)),
         log_(make_logger(), clock_),
         reload_(config, pending_),
         interrupt_([this] { stop(); }, reread_ ? [this] { reload(); } : std::function<void()>()),
@@ -99,6 +100,7 @@ class TrackRun {
   const Config& config_;
   const std::function<Result<Config>()> reread_;
   const std::function<ViewScan()> scan_;
+  const ObjectWatcher watch_objects_;
   SystemClock clock_;
   RepeatLog log_;
   ServiceManager service_{clock_};
@@ -364,7 +366,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 
 TrackOutcome TrackRun::run() {
   TrackStages computing =
-      make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_, objects_);
+      make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_, objects_, watch_objects_);
   PipelineStages stages{*input_.source,
                         std::move(computing.preprocess),
                         std::move(computing.track),
@@ -445,9 +447,9 @@ int tell(const TrackFailure& failure) {
 
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread,
-                                               std::vector<std::unique_ptr<Sink>> more,
-                                               std::function<ViewScan()> scan) {
-  TrackRun run(options, config, std::move(reread), std::move(more), std::move(scan));
+                                               std::vector<std::unique_ptr<Sink>> more, std::function<ViewScan()> scan,
+                                               ObjectWatcher watch_objects) {
+  TrackRun run(options, config, std::move(reread), std::move(more), std::move(scan), std::move(watch_objects));
   if (const Step prepared = run.prepare(); !prepared) return tl::unexpected(prepared.error());
   return run.run();
 }

@@ -10,6 +10,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/progress.h"
 #include "pipeline/sink.h"
+#include "pipeline/track_stages.h"
 
 namespace barehand {
 
@@ -37,11 +38,11 @@ struct TrackOutcome {
 /// before the first output file is touched. `reread` returns the configuration as it is now; a run over live frames
 /// calls it at SIGHUP. Without it, and over a recording, SIGHUP ends the run as SIGTERM does. `more`: sinks in addition
 /// to those of the options. `scan` returns what the live page shows of a scan; it is called on the thread of the sinks;
-/// empty: no hand is being scanned.
+/// empty: no hand is being scanned. `watch_objects`: as make_track_stages() takes it.
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
                                                std::function<Result<Config>()> reread = {},
                                                std::vector<std::unique_ptr<Sink>> more = {},
-                                               std::function<ViewScan()> scan = {});
+                                               std::function<ViewScan()> scan = {}, ObjectWatcher watch_objects = {});
 
 /// Runs `barehand track` and returns its exit code (exit_code.h). Errors are printed to standard error; so is the final
 /// summary if an output goes to standard output, where it is printed otherwise.
