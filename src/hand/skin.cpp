@@ -114,9 +114,10 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 
 }  // namespace
 
-Skin make_blended_skin(const HandProfile& profile, double cell) {
+Skin make_blended_skin(const HandProfile& profile, double cell, const std::stop_token& stop) {
   const ImplicitHand hand(profile);
-  const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
+  constexpr double kOutside = 1;  // ends the costly computation at once
+  const auto distance = [&](const Vector3d& p) { return stop.stop_requested() ? kOutside : hand.distance(p); };
 
   // Extract the surface in a box around all bones, with a margin for the flesh.
   Vector3d lower = hand.pose()[kPalm].t, upper = lower;
@@ -135,6 +136,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
   std::vector<bool> beyond_wrist;
   const SE3 T_palm_hand = hand.pose()[kPalm].inverse();
   for (const Vector3d& p : mesh.vertices) {
+    if (stop.stop_requested()) return {};
     const Binding binding = bind(hand, profile, p);
     SkinVertex v;
     v.a = static_cast<std::int16_t>(binding.a);
@@ -149,14 +151,16 @@ Skin make_blended_skin(const HandProfile& profile, double cell) {
     beyond_wrist.push_back((T_palm_hand * p).z() > kWristCut);
   }
 
+  if (stop.stop_requested()) return {};
+
   // Leave out the triangles beyond the wrist, on the forearm.
   for (const auto& t : mesh.triangles)
     if (!(beyond_wrist[t[0]] && beyond_wrist[t[1]] && beyond_wrist[t[2]])) skin.triangles.push_back({t[0], t[1], t[2]});
   return skin;
 }
 
-Skin make_skin(const HandProfile& profile, double cell) {
-  return profile.scanned_skin ? *profile.scanned_skin : make_blended_skin(profile, cell);
+Skin make_skin(const HandProfile& profile, double cell, const std::stop_token& stop) {
+  return profile.scanned_skin ? *profile.scanned_skin : make_blended_skin(profile, cell, stop);
 }
 
 void compute_normals(const HandProfile& profile, Skin& skin) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "hand/hand_pose.h"
@@ -25,11 +26,12 @@ struct Skin {
 };
 
 /// Builds the skin from a profile's lengths and elliptic sections: the level set of ImplicitHand, meshed with the cell
-/// size `cell` [m]. It is open at the wrist, where triangles on the forearm's side are left out.
-Skin make_blended_skin(const HandProfile& profile, double cell = 0.003);
+/// size `cell` [m]. It is open at the wrist, where triangles on the forearm's side are left out. A skin whose making
+/// was stopped is empty.
+Skin make_blended_skin(const HandProfile& profile, double cell = 0.003, const std::stop_token& stop = {});
 
-/// The profile's scanned skin if it has one; otherwise make_blended_skin(profile, cell).
-Skin make_skin(const HandProfile& profile, double cell);
+/// The profile's scanned skin if it has one; otherwise make_blended_skin(profile, cell, stop).
+Skin make_skin(const HandProfile& profile, double cell, const std::stop_token& stop = {});
 
 /// Recomputes the normals of all vertices that belong to triangles, from the triangles in the profile's rest pose.
 void compute_normals(const HandProfile& profile, Skin& skin);

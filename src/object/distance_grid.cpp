@@ -59,10 +59,10 @@ void DistanceGrid::fill(Function&& function) {
 }
 
 DistanceGrid::Sample DistanceGrid::sample(const Vector3f& p) const {
-  // Find the cell; places outside the grid move to its border.
+  // Find the cell; places outside the grid move to its border, and those that are not numbers to its first corner.
   const auto cell = static_cast<float>(cell_);
   const Vector3f at = (p - origin_) / cell;
-  const Vector3f inside = at.cwiseMax(0.f).cwiseMin(last_);
+  const Vector3f inside = (at.array() > 0).select(at, 0.f).cwiseMin(last_);
   const Eigen::Vector3i i = inside.cast<int>().cwiseMin(nodes_ - Eigen::Vector3i::Constant(2));
   const Vector3f f = inside - i.cast<float>();
 

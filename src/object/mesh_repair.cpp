@@ -30,6 +30,22 @@ float size_of(const ObjectMesh& mesh) {
   return (upper - lower).maxCoeff();
 }
 
+/// Leaves out the vertices that no triangle has: they would count as a part of the object's size.
+void remove_unused(ObjectMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const Index corner : t) used[corner] = true;
+  std::vector<Vector3f> kept;
+  std::vector<Index> index(mesh.vertices.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    index[i] = static_cast<Index>(kept.size());
+    if (used[i]) kept.push_back(mesh.vertices[i]);
+  }
+  mesh.vertices = std::move(kept);
+  for (Triangle& t : mesh.triangles)
+    for (Index& corner : t) corner = index[corner];
+}
+
 /// Merges vertices at the same place, as files have them where a surface has an edge or a seam.
 void merge_vertices(ObjectMesh& mesh, MeshRepair& repair) {
   // Sort the vertices into cells so large that the same place is found in a cell or in its neighbours.
@@ -191,9 +207,11 @@ Result<MeshRepair> repair_mesh(ObjectMesh& mesh, const std::string& where) {
   // Merge what is one place, and remove what is no triangle.
   MeshRepair repair;
   if (mesh.triangles.empty()) return fail("holds no triangles", where, "export the object's surface as triangles");
+  remove_unused(mesh);
   merge_vertices(mesh, repair);
   remove_degenerate(mesh, repair);
   if (mesh.triangles.empty()) return fail("holds no triangle that has an area", where, kRemedy);
+  remove_unused(mesh);
 
   // Turn the triangles, and close the holes.
   const auto parts = orient(mesh, where, repair);

@@ -16,9 +16,9 @@ constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement 
 /// Fits the poses of frames to a hand and, with look(), the hand to the frames.
 class BatchFit {
  public:
-  BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given)
-      : params_(params), fit_(every_frame(params.shape_fit), given) {
-    use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell)));
+  BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, const std::stop_token& stop)
+      : params_(params), stop_(stop), fit_(every_frame(params.shape_fit), given) {
+    use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell, stop)));
   }
 
   // Refines the pose of a frame and fits the hand to it.
@@ -26,7 +26,7 @@ class BatchFit {
     refine(frame);
     const auto change = fit_.look(*frame.observation, frame.pose, *refinement_, skin_);
     if (change == PersonFit::Change::large)
-      use(fit_.profile(), std::make_shared<const Skin>(make_skin(*fit_.profile(), params_.skin_cell)));
+      use(fit_.profile(), std::make_shared<const Skin>(make_skin(*fit_.profile(), params_.skin_cell, stop_)));
     else if (change == PersonFit::Change::small)
       use(fit_.profile(), fit_.skin());
   }
@@ -47,6 +47,7 @@ class BatchFit {
   }
 
   const PersonScanParams& params_;
+  const std::stop_token stop_;
   PersonFit fit_;
   std::shared_ptr<const Skin> skin_;
   std::unique_ptr<Refinement> refinement_;
@@ -58,7 +59,7 @@ std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
   // Fit the bones and the joints first if the given profile is a mean hand (the average of many people).
-  BatchFit fit(params, given);
+  BatchFit fit(params, given, stop);
   const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
   for (int pass = 0; pass < passes; ++pass)
     for (ScanFrame& frame : frames) {
@@ -67,7 +68,10 @@ std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::
     }
 
   // Refine the poses with the final bones, and scan.
-  workers.for_each_index(static_cast<int>(frames.size()), [&](int i) { fit.refine(frames[i]); });
+  workers.for_each_index(static_cast<int>(frames.size()), [&](int i) {
+    if (!stop.stop_requested()) fit.refine(frames[i]);
+  });
+  if (stop.stop_requested()) return nullptr;
   auto hand = scan_hand(fit.profile(), params.skin_cell, std::move(frames), workers, {}, stop);
   if (!hand) return nullptr;
   if (given->origin != ProfileOrigin::measured) hand->origin = ProfileOrigin::fitted;

@@ -26,7 +26,7 @@ class PersonScan {
  public:
   /// `given`: the hand before anything was learnt. `workers` must outlive this object.
   PersonScan(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, Workers& workers);
-  /// Waits until a running scan has stopped, about half a second.
+  /// Waits until a running scan has stopped, which takes some hundredths of a second of a processor's time.
   ~PersonScan();
   PersonScan(const PersonScan&) = delete;
   PersonScan& operator=(const PersonScan&) = delete;

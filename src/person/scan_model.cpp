@@ -88,10 +88,10 @@ void put_in_order(SkinVertex& v) {
 
 }  // namespace
 
-ScanModel make_scan_model(const HandProfile& profile, double cell) {
+ScanModel make_scan_model(const HandProfile& profile, double cell, const std::stop_token& stop) {
   const ImplicitHand hand(profile);
   const HandPose& bind = hand.pose();  // bind pose, in which both segments put a vertex at the same point
-  ScanModel model{profile, make_blended_skin(profile, cell), {}, {}, {}, {}};
+  ScanModel model{profile, make_blended_skin(profile, cell, stop), {}, {}, {}, {}};
 
   // Give every vertex a second segment.
   for (SkinVertex& v : model.skin.vertices) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <stop_token>
 #include <vector>
 
 #include "hand/hand_pose.h"
@@ -21,8 +22,9 @@ struct ScanModel {
   /// A measured profile states where the joints lie, so a scan must not move them.
   bool joints_are_known() const { return profile.origin == ProfileOrigin::measured; }
 };
-/// The model that a scan of the hand `profile` begins with. `cell`: size of the skin's triangles [m].
-ScanModel make_scan_model(const HandProfile& profile, double cell);
+/// The model that a scan of the hand `profile` begins with. `cell`: size of the skin's triangles [m]. Its skin is empty
+/// if `stop` was requested.
+ScanModel make_scan_model(const HandProfile& profile, double cell, const std::stop_token& stop = {});
 
 /// Numbering of the unknowns that all frames of a scan share. First come the joints (both points and a rotation of the
 /// rest rotation), then the offset of each vertex along its normal, then each vertex's weight ("share") of its second

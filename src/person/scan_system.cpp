@@ -1,5 +1,7 @@
 #include "person/scan_system.h"
 
+#include <utility>
+
 namespace barehand {
 namespace {
 
@@ -34,8 +36,8 @@ Eigen::SparseMatrix<double> augmented(const Eigen::SparseMatrix<double>& H, cons
 }  // namespace
 
 ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrameEquations> frames, double weight,
-                       Workers& workers)
-    : frames_(frames), weight_(weight), workers_(workers), g_(equations.g) {
+                       Workers& workers, std::stop_token stop)
+    : frames_(frames), weight_(weight), workers_(workers), stop_(std::move(stop)), g_(equations.g) {
   // Assemble the sparse matrices.
   const int count = static_cast<int>(g_.size());
   H_ = assembled(count, count, equations.H);
@@ -53,7 +55,13 @@ ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrame
 
   joints.diagonal() += damping.head(kJoints);
   joints_.compute(joints);
-  skin_.compute(augmented(H_, means_));
+
+  // Factorise the block of the skin, which takes long.
+  if (stop_.stop_requested()) return;
+  const Eigen::SparseMatrix<double> skin = augmented(H_, means_);
+  if (stop_.stop_requested()) return;
+  skin_.analyzePattern(skin);
+  if (!stop_.stop_requested()) skin_.factorize(skin);
 }
 
 Eigen::VectorXd ScanSystem::times(const Eigen::VectorXd& x) const {
@@ -77,13 +85,14 @@ Eigen::VectorXd ScanSystem::preconditioned(const Eigen::VectorXd& r) const {
 
 std::optional<Eigen::VectorXd> ScanSystem::solve() const {
   // Start the preconditioned conjugate gradients at zero.
-  if (joints_.info() != Eigen::Success || skin_.info() != Eigen::Success) return std::nullopt;
+  if (stop_.stop_requested() || joints_.info() != Eigen::Success || skin_.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(g_.size()), r = g_, z = preconditioned(r), direction = z;
   double size = r.dot(z);
   const double enough = kTolerance * kTolerance * size;
 
   // Step along conjugate directions until the residual is small enough.
   for (int i = 0; i < kMostIterations && size > enough; ++i) {
+    if (stop_.stop_requested()) return std::nullopt;
     const Eigen::VectorXd product = times(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0)) return std::nullopt;

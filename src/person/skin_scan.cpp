@@ -23,25 +23,28 @@ constexpr double kWidening = 20 * kDegree;  // widening of the joint limits
 /// The state of a running scan.
 class Scan {
  public:
-  Scan(const HandProfile& start, double cell, std::vector<ScanFrame> frames, Workers& workers)
-      : start_(make_scan_model(start, cell)),
+  Scan(const HandProfile& start, double cell, std::vector<ScanFrame> frames, Workers& workers,
+       const std::stop_token& stop)
+      : start_(make_scan_model(start, cell, stop)),
         model_(start_),
         variables_(model_),
         limits_(widened_limits(start, kWidening)),
         frames_(std::move(frames)),
         equations_(frames_.size()),
-        workers_(workers) {}
+        workers_(workers),
+        stop_(stop) {}
 
   // Number of rounds of the whole scan.
   int rounds() const { return start_.joints_are_known() ? kRoundsOfSkin : kRounds; }
   /// One Gauss-Newton step on everything. `skin_only`: poses and joints stay as they are. Returns the root mean square
-  /// mismatch before the step [m]; none if it cannot be solved.
+  /// mismatch before the step [m]; none if it cannot be solved or is stopped.
   std::optional<double> round(bool skin_only) {
     // Linearise all frames in parallel.
     const int frames = static_cast<int>(frames_.size());
     std::vector<char> fine(frames_.size());
-    workers_.for_each_index(
-        frames, [&](int i) { fine[i] = equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only); });
+    workers_.for_each_index(frames, [&](int i) {
+      fine[i] = !stop_.stop_requested() && equations_[i].linearise(frames_[i], model_, variables_, limits_, skin_only);
+    });
     if (std::count(fine.begin(), fine.end(), false) > 0) return std::nullopt;
 
     // Sum up the prior and all frames, whose total weight is bounded.
@@ -53,6 +56,7 @@ class Scan {
     double squares = 0;
     int residuals = 0;
     for (const ScanFrameEquations& equations : equations_) {
+      if (stop_.stop_requested()) return std::nullopt;
       equations.add_to(shared, weight);
       squares += equations.squares();
       residuals += equations.residuals();
@@ -60,7 +64,7 @@ class Scan {
     if (residuals == 0) return std::nullopt;
 
     // Solve, and apply the step to the hand and to the poses.
-    const auto step = ScanSystem(shared, equations_, weight, workers_).solve();
+    const auto step = ScanSystem(shared, equations_, weight, workers_, stop_).solve();
     if (!step) return std::nullopt;
     workers_.for_each_index(frames, [&](int i) { frames_[i].pose = equations_[i].moved(frames_[i].pose, *step); });
     variables_.apply(*step, model_);
@@ -77,6 +81,7 @@ class Scan {
   std::vector<ScanFrame> frames_;
   std::vector<ScanFrameEquations> equations_;
   Workers& workers_;
+  const std::stop_token stop_;
 };
 
 }  // namespace
@@ -85,7 +90,7 @@ std::optional<HandProfile> scan_hand(const HandProfile& start, double cell, std:
                                      Workers& workers, const std::function<void(const ScanProgress&)>& progress,
                                      const std::stop_token& stop) {
   if (frames.empty()) return std::nullopt;
-  Scan scan(start, cell, std::move(frames), workers);
+  Scan scan(start, cell, std::move(frames), workers, stop);
   double first = 0, last = 0;
 
   // Iterate, unless the caller stops the scan or a round cannot be solved.

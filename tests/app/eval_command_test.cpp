@@ -261,5 +261,37 @@ TEST_F(EvalCommand, ComparesGraspsAlsoWithoutTheTruthOfPoses) {
   EXPECT_THAT(err_, HasSubstr("header"));
 }
 
+TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
+  // Four frames with an object 1 mm beside its place; in the last three, the message holds no pose.
+  auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
+  ASSERT_TRUE(log);
+  std::string objects = "utime,object,held,x,y,z,qw,qx,qy,qz\n", grasps = "utime,grasp\n";
+  for (int frame = 0; frame < 4; ++frame) {
+    object_state_t state{};
+    state.utime = 1'000'000 + 100'000 * frame;
+    state.object_id = 1;
+    state.position[0] = frame == 1 ? NAN : 0.001;
+    state.orientation[0] = frame == 2 ? NAN : frame == 3 ? 0 : 1;
+    ASSERT_TRUE((*log)->send("OBJECT_STATE", encode_message(state), state.utime));
+    grasp_state_t grasp{};
+    grasp.utime = state.utime;
+    ASSERT_TRUE((*log)->send("GRASP_STATE", encode_message(grasp), grasp.utime));
+    objects += std::to_string(state.utime) + ",block,0,0,0,0,1,0,0,0\n";
+    grasps += std::to_string(state.utime) + ",none\n";
+  }
+  ASSERT_TRUE((*log)->finish());
+  std::ofstream(folder_ / "objects.csv") << objects;
+  std::ofstream(folder_ / "grasps.csv") << grasps;
+  std::ofstream(folder_ / "block.obj") << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
+                                          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+  ASSERT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/objects.csv --json %/e.json"), 0)
+      << err_;
+  const json report = json::parse(test::read_text(folder_ / "e.json"))["objects"][0];
+  EXPECT_EQ(report["frames"], 4);
+  EXPECT_EQ(report["stated"], 1);
+  EXPECT_EQ(report["lost"], 3);
+}
+
 }  // namespace
 }  // namespace barehand

@@ -25,6 +25,13 @@ TEST_F(SkinTest, BindsEveryVertexToAdjacentSegmentsOnly) {
   }
 }
 
+TEST_F(SkinTest, IsEmptyIfItsMakingIsStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(make_blended_skin(*profile_, 0.004, stop.get_token()).vertices.empty());
+  EXPECT_EQ(make_blended_skin(*profile_, 0.004, std::stop_source().get_token()).vertices.size(), skin_.vertices.size());
+}
+
 TEST_F(SkinTest, FingertipsEndOneRadiusBeyondTheTipJoint) {
   const HandPose pose = test::facing_pose(*profile_, 0.5, 0.0);
   std::vector<Vector3f> posed;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "math/random.h"
 #include "object/known_object.h"
 #include "support/solid_meshes.h"
@@ -53,6 +56,13 @@ TEST(DistanceGrid, BeyondTheGridDistancesGrowWithTheWay) {
   const KnownObjectPtr ball = make_known_object(test::ball_mesh(kRadius), 1);
   EXPECT_NEAR(ball->grid.distance({0, 0, 0.5f}), 0.5f - kRadius, 0.002);
   EXPECT_GT(ball->grid.distance({0.3f, 0.3f, 0.3f}), 0.4f);
+}
+
+TEST(DistanceGrid, APlaceThatIsNoNumberHasNoDistance) {
+  const KnownObjectPtr ball = make_known_object(test::ball_mesh(kRadius), 1);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(ball->grid.distance({kNan, 0, 0})));
+  EXPECT_TRUE(std::isnan(ball->grid.distance({kNan, kNan, kNan})));
 }
 
 TEST(KnownObject, SamplesCoverTheSurfaceEvenly) {

@@ -28,13 +28,23 @@ class MeshFile : public testing::Test {
     for (const auto& t : mesh().triangles) text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
     return text.str();
   }
-  static std::string ply() {
+  /// `vertex`, `face`: lines of one more vertex and one more face; "": none.
+  static std::string ply(const std::string& vertex = "", const std::string& face = "") {
     std::ostringstream text;
-    text << "ply\nformat ascii 1.0\nelement vertex " << mesh().vertices.size()
-         << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh().triangles.size()
-         << "\nproperty list uchar int vertex_indices\nend_header\n";
+    text << "ply\nformat ascii 1.0\nelement vertex " << mesh().vertices.size() + !vertex.empty()
+         << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+         << mesh().triangles.size() + !face.empty() << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (const auto& v : mesh().vertices) text << v.transpose() << "\n";
+    if (!vertex.empty()) text << vertex << "\n";
     for (const auto& t : mesh().triangles) text << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    if (!face.empty()) text << face << "\n";
+    return text.str();
+  }
+  /// The hammer, so many metres beside its origin.
+  static std::string moved_obj(float by) {
+    std::ostringstream text;
+    for (const auto& v : mesh().vertices) text << "v " << v.x() + by << " " << v.y() << " " << v.z() << "\n";
+    for (const auto& t : mesh().triangles) text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
     return text.str();
   }
   static std::string stl() {
@@ -89,6 +99,41 @@ TEST_F(MeshFile, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("no such file"));
   EXPECT_THAT(refusal(write("empty.obj", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(write("noise.ply", "this is no mesh")), HasSubstr("cannot be read as a mesh"));
+}
+
+TEST_F(MeshFile, RefusesFilesThatAreBroken) {
+  for (const std::string face : {"3 0 1 99999", "3 0 1 -5", "4 0 1 2 77777", "0"})
+    EXPECT_THAT(refusal(write("face.ply", ply("", face))), HasSubstr("has a face without corners")) << face;
+  const std::string whole = ply();
+  for (std::size_t size = 1; 4 * size < 3 * whole.size(); size += 37)
+    EXPECT_NE(refusal(write("cut.ply", whole.substr(0, size))), "loaded") << size;
+  EXPECT_THAT(refusal(write("cut.ply", whole.substr(0, 60))), HasSubstr("header has no end"));
+  EXPECT_THAT(refusal(write("nan.ply", ply("nan 0 0", "3 0 1 " + std::to_string(mesh().vertices.size())))),
+              HasSubstr("not finite"));
+}
+
+TEST_F(MeshFile, RefusesJsonThatIsNestedTooDeeply) {
+  const std::string deep =
+      R"({"asset":{"version":"2.0"},"extras":)" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}";
+  EXPECT_THAT(refusal(write("deep.gltf", deep)), HasSubstr("levels of nested JSON"));
+  const auto little_endian = [](std::size_t size) { return std::string(reinterpret_cast<const char*>(&size), 4); };
+  const std::string binary =
+      "glTF" + little_endian(2) + little_endian(20 + deep.size()) + little_endian(deep.size()) + "JSON" + deep;
+  EXPECT_THAT(refusal(write("deep.GLB", binary)), HasSubstr("levels of nested JSON"));
+  EXPECT_THAT(refusal(write("text.gltf", R"({"a":")" + std::string(1000, '[') + "\"}")),
+              HasSubstr("cannot be read as a mesh"))
+      << "brackets in a string are no levels";
+}
+
+TEST_F(MeshFile, RefusesAnObjectFarFromItsOrigin) {
+  EXPECT_EQ(refusal(write("near.obj", moved_obj(5))), "loaded");
+  EXPECT_THAT(refusal(write("far.obj", moved_obj(50))), HasSubstr("away from the origin"));
+}
+
+TEST_F(MeshFile, LeavesOutVerticesOfNoTriangle) {
+  const auto loaded = load_mesh(write("far.ply", ply("1000 0 0")), LengthUnit::metre);
+  ASSERT_TRUE(loaded) << loaded.error().message();
+  EXPECT_EQ(loaded->mesh.vertices.size(), mesh().vertices.size());
 }
 
 }  // namespace

@@ -377,6 +377,9 @@ TEST_F(ScanEquationsTest, AreSolvedAsTheirWholeMatrixIs) {
   // A direct solution agrees with the iterative one.
   const Eigen::VectorXd exact = matrix.llt().solve(shared.g);
   const auto solved = system.solve();
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(ScanSystem(shared, frames, 2, workers_, stop.get_token()).solve());
   ASSERT_TRUE(solved);
   ASSERT_GT(exact.norm(), 1e-3);
   EXPECT_LT((*solved - exact).norm(), 1e-4 * exact.norm());
@@ -493,6 +496,14 @@ TEST_F(ScanTest, EndsWhereItIsToldTo) {
   };
   EXPECT_FALSE(scan_hand(*start_, 0.012, scan_of(*start_, *start_), workers_, stop_now, stop.get_token()));
   EXPECT_EQ(rounds, 1);
+}
+
+TEST_F(ScanTest, DoesNotBeginIfItIsStoppedBefore) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(make_scan_model(*start_, 0.012, stop.get_token()).skin.vertices.empty());
+  const auto never = [](const ScanProgress&) { ADD_FAILURE() << "a round was finished"; };
+  EXPECT_FALSE(scan_hand(*start_, 0.012, scan_of(*start_, *start_), workers_, never, stop.get_token()));
 }
 
 TEST_F(ScanTest, NoFramesAreNoScan) { EXPECT_FALSE(scan_hand(*start_, kCell, {}, workers_)); }

@@ -207,6 +207,29 @@ TEST_F(PipedOutputs, ARunThatWaitsForAReaderCanBeStopped) {
   }
 }
 
+TEST_F(PipedOutputs, AVideoCanGoIntoAPipe) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe.mkv").c_str(), 0600), 0);
+  ChildProcess stopped({BAREHAND_PROGRAM, "track", "--source", "folder:" + (folder_ / "take"), "--no-publish",
+                        "--overlay", folder_ / "pipe.mkv"});
+  ASSERT_TRUE(stopped.wait_for("waiting for a program to read the pipe")) << stopped.output();
+  stopped.signal(SIGTERM);
+  EXPECT_EQ(stopped.finish(), 130) << stopped.output();
+
+  const Outcome read = run("cat $D/pipe.mkv >$D/out.mkv & " + kTrack + "--overlay $D/pipe.mkv; rc=$?; wait; exit $rc");
+  EXPECT_EQ(read.exit_code, 0) << read.output;
+  EXPECT_THAT(text_of("out.mkv"), StartsWith("\x1a\x45\xdf\xa3")) << "the signature of Matroska";
+  EXPECT_GT(text_of("out.mkv").size(), 1000u);
+
+  // A live run would wait for a reader that is slow, and images need a folder.
+  const Outcome live = run("$B track --source sim:fist,live=true --no-publish --overlay $D/pipe.mkv");
+  EXPECT_EQ(live.exit_code, 2);
+  EXPECT_THAT(live.output, HasSubstr("is a pipe, whose reader could hold up"));
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const Outcome images = run(kTrack + "--overlay $D/pipe");
+  EXPECT_EQ(images.exit_code, 2);
+  EXPECT_THAT(images.output, HasSubstr("images need a folder"));
+}
+
 TEST_F(PipedOutputs, AStandardOutputThatNobodyReadsIsNotWaitedFor) {
   const Outcome gone = run("exec 3> >(true); wait $!; " + kTrack + "--result /dev/stdout >&3");
   EXPECT_EQ(gone.exit_code, 1);

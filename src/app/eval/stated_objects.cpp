@@ -1,11 +1,18 @@
 // Reads stated poses of a known object from a log of hand states.
 #include "app/eval/stated_objects.h"
 
+#include <cmath>
+
 #include "barehand/object_state_t.hpp"
 #include "drivers/lcm/layouts.h"
 #include "io/lcm/message_log.h"
 
 namespace barehand {
+namespace {
+
+constexpr double kUnit = 1e-3;  // deviation of a unit quaternion's norm from 1
+
+}  // namespace
 
 Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
   auto log = MessageLog::open(log_path);
@@ -18,8 +25,11 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
     const auto state = decode_message<object_state_t>(*bytes);
     if (!state || state->object_id != 1) continue;
     const double* q = state->orientation;
-    poses[state->utime] = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(),
-                           Eigen::Vector3d(state->position)};
+    const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+    const Eigen::Vector3d position(state->position);
+    const bool is_pose = position.allFinite() && std::abs(orientation.norm() - 1) < kUnit;
+    if (!is_pose) continue;
+    poses[state->utime] = {orientation.normalized().toRotationMatrix(), position};
   }
   if (poses.empty())
     return fail("holds no pose of object 1", log_path,

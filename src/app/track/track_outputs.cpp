@@ -30,6 +30,18 @@ Result<void> check_room_for(const TwoHandTracker::Profiles& hands, const std::st
               "give a file, or track one hand");
 }
 
+/// Refuses a pipe as an overlay, unless it takes the video of a recording.
+Result<void> check_pipe_of_overlay(const std::string& path, bool live) {
+  std::error_code ignored;
+  if (!std::filesystem::is_fifo(path, ignored)) return {};
+  if (!video_format(path))
+    return fail("is a pipe, and images need a folder", "--overlay " + path,
+                "give a folder, or a name that ends in .mp4, .mkv, .webm or .avi");
+  if (!live) return {};
+  return fail("is a pipe, whose reader could hold up the tracking of a live source", "--overlay " + path,
+              "give a file or a folder");
+}
+
 /// The log that LCM itself writes if the network is file://PATH?mode=w.
 Output of_network(const std::string& url) {
   const std::string file = "file://";
@@ -74,6 +86,7 @@ Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& con
     return check_room_for(hands, "--save-hand", options.save_hand);
   });
   if (!room) return tl::unexpected(room.error());
+  if (const auto good = check_pipe_of_overlay(options.overlay, live); !good) return tl::unexpected(good.error());
 
   // Check the names as they were given, before any of them gets a number.
   std::vector<InputFile> inputs{{"--config", config_path}};

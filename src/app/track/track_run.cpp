@@ -209,19 +209,25 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
 }
 
 Step TrackRun::await_readers() {
-  for (const auto file : TrackOptions::kFiles) {
-    std::string& path = options_.*file;
-    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // which is written at the end
-    const auto behind = patient ? PipeReaders::Behind::wait : PipeReaders::Behind::leave_out;
-    const auto opened = readers_.wait_for(path, behind, stop_.get_token(), [&] {
+  const auto wait = [&](const std::string& path, PipeReaders::Behind behind) {
+    return readers_.wait_for(path, behind, stop_.get_token(), [&] {
       log_.warn("reader of " + path, "waiting for a program to read the pipe " + path);
       service_.ready("waiting for a reader of " + path);
       service_.alive();
     });
+  };
+  for (const auto file : TrackOptions::kFiles) {
+    std::string& path = options_.*file;
+    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // which is written at the end
+    const auto opened = wait(path, patient ? PipeReaders::Behind::wait : PipeReaders::Behind::leave_out);
     if (!opened) return stopped("stopped while waiting for a reader of " + path);
     if (*opened != path) log_.logger().info("the pipe {} is written as {}", path, *opened);
     path = *opened;
   }
+
+  // A video keeps its name, whose ending says the format.
+  if (!options_.overlay.empty() && !wait(options_.overlay, PipeReaders::Behind::wait))
+    return stopped("stopped while waiting for a reader of " + options_.overlay);
   return {};
 }
 

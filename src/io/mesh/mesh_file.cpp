@@ -4,13 +4,16 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <span>
 
 #include "core/format.h"
+#include "io/mesh/gltf_depth.h"
 
 namespace barehand {
 namespace {
@@ -28,12 +31,37 @@ const NamedUnit& named(LengthUnit unit) { return kUnits[static_cast<std::size_t>
 
 constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a hand can hold and be tracked with [m]
 constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same of most things [m]
+constexpr double kFarthest = 10;  // from the origin of the file to the object [m]: single precision is too coarse there
 constexpr std::size_t kMostTriangles = 500'000;
+constexpr int kDeepestJson = 100;  // levels; assimp's parser calls itself for each one, until the stack is full
 
 /// A length that people can read.
 std::string readable(double metres) {
   if (metres >= 1) return formatted("%.3g m", metres);
   return formatted("%.3g mm", 1000 * metres);
+}
+
+/// Whether a file begins like PLY but has no end of the header, for which assimp would search without end.
+bool is_ply_without_end_of_header(const std::string& path) {
+  constexpr std::size_t kLongestHeader = 1 << 16;
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kLongestHeader, ' ');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  const bool ends = text.find("end_header\n") != std::string::npos || text.find("end_header\r") != std::string::npos;
+  return text.starts_with("ply") && !ends;
+}
+
+/// Whether every face has corners, all of which are vertices of its mesh. Assimp relies on it, but does not check it.
+bool has_sound_faces(const aiScene& scene) {
+  const auto sound = [](const aiMesh& mesh, const aiFace& face) {
+    const std::span corners(face.mIndices, face.mNumIndices);
+    return !corners.empty() && std::ranges::all_of(corners, [&](unsigned v) { return v < mesh.mNumVertices; });
+  };
+  for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes))
+    for (const aiFace& face : std::span(mesh->mFaces, mesh->mNumFaces))
+      if (!sound(*mesh, face)) return false;
+  return true;
 }
 
 /// Adds the triangles of one mesh of the file; lines and points are left out.
@@ -50,8 +78,8 @@ void append(const aiMesh& part, double scale, ObjectMesh& mesh) {
   }
 }
 
-/// Checks that the object has the size of something that a hand holds. If not, the error names the unit with which it
-/// would.
+/// Checks that the object has the size of something that a hand holds, and that it is near the origin of its file. If
+/// the size is wrong, the error names the unit with which it would be right.
 Result<void> check_size(const ObjectMesh& mesh, const std::string& path, LengthUnit unit) {
   // Measure the longest side.
   Eigen::Vector3f lower = mesh.vertices.front(), upper = lower;
@@ -61,6 +89,10 @@ Result<void> check_size(const ObjectMesh& mesh, const std::string& path, LengthU
       upper = upper.cwiseMax(mesh.vertices[v]);
     }
   const double size = (upper - lower).cast<double>().maxCoeff();
+  const double away = (0.5f * (lower + upper)).cast<double>().norm();
+  if (size >= kSmallest && size <= kLargest && away > kFarthest)
+    return fail("the object is " + readable(away) + " away from the origin of the file", path,
+                "move it to the origin with a modelling program");
   if (size >= kSmallest && size <= kLargest) return {};
 
   // Look for the unit that makes it an ordinary thing.
@@ -91,9 +123,19 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
   if (!std::ifstream(path)) return fail("cannot be read", path, "check its permissions");
   if (std::filesystem::file_size(path, error) == 0) return fail("is empty", path, "export the object's mesh again");
 
+  if (is_ply_without_end_of_header(path))
+    return fail("is a PLY file whose header has no end", path, "export the object's mesh again");
+  if (gltf_depth(path) > kDeepestJson)
+    return fail(formatted("has more than %d levels of nested JSON", kDeepestJson), path,
+                "export the object's mesh again");
+
   // Read it; the parts of a scene are placed as its nodes say.
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene && !has_sound_faces(*scene))
+    return fail("has a face without corners, or with corners that the file does not hold", path,
+                "it was probably cut short: export the object's mesh again");
+  if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene)
     return fail(std::string("cannot be read as a mesh: ") + importer.GetErrorString(), path,
                 "give an OBJ, PLY, STL or glTF file");
