@@ -30,12 +30,12 @@ void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
     return;
   }
   ++counts_.received;
-  if (letters_.size() >= options_.capacity) {
-    letters_.pop_front();
+  if (packets_.size() >= options_.capacity) {
+    packets_.pop_front();
     ++counts_.replaced;
   }
   if (message_hash(message) == rgbd_frame_t::getHash()) count_lost(channel, message_word(message, 2));
-  letters_.push_back({channel, {message.begin(), message.end()}});
+  packets_.push_back({channel, {message.begin(), message.end()}});
   arrived_.notify_one();
 }
 
@@ -53,11 +53,11 @@ void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
 
 SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
   if (!to_come_.empty()) return take_next();
-  Letter letter;
+  Packet packet;
   {
     std::unique_lock lock(mutex_);
     const auto to_tell = [this] { return !other_.empty() && !told_of_other_; };
-    if (!arrived_.wait_for(lock, patience, [&] { return !letters_.empty() || to_tell(); })) {
+    if (!arrived_.wait_for(lock, patience, [&] { return !packets_.empty() || to_tell(); })) {
       if (listener_.broken()) return SourceFailed{{"the LCM connection broke", bus_->url(), "check the network"}};
       return Timeout{};
     }
@@ -66,30 +66,30 @@ SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
       return SourceNotice{{"frames also arrive on other channels, among them " + other_ + "; they are ignored",
                            name_of(chosen_), "name the channel if this is the wrong one"}};
     }
-    letter = std::move(letters_.front());
-    letters_.pop_front();
+    packet = std::move(packets_.front());
+    packets_.pop_front();
   }
-  return open_letter(letter);
+  return decode_packet(packet);
 }
 
-SourceEvent LcmLiveSource::open_letter(const Letter& letter) {
-  auto frame = decode_frame_message(letter.message, options_.foreign, foreign_number_);
+SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
+  auto frame = decode_frame_message(packet.message, options_.foreign, foreign_number_);
   if (!frame) {
     Error error = frame.error();
-    error.where = name_of(letter.channel);
+    error.where = name_of(packet.channel);
     return SkippedFrame{std::move(error)};
   }
-  choose(letter.channel);
-  FrameOrder& order = orders_.try_emplace(letter.channel, StampUnit::microseconds).first->second;
+  choose(packet.channel);
+  FrameOrder& order = orders_.try_emplace(packet.channel, StampUnit::microseconds).first->second;
   const auto number = order.number((*frame)->utime, (*frame)->number);
-  for (const std::string& doubt : order.take_doubts())
-    to_come_.push_back(SourceNotice{{doubt, name_of(letter.channel), ""}});
+  for (const std::string& warning : order.take_warnings())
+    to_come_.push_back(SourceNotice{{warning, name_of(packet.channel), ""}});
   ++foreign_number_;
   if (number) {
     (*frame)->number = *number;
     to_come_.push_back(FramePtr(*std::move(frame)));
   } else {
-    to_come_.push_back(SkippedFrame{{number.error().what, name_of(letter.channel), number.error().remedy}});
+    to_come_.push_back(SkippedFrame{{number.error().what, name_of(packet.channel), number.error().remedy}});
   }
   return take_next();
 }
@@ -106,21 +106,21 @@ void LcmLiveSource::choose(const std::string& channel) {
   const std::lock_guard lock(mutex_);
   if (!options_.channel.empty() || !chosen_.empty()) return;
   chosen_ = channel;
-  counts_.received -= static_cast<std::int64_t>(std::erase_if(letters_, [&](const Letter& letter) {
-    if (letter.channel == chosen_) return false;
-    if (carries_frames(message_hash(letter.message))) other_ = letter.channel;
+  counts_.received -= static_cast<std::int64_t>(std::erase_if(packets_, [&](const Packet& packet) {
+    if (packet.channel == chosen_) return false;
+    if (carries_frames(message_hash(packet.message))) other_ = packet.channel;
     return true;
   }));
 }
 
 std::vector<QueueHealth> LcmLiveSource::queues() const {
   const std::lock_guard lock(mutex_);
-  const auto waiting = static_cast<std::int64_t>(letters_.size());
+  const auto waiting = static_cast<std::int64_t>(packets_.size());
   const std::int64_t received = counts_.received;
   return {{"transit", 0, 0, received + counts_.lost, received, counts_.lost, {}},
           {"inbox",
            options_.capacity,
-           letters_.size(),
+           packets_.size(),
            received,
            received - counts_.replaced - waiting,
            counts_.replaced,

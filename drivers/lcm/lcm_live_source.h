@@ -48,13 +48,13 @@ class LcmLiveSource : public FrameSource {
   LcmLiveCounts counts() const;
 
  private:
-  struct Letter {
+  struct Packet {
     std::string channel;
     std::vector<std::uint8_t> message;
   };
   void receive(const std::string& channel, WireBytes message);
   void count_lost(const std::string& channel, std::int64_t seq);
-  SourceEvent open_letter(const Letter& letter);
+  SourceEvent decode_packet(const Packet& packet);
   SourceEvent take_next();
   void choose(const std::string& channel);
   std::string pattern() const { return options_.channel.empty() ? "*RGBD_FRAME" : options_.channel; }
@@ -68,7 +68,7 @@ class LcmLiveSource : public FrameSource {
 
   mutable std::mutex mutex_;  ///< guards the members below, except listener_
   std::condition_variable arrived_;
-  std::deque<Letter> letters_;
+  std::deque<Packet> packets_;
   LcmLiveCounts counts_;
   std::map<std::string, std::int64_t> last_seq_;
   std::string chosen_;  ///< the only channel that is accepted; "": every channel of the pattern

@@ -10,8 +10,8 @@
 #include "core/glob.h"
 #include "core/quote.h"
 #include "drivers/lcm/frame_message.h"
+#include "io/atomic_file.h"
 #include "io/lcm/log_names.h"
-#include "io/whole_file.h"
 #include "sensor/frame_order.h"
 
 namespace barehand {
@@ -60,7 +60,7 @@ Result<void> LcmLogSource::open_files() {
     }
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
     if (file != path_ && !finished_name(file).empty())
-      doubts_.push_back(file + ": was left by a killed recorder; every complete event is played");
+      warnings_.push_back(file + ": was left by a killed recorder; every complete event is played");
     reader->close();
     files_.push_back(std::move(*reader));
   }
@@ -110,7 +110,8 @@ void LcmLogSource::put_in_order() {
       unused_.emplace(position, number.error());
   }
   for (auto& [channel, order] : orders)
-    for (const std::string& doubt : order.take_last_doubts()) doubts_.push_back(path_ + " " + channel + ": " + doubt);
+    for (const std::string& warning : order.take_last_warnings())
+      warnings_.push_back(path_ + " " + channel + ": " + warning);
 }
 
 std::int64_t LcmLogSource::damaged_bytes() const {

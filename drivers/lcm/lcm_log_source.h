@@ -45,7 +45,7 @@ class LcmLogSource : public FrameSource {
   /// The reason for each log that was left out: it cannot be read, holds nothing, or is still being written.
   const std::vector<Error>& left_out() const { return left_out_; }
   /// Warnings about the frames' time stamps and about unfinished logs, in sentences.
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   /// An event and the index of its file.
@@ -66,7 +66,7 @@ class LcmLogSource : public FrameSource {
   std::vector<Error> left_out_;
   std::vector<Event> frames_;             ///< events of the chosen channels, in the order of the files
   std::map<std::int64_t, Error> unused_;  ///< why FrameOrder rejects a frame, by the frame's index in frames_
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
   ReplayPosition position_;
   std::size_t open_ = 0;  ///< index of the only file that may be open
 };

@@ -55,11 +55,12 @@ Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, co
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
   std::unique_ptr<McapSource> source(new McapSource(path, options));
-  auto reader = mcap::McapReader::open(
-      path, [&](const auto& message, const auto& channel, auto bytes) { source->look(message, channel, bytes); });
+  auto reader = mcap::McapReader::open(path, [&](const auto& message, const auto& channel, auto bytes) {
+    source->add_message(message, channel, bytes);
+  });
   if (!reader) return tl::unexpected(reader.error());
   source->reader_ = std::move(*reader);
-  source->doubts_ = source->reader_->doubts();
+  source->warnings_ = source->reader_->warnings();
   if (auto chosen = source->choose(); !chosen) return tl::unexpected(chosen.error());
 
   const auto count = static_cast<std::int64_t>(source->frames_.size());
@@ -104,7 +105,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
 }
 
 /// Registers a message; called for every message in the order of the file.
-void McapSource::look(const mcap::Message& message, const mcap::Channel& channel, std::span<const std::uint8_t> bytes) {
+void McapSource::add_message(const mcap::Message& message, const mcap::Channel& channel,
+                             std::span<const std::uint8_t> bytes) {
   auto known = streams_.find(channel.topic);
   if (known == streams_.end()) known = streams_.emplace(channel.topic, begin_stream(channel, bytes)).first;
   Stream& stream = known->second;
@@ -175,9 +177,9 @@ const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
     others.push_back(other);
   }
   if (!others.empty())
-    doubts_.push_back(path_ + ": the colour of " + comma_list(others) +
-                      " has another frame or size than the depth of " + topic +
-                      ", so it is not used: record colour that is registered to depth");
+    warnings_.push_back(path_ + ": the colour of " + comma_list(others) +
+                        " has another frame or size than the depth of " + topic +
+                        ", so it is not used: record colour that is registered to depth");
   return nullptr;
 }
 
@@ -188,8 +190,8 @@ Result<void> McapSource::add_frames(const std::string& topic) {
     return fail("there are no intrinsics for " + topic + ": no camera info on " + namespace_of(topic) + "/camera_info",
                 path_, "give them: --fx, --fy, --cx, --cy, or foreign_camera in the configuration");
   if (camera != nullptr && camera->lens)
-    doubts_.push_back(path_ + ": the coefficients of lens distortion in " + namespace_of(topic) +
-                      "/camera_info are not used: record rectified images where they matter");
+    warnings_.push_back(path_ + ": the coefficients of lens distortion in " + namespace_of(topic) +
+                        "/camera_info are not used: record rectified images where they matter");
   const Stream* colour = colour_of(topic);
   const ColourPairs pairs = pair_colour(depth.utimes, colour != nullptr ? colour->utimes : std::vector<std::int64_t>());
 
@@ -209,7 +211,8 @@ Result<void> McapSource::add_frames(const std::string& topic) {
     if (const double fps = number_in(channel, ros::kFps); fps > 0 && fps < 10'000) fps_ = fps;
     frames_.push_back(std::move(frame));
   }
-  for (const std::string& doubt : order.take_last_doubts()) doubts_.push_back(path_ + " " + topic + ": " + doubt);
+  for (const std::string& warning : order.take_last_warnings())
+    warnings_.push_back(path_ + " " + topic + ": " + warning);
   return {};
 }
 

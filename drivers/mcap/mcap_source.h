@@ -50,7 +50,7 @@ class McapSource : public FrameSource {
   /// Nominal frame rate stored in the file [1/s]; 0: none.
   double fps() const { return fps_; }
   /// Warnings about the file, in sentences.
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   /// The kind of the messages of one topic, determined from the first one.
@@ -74,7 +74,7 @@ class McapSource : public FrameSource {
   };
 
   McapSource(std::string path, const McapOptions& options) : path_(std::move(path)), options_(options) {}
-  void look(const mcap::Message& message, const mcap::Channel& channel, std::span<const std::uint8_t> bytes);
+  void add_message(const mcap::Message& message, const mcap::Channel& channel, std::span<const std::uint8_t> bytes);
   static Stream begin_stream(const mcap::Channel& channel, std::span<const std::uint8_t> bytes);
   Result<void> choose();
   Result<void> add_frames(const std::string& topic);
@@ -90,7 +90,7 @@ class McapSource : public FrameSource {
   std::optional<mcap::McapReader> reader_;
   Streams streams_;
   std::vector<Frame> frames_;
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
   double fps_ = 0;
   ReplayPosition position_;
 };

@@ -96,7 +96,7 @@ std::vector<Material> Simulator::materials() const {
   return list;
 }
 
-SceneGeometry Simulator::things(const SceneState& state) const {
+SceneGeometry Simulator::object_geometry(const SceneState& state) const {
   SceneGeometry geometry;
   const auto& objects = sequence_->objects();
   for (std::size_t i = 0; i < objects.size(); ++i)
@@ -114,7 +114,7 @@ std::optional<ObjectTruth> Simulator::object_of(const SceneState& state) const {
   return std::nullopt;
 }
 
-Image<float> Simulator::spoil(const RenderedView& view, std::int64_t number) const {
+Image<float> Simulator::add_noise(const RenderedView& view, std::int64_t number) const {
   const auto seed = static_cast<std::uint64_t>(params_.seed);
   const auto frame = static_cast<std::uint32_t>(number);
   if (params_.noise == "kinect") return noise_.kinect(camera(), view, materials(), {}, seed, frame);
@@ -156,7 +156,7 @@ SimulatedFrame Simulator::render(std::int64_t number) {
     hands.push_back(hands_[i].geometry(state.hands[i], params_.sleeve, first_surface(i)));
     scene.add(hands.back());
   }
-  scene.add(things(state));
+  scene.add(object_geometry(state));
 
   // Render it, and add the sensor's noise.
   rasteriser_.clear();
@@ -169,7 +169,7 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   frame->number = number;
   frame->camera = camera();
   frame->depth_unit = kDepthUnit;
-  frame->depth = counts(spoil(view, number));
+  frame->depth = counts(add_noise(view, number));
 
   // Add the truth about the object and each hand.
   SimulatedFrame result;

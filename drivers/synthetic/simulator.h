@@ -97,11 +97,11 @@ class Simulator {
   // Whether the whole scene is mirrored, because it shows a single left hand.
   bool mirrors() const { return params_.hand == "left"; }
   // The triangles of the scene's objects.
-  SceneGeometry things(const SceneState& state) const;
+  SceneGeometry object_geometry(const SceneState& state) const;
   // The material of every surface of the scene.
   std::vector<Material> materials() const;
   // Adds the sensor's noise to an ideal depth image.
-  Image<float> spoil(const RenderedView& view, std::int64_t number) const;
+  Image<float> add_noise(const RenderedView& view, std::int64_t number) const;
   // The truth about the grasped object; none if there is none.
   std::optional<ObjectTruth> object_of(const SceneState& state) const;
   // The truth table of one hand; none if it is not in the image.

@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/format.h"
+#include "io/atomic_file.h"
 #include "io/recording/png_codec.h"
-#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -153,7 +153,7 @@ Result<void> ChartCanvas::write(const std::string& path) const {
   cv::cvtColor(image_, cv::Mat(image_.rows, image_.cols, CV_8UC3, picture.data()), cv::COLOR_BGR2RGB);
   const auto png = encode_png(picture);
   if (!png) return fail(png.error().what, path, png.error().remedy);
-  return write_whole_file(path, {reinterpret_cast<const char*>(png->data()), png->size()});
+  return write_file_atomically(path, {reinterpret_cast<const char*>(png->data()), png->size()});
 }
 
 cv::Scalar ChartCanvas::series_colour(std::size_t index) { return kColours[index % kColours.size()]; }

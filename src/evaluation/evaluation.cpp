@@ -110,13 +110,13 @@ std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, c
 }
 
 /// Frames of the result, between the truth's first and last frame, for which the truth has no rows.
-std::vector<std::int64_t> find_phantoms(const ResultTable& truth, const ResultTable& result) {
+std::vector<std::int64_t> find_false_hands(const ResultTable& truth, const ResultTable& result) {
   const FramesByNumber truths = by_number(truth);
-  std::vector<std::int64_t> phantoms;
+  std::vector<std::int64_t> false_hands;
   for (const auto& [number, frame] : by_number(result))
     if (number > truths.begin()->first && number < truths.rbegin()->first && !truths.contains(number))
-      phantoms.push_back(number);
-  return phantoms;
+      false_hands.push_back(number);
+  return false_hands;
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
   // Summarise the errors.
   collected.summarise_into(evaluation);
   evaluation.returns = find_returns(truths, evaluation.frames, expected.step);
-  evaluation.phantoms = find_phantoms(truth, result);
+  evaluation.false_hands = find_false_hands(truth, result);
   return evaluation;
 }
 

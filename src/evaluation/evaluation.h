@@ -52,9 +52,9 @@ struct Evaluation {
   Distribution segment_error;  ///< errors of all segments of all frames
   Distribution seen, hidden;   ///< errors of the segments that are visible, or hidden, according to the truth
   std::array<Distribution, kSegmentCount> per_segment;
-  std::vector<Return> returns;         ///< returns of the hand after frames for which the truth has no rows
-  std::vector<std::int64_t> phantoms;  ///< frames with rows in the result but none in the truth
-  Distribution joint_gap;              ///< distances of adjacent ends in the result, without the joints of the palm
+  std::vector<Return> returns;            ///< returns of the hand after frames for which the truth has no rows
+  std::vector<std::int64_t> false_hands;  ///< frames with rows in the result but none in the truth
+  Distribution joint_gap;                 ///< distances of adjacent ends in the result, without the joints of the palm
 };
 
 /// Compares a result with the truth. Errors: the tables have no frame in common, the truth has none of the expected

@@ -42,7 +42,7 @@ struct GraspCounts {
   std::size_t confident_wrong = 0;
   std::array<std::size_t, kGraspCount> stated{};  ///< by the stated class
 
-  double share(std::size_t part) const {
+  double fraction(std::size_t part) const {
     return frames == 0 ? 0 : static_cast<double>(part) / static_cast<double>(frames);
   }
 };

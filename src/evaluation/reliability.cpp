@@ -39,7 +39,7 @@ class CoverageSum {
 };
 
 /// Accumulates the statistics of all sequences.
-class Judge {
+class ReliabilitySums {
  public:
   void add(const TableRow& truth, const StatedSegment& stated) {
     const Vector3d proximal = stated.proximal - truth.proximal, distal = stated.distal - truth.distal;
@@ -83,19 +83,19 @@ class Judge {
 
 }  // namespace
 
-Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences) {
+Result<Reliability> evaluate_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences) {
   // Add up the frames that both tables contain.
-  Judge judge;
+  ReliabilitySums sums;
   for (const auto& [truth, stated] : sequences)
     for (const TableFrame& frame : truth.frames) {
       const auto said = stated.find(frame.number);
       if (said == stated.end()) continue;
-      judge.add_frame();
-      for (int s = 0; s < kSegmentCount; ++s) judge.add(frame.rows[s], said->second[s]);
+      sums.add_frame();
+      for (int s = 0; s < kSegmentCount; ++s) sums.add(frame.rows[s], said->second[s]);
     }
 
   // Report an error if no frame has a pose in both tables.
-  Reliability result = judge.result();
+  Reliability result = sums.result();
   if (result.frames == 0)
     return fail("have no frame with a pose in common with the truth", "the states",
                 "give the truth of the same recording");

@@ -46,6 +46,6 @@ struct Reliability {
 
 /// Evaluates several sequences, each given by the truth and the stated poses, over the frames that both contain. Error:
 /// there is no such frame.
-Result<Reliability> judge_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences);
+Result<Reliability> evaluate_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences);
 
 }  // namespace barehand

@@ -30,7 +30,7 @@ struct Contact {
   double deviation = kUnknown;    ///< standard deviation of the distance
   Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);   ///< on the surface, nearest to the segment
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< of the surface there, outward
-  std::int32_t partner = -1;  ///< SeenObject::id, or HandEstimate::hand_id of the other hand; -1: none
+  std::int32_t partner = -1;  ///< ObjectEstimate::id, or HandEstimate::hand_id of the other hand; -1: none
   std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface is no hand's
 };
 using SegmentContacts = std::array<Contact, kSegmentCount>;
@@ -41,7 +41,7 @@ struct HandContacts {
 };
 
 /// Something in or near a hand that is no hand. Camera frame, metres.
-struct SeenObject {
+struct ObjectEstimate {
   std::int32_t id = 0;  ///< stays with one object for as long as it is seen
   SE3 T_camera_object;
   Vector6d velocity = Vector6d::Constant(Contact::kUnknown);  ///< [m/s, rad/s], of the object's origin; NaN: not known
@@ -54,8 +54,8 @@ struct SeenObject {
 
 /// What the hands of one frame touch. Immutable once shared.
 struct FrameContacts {
-  FrameVector<HandContacts> hands;  ///< in the order of the frame's estimates
-  FrameVector<SeenObject> objects;  ///< by id
+  FrameVector<HandContacts> hands;      ///< in the order of the frame's estimates
+  FrameVector<ObjectEstimate> objects;  ///< by id
 };
 using FrameContactsPtr = std::shared_ptr<const FrameContacts>;
 

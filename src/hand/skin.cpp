@@ -38,7 +38,7 @@ struct Binding {
 // Weight of the distal segment `distal` for a skin point near its joint, from the position along the distal bone. The
 // blend is wider at a knuckle, and there the palm's skin reaches farther along the palm side of the finger than along
 // its back.
-double share_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
+double weight_across_joint(const HandProfile& profile, const HandPose& pose, int distal, const Vector3d& p) {
   // Half widths of the blend at a joint and at a knuckle, relative to the joint's size.
   constexpr double kReach = 0.82, kKnuckleReach = 1.79;
 
@@ -59,11 +59,11 @@ double share_across_joint(const HandProfile& profile, const HandPose& pose, int 
   return smoothstep(0.5 + along / (2 * reach));
 }
 
-/// Binds a vertex to both segments, the one with the larger weight first. `share_child`: weight of `child`.
-Binding blended(int parent, int child, double share_child) {
-  if (share_child <= 0) return {parent, parent, 0};
-  if (share_child >= 1) return {child, child, 0};
-  return share_child < 0.5 ? Binding{parent, child, share_child} : Binding{child, parent, 1 - share_child};
+/// Binds a vertex to both segments, the one with the larger weight first. `child_weight`: weight of `child`.
+Binding blended(int parent, int child, double child_weight) {
+  if (child_weight <= 0) return {parent, parent, 0};
+  if (child_weight >= 1) return {child, child, 0};
+  return child_weight < 0.5 ? Binding{parent, child, child_weight} : Binding{child, parent, 1 - child_weight};
 }
 
 // Binds a point near the wide fold of skin between thumb and palm, by the difference of its distances to their
@@ -95,21 +95,21 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
     }
     if (finger == 0) return bind_thenar(hand, p);
     const int child = segment_of(finger, 0);
-    return blended(kPalm, child, std::min(0.5, share_across_joint(profile, hand.pose(), child, p)));
+    return blended(kPalm, child, std::min(0.5, weight_across_joint(profile, hand.pose(), child, p)));
   }
 
   // Skin of the thumb's metacarpal blends into the next phalanx near their joint, and otherwise into the palm.
   if (nearest == segment_of(0, 0)) {
-    const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
-    return share_next > 0 ? blended(nearest, nearest + 1, share_next) : bind_thenar(hand, p);
+    const double next_weight = weight_across_joint(profile, hand.pose(), nearest + 1, p);
+    return next_weight > 0 ? blended(nearest, nearest + 1, next_weight) : bind_thenar(hand, p);
   }
 
   // Skin of any other segment blends into its child near their joint, and otherwise into its parent.
   if (!is_tip(nearest)) {
-    const double share_next = share_across_joint(profile, hand.pose(), nearest + 1, p);
-    if (share_next > 0) return blended(nearest, nearest + 1, share_next);
+    const double next_weight = weight_across_joint(profile, hand.pose(), nearest + 1, p);
+    if (next_weight > 0) return blended(nearest, nearest + 1, next_weight);
   }
-  return blended(parent_of(nearest), nearest, share_across_joint(profile, hand.pose(), nearest, p));
+  return blended(parent_of(nearest), nearest, weight_across_joint(profile, hand.pose(), nearest, p));
 }
 
 }  // namespace

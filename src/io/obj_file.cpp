@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/format.h"
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 
 namespace barehand {
 
@@ -35,7 +35,7 @@ Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
     const std::size_t a = number[t[0]], b = number[t[1]], c = number[t[2]];
     if (a != b && b != c && c != a) text += formatted("f %zu %zu %zu\n", a, b, c);
   }
-  return write_whole_file(path, text);
+  return write_file_atomically(path, text);
 }
 
 }  // namespace barehand

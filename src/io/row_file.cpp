@@ -12,7 +12,7 @@
 namespace barehand {
 
 Result<RowFile> RowFile::create(const std::string& path, std::string_view header, bool overwrite) {
-  auto whole = WholeFile::create(path, overwrite);
+  auto whole = AtomicFile::create(path, overwrite);
   if (!whole) return tl::unexpected(whole.error());
   RowFile rows(path, header, std::move(*whole));
   if (const int file = rows.whole_.open(); file >= 0) rows.file_.reset(fdopen(file, "w"));

@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 
 namespace barehand {
 
-/// Writes a table of text rows, which gets its name when it is finished (WholeFile). The rows of one call are written
+/// Writes a table of text rows, which gets its name when it is finished (AtomicFile). The rows of one call are written
 /// in one piece, and survive a crash. If a write fails (disk full), the file is cut back to the end of the last
 /// complete write, and later writes may succeed. If the reader of a named pipe has gone, rows are lost until there is
 /// another one, which gets the header first.
@@ -33,14 +33,14 @@ class RowFile {
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  RowFile(std::string path, std::string_view header, WholeFile whole)
+  RowFile(std::string path, std::string_view header, AtomicFile whole)
       : path_(std::move(path)), header_(header), whole_(std::move(whole)) {
     header_ += '\n';
   }
   bool append(std::string_view text);
 
   std::string path_, header_;
-  WholeFile whole_;
+  AtomicFile whole_;
   std::unique_ptr<std::FILE, CloseFile> file_;  ///< the open file; null when it is finished or was moved from
   bool has_rows_ = false;
   std::int64_t good_ = 0;  ///< size of the file up to the last complete write

@@ -16,7 +16,7 @@ struct SurfaceSample {
 /// An object whose shape is known. Immutable once made.
 struct KnownObject {
   std::string name;
-  std::int32_t id = 0;                 ///< SeenObject::id of it
+  std::int32_t id = 0;                 ///< ObjectEstimate::id of it
   DistanceGrid grid;                   ///< signed distances
   std::vector<SurfaceSample> samples;  ///< spread evenly over the surface, in random order
   Eigen::Vector3d centre;              ///< of the bounding box

@@ -9,7 +9,7 @@ namespace barehand {
 struct SurfacePoint {
   Eigen::Vector3f p, n;        ///< place and outward unit normal
   std::int32_t component = 0;  ///< the connected surface that it belongs to; -1: it was seen before and is hidden
-  std::int32_t object = -1;    ///< SeenObject::id; -1: none
+  std::int32_t object = -1;    ///< ObjectEstimate::id; -1: none
 };
 
 }  // namespace barehand

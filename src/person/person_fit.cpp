@@ -9,12 +9,12 @@ PersonFit::PersonFit(const ShapeFitParams& params, std::shared_ptr<const HandPro
 // Counts a frame, and returns whether it should contribute to the person's hand shape. The first contributions change
 // the shape most; later ones only follow slow changes, so they are less frequent.
 bool PersonFit::due() {
-  const int every = fit_.looks() < params_.eager_looks ? params_.every : params_.every_later;
+  const int every = fit_.frames() < params_.initial_frames ? params_.every : params_.every_later;
   return frames_++ % every == 0;
 }
 
-PersonFit::Change PersonFit::look(const HandObservation& observation, const HandPose& pose,
-                                  const Refinement& refinement, const std::shared_ptr<const Skin>& skin) {
+PersonFit::Change PersonFit::add_frame(const HandObservation& observation, const HandPose& pose,
+                                       const Refinement& refinement, const std::shared_ptr<const Skin>& skin) {
   if (!due()) return Change::none;
 
   // After a new skin was built, compute how it changes with the shape.
@@ -31,7 +31,7 @@ PersonFit::Change PersonFit::look(const HandObservation& observation, const Hand
   profile_ = std::make_shared<const HandProfile>(reshaped(*mean_, shape_));
 
   // Have the skin rebuilt at doubling intervals; in between, change it to first order.
-  if (fit_.looks() >= next_skin_) {
+  if (fit_.frames() >= next_skin_) {
     next_skin_ *= 2;
     basis_.reset();
     return Change::large;

@@ -20,8 +20,8 @@ class PersonFit {
   /// build a new skin for it, since skin() is out of date.
   enum class Change { none, small, large };
   /// Evaluates one frame at its refined pose. `refinement` and `skin` are those of the tracked hand.
-  Change look(const HandObservation& observation, const HandPose& pose, const Refinement& refinement,
-              const std::shared_ptr<const Skin>& skin);
+  Change add_frame(const HandObservation& observation, const HandPose& pose, const Refinement& refinement,
+                   const std::shared_ptr<const Skin>& skin);
 
   /// Call when the tracked hand gets a new skin that was built for `profile`.
   void expect_new_skin() { basis_.reset(); }

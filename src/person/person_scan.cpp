@@ -13,7 +13,7 @@ constexpr int kSettling = 8, kMost = 32;  // number of tracked frames left out a
 constexpr int kPasses = 4;                // passes over all frames to fit a mean hand to them
 constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement of a pose
 
-/// Fits the poses of frames to a hand and, with look(), the hand to the frames.
+/// Fits the poses of frames to a hand and, with add_frame(), the hand to the frames.
 class BatchFit {
  public:
   BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, const std::stop_token& stop)
@@ -22,9 +22,9 @@ class BatchFit {
   }
 
   // Refines the pose of a frame and fits the hand to it.
-  void look(ScanFrame& frame) {
+  void add_frame(ScanFrame& frame) {
     refine(frame);
-    const auto change = fit_.look(*frame.observation, frame.pose, *refinement_, skin_);
+    const auto change = fit_.add_frame(*frame.observation, frame.pose, *refinement_, skin_);
     if (change == PersonFit::Change::large)
       use(fit_.profile(), std::make_shared<const Skin>(make_skin(*fit_.profile(), params_.skin_cell, stop_)));
     else if (change == PersonFit::Change::small)
@@ -38,7 +38,7 @@ class BatchFit {
  private:
   static ShapeFitParams every_frame(ShapeFitParams params) {
     params.every = 1;
-    params.eager_looks = std::numeric_limits<int>::max();
+    params.initial_frames = std::numeric_limits<int>::max();
     return params;
   }
   void use(std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin) {
@@ -64,7 +64,7 @@ std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::
   for (int pass = 0; pass < passes; ++pass)
     for (ScanFrame& frame : frames) {
       if (stop.stop_requested()) return nullptr;
-      fit.look(frame);
+      fit.add_frame(frame);
     }
 
   // Refine the poses with the final bones, and scan.
@@ -99,8 +99,10 @@ void PersonScan::add(const HandObservation& observation, const HandPose& pose) {
 void PersonScan::start() {
   next_ *= 2;
   of_hand_before_ = false;
-  scan_ = workers_.aside([params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](
-                             Workers& workers) { return scanned(params, given, frames, workers, stop); });
+  scan_ = workers_.run_in_background(
+      [params = params_, given = given_, frames = frames_.frames(), stop = stop_.get_token()](Workers& workers) {
+        return scanned(params, given, frames, workers, stop);
+      });
   // After the last scan, release the frames, which occupy much memory.
   if (++scans_ == params_.shape_fit.scans) frames_ = {kSettling, kMost};
 }

@@ -21,7 +21,7 @@ struct PersonScanParams {
 /// Scans a person's hand while it is tracked, with the method of `barehand calibrate`. The first scan starts after N =
 /// ShapeFitParams::scan_after tracked frames, later ones after 2 N, 4 N and so on; each uses the frames that were kept
 /// until then. If the given profile is the population mean, its bones and joints are first fitted to these frames; the
-/// joints of a measured profile stay fixed. For live sources, scans run in the background (Workers::aside).
+/// joints of a measured profile stay fixed. For live sources, scans run in the background (Workers::run_in_background).
 class PersonScan {
  public:
   /// `given`: the hand before anything was learnt. `workers` must outlive this object.

@@ -117,33 +117,33 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     // Find the sums of the vertex, or create them at its first residual.
     if (slot[c.vertex] < 0) {
       slot[c.vertex] = static_cast<int>(sums_.size());
-      sums_.push_back({c.vertex, variables.offset(c.vertex), variables.share(c.vertex)});
+      sums_.push_back({c.vertex, variables.offset(c.vertex), variables.skin_weight(c.vertex)});
     }
     VertexSums& sums = sums_[slot[c.vertex]];
 
-    // Differentiate the residual with respect to the vertex's skinning weight for its second segment ("share") and the
+    // Differentiate the residual with respect to the vertex's skinning weight for its second segment and the
     // twists of its two segments.
     const auto posed = [&](int s, const Vector3f& p) -> Vector3d { return frame.pose[s] * p.cast<double>(); };
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
-    const double by_share = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
-    const auto twist = [&](int s, double share) {
+    const double by_weight = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
+    const auto twist = [&](int s, double skin_weight) {
       PoseColumn column;
-      column.head<3>() = share * normal;
-      column.tail<3>() = share * (model_point - frame.pose[s].t).cross(normal);
+      column.head<3>() = skin_weight * normal;
+      column.tail<3>() = skin_weight * (model_point - frame.pose[s].t).cross(normal);
       return column;
     };
     const PoseColumn a = twist(v.a, 1 - v.weight_b), b = twist(v.b, v.weight_b);
 
     // Add the residual to the vertex's sums. The derivative with respect to its offset is 1.
     sums.oo += w;
-    sums.os += w * by_share;
-    sums.ss += w * sq(by_share);
+    sums.os += w * by_weight;
+    sums.ss += w * sq(by_weight);
     sums.g_o -= w * r;
-    sums.g_s -= w * by_share * r;
+    sums.g_s -= w * by_weight * r;
     sums.ao += w * a;
     sums.bo += w * b;
-    sums.as += w * by_share * a;
-    sums.bs += w * by_share * b;
+    sums.as += w * by_weight * a;
+    sums.bs += w * by_weight * b;
   }
   poses.add_to(tree);
 }
@@ -205,8 +205,8 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
     const SkinVertex& v = model.skin.vertices[sums.vertex];
     add(v.a, sums.offset, sums.ao);
     add(v.b, sums.offset, sums.bo);
-    add(v.a, sums.share, sums.as);
-    add(v.b, sums.share, sums.bs);
+    add(v.a, sums.skin_weight, sums.as);
+    add(v.b, sums.skin_weight, sums.bs);
   }
   coupling_.resize(kPose, variables.count());
   coupling_.setFromTriplets(entries.begin(), entries.end());
@@ -234,9 +234,9 @@ void ScanFrameEquations::add_to(ScanEquations& equations, double weight) const {
   for (const VertexSums& sums : sums_) {
     equations.add(sums.offset, sums.offset, weight * sums.oo);
     equations.g[sums.offset] += weight * sums.g_o;
-    equations.add(sums.share, sums.share, weight * sums.ss);
-    equations.add(sums.share, sums.offset, weight * sums.os);
-    equations.g[sums.share] += weight * sums.g_s;
+    equations.add(sums.skin_weight, sums.skin_weight, weight * sums.ss);
+    equations.add(sums.skin_weight, sums.offset, weight * sums.os);
+    equations.g[sums.skin_weight] += weight * sums.g_s;
   }
 
   // Subtract the part of the gradient that a change of the pose explains (Schur complement).

@@ -71,9 +71,9 @@ class ScanFrameEquations {
   static constexpr int kPose = 6 * kSegmentCount;
   using PoseColumn = Eigen::Matrix<double, 6, 1>;
   // Sums over the residuals at one vertex: information products and gradients of its unknowns, the offset (o) and the
-  // skinning weight (s, "share"), and their products with the twists of its two segments (a, b).
+  // skinning weight (s), and their products with the twists of its two segments (a, b).
   struct VertexSums {
-    int vertex, offset, share;  // offset, share: indices of the unknowns
+    int vertex, offset, skin_weight;  // offset, skin_weight: indices of the unknowns
     double oo = 0, os = 0, ss = 0, g_o = 0, g_s = 0;
     PoseColumn ao = PoseColumn::Zero(), bo = PoseColumn::Zero(), as = PoseColumn::Zero(), bs = PoseColumn::Zero();
   };

@@ -115,7 +115,7 @@ ScanModel make_scan_model(const HandProfile& profile, double cell, const std::st
 
 void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
   // Limit the step, since larger ones leave the range in which the equations are a good approximation.
-  constexpr float kOffset = 0.004f, kShare = 0.3f;  // largest changes of an offset [m] and of a skinning weight
+  constexpr float kOffset = 0.004f, kWeight = 0.3f;  // largest changes of an offset [m] and of a skinning weight
   for (int s = 1; s < kSegmentCount; ++s) {
     model.in_parent[s] += step.segment<3>(joint(s));
     model.in_segment[s] += step.segment<3>(joint(s) + 3);
@@ -128,7 +128,7 @@ void ScanVariables::apply(const Eigen::VectorXd& step, ScanModel& model) const {
     const float out = std::clamp(static_cast<float>(step[offset(i)]), -kOffset, kOffset);
     v.in_a += out * v.normal_in_a;
     v.in_b += out * model.normal_in_b[i];
-    const float change = std::clamp(static_cast<float>(step[share(i)]), -kShare, kShare);
+    const float change = std::clamp(static_cast<float>(step[skin_weight(i)]), -kWeight, kWeight);
     v.weight_b = std::clamp(v.weight_b + change, 0.0f, 1.0f);
   }
 }

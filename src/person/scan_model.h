@@ -27,7 +27,7 @@ struct ScanModel {
 ScanModel make_scan_model(const HandProfile& profile, double cell, const std::stop_token& stop = {});
 
 /// Numbering of the unknowns that all frames of a scan share. First come the joints (both points and a rotation of the
-/// rest rotation), then the offset of each vertex along its normal, then each vertex's weight ("share") of its second
+/// rest rotation), then the offset of each vertex along its normal, then each vertex's weight of its second
 /// segment.
 class ScanVariables {
  public:
@@ -39,7 +39,7 @@ class ScanVariables {
   /// Index of the first unknown of the joint between `segment` and its parent.
   static int joint(int segment) { return kJoint * (segment - 1); }
   int offset(int vertex) const { return kJoints + vertex; }
-  int share(int vertex) const { return kJoints + vertices_ + vertex; }
+  int skin_weight(int vertex) const { return kJoints + vertices_ + vertex; }
   /// Adds a step of all unknowns to the model; changes of the skin are clamped to the range in which the equations
   /// hold.
   void apply(const Eigen::VectorXd& step, ScanModel& model) const;

@@ -23,8 +23,8 @@ constexpr double kOffset = 0.1;           // offset of a vertex [m]: weak, it on
 constexpr double kSmoothOffset = 0.0025;  // difference of the offsets along an edge [m]
 constexpr double kMeanOffset = 0.00012;   // mean offset of a segment's skin [m]
 constexpr double kMeanLever = 0.02;       // lever arm that converts the skin's mean rotation to an offset [m]
-constexpr double kMiddleShare = 0.3;      // skinning weight in the middle of a bone
-constexpr double kSmoothShare = 0.3;      // difference of the skinning weights along an edge
+constexpr double kMiddleWeight = 0.3;     // skinning weight in the middle of a bone
+constexpr double kSmoothWeight = 0.3;     // difference of the skinning weights along an edge
 
 double sq(double x) { return x * x; }
 
@@ -32,8 +32,8 @@ double sq(double x) { return x * x; }
 bool in_middle_of_bone(const SkinVertex& v) { return v.weight_b == 0 && v.a != kPalm && v.a != segment_of(0, 0); }
 
 // Standard deviation of a vertex's skinning weight: smaller at the hinges of fingers than in the flesh of the palm.
-double share_deviation(const SkinVertex& v) {
-  if (in_middle_of_bone(v)) return kMiddleShare;
+double weight_deviation(const SkinVertex& v) {
+  if (in_middle_of_bone(v)) return kMiddleWeight;
   const int thumb_root = segment_of(0, 0);
   return v.a == kPalm || v.b == kPalm || v.a == thumb_root || v.b == thumb_root ? 1.0 : 0.5;
 }
@@ -81,9 +81,9 @@ class Prior {
   void add_vertices(bool joints_held) {
     for (int i = 0; i < static_cast<int>(offset_.size()); ++i) {
       add_one(variables_.offset(i), offset_[i], kOffset);
-      add_one(variables_.share(i), share_change(i), share_deviation(vertex(i)));
+      add_one(variables_.skin_weight(i), weight_change(i), weight_deviation(vertex(i)));
       if (joints_held && in_middle_of_bone(vertex(i)))
-        out_.add(variables_.share(i), variables_.share(i), kFixedInformation);
+        out_.add(variables_.skin_weight(i), variables_.skin_weight(i), kFixedInformation);
     }
   }
 
@@ -94,9 +94,11 @@ class Prior {
         add_difference(variables_.offset(i), variables_.offset(j), offset_[i], offset_[j], 1, kSmoothOffset);
         const SkinVertex &a = vertex(i), &b = vertex(j);
         if (a.a == b.a && a.b == b.b)
-          add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), 1, kSmoothShare);
+          add_difference(variables_.skin_weight(i), variables_.skin_weight(j), weight_change(i), weight_change(j), 1,
+                         kSmoothWeight);
         else if (a.a == b.b && a.b == b.a)  // the two weights belong to opposite segments: they add up to 1
-          add_difference(variables_.share(i), variables_.share(j), share_change(i), share_change(j), -1, kSmoothShare);
+          add_difference(variables_.skin_weight(i), variables_.skin_weight(j), weight_change(i), weight_change(j), -1,
+                         kSmoothWeight);
       }
   }
 
@@ -156,7 +158,7 @@ class Prior {
 
  private:
   const SkinVertex& vertex(int i) const { return start_.skin.vertices[i]; }
-  double share_change(int i) const { return model_.skin.vertices[i].weight_b - vertex(i).weight_b; }
+  double weight_change(int i) const { return model_.skin.vertices[i].weight_b - vertex(i).weight_b; }
 
   void add_one(int unknown, double value, double deviation) {
     out_.add(unknown, unknown, 1 / sq(deviation));

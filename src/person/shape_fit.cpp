@@ -14,11 +14,11 @@ bool ShapeFit::add(const ShapeEquations& equations, const HandShape& at) {
   HandShape g;
   if (!equations.without_pose(information, g)) return false;
   // Reduce the weight of older looks exponentially.
-  const double memory = std::clamp(params_.memory * looks_, 4.0, params_.memory_looks);
+  const double memory = std::clamp(params_.memory * frames_, 4.0, params_.memory_frames);
   const double keep = std::exp(-1 / memory);
   information_ = keep * information_ + params_.weight * information;
   weighted_ = keep * weighted_ + params_.weight * (information * at + g);
-  ++looks_;
+  ++frames_;
   return true;
 }
 

@@ -14,10 +14,10 @@ namespace barehand {
 struct ShapeFitParams {
   bool enabled = true;
   int every = 1, every_later = 8;
-  int eager_looks = 100;
+  int initial_frames = 100;
   double weight = 0.01;
   double memory = 1.5;
-  double memory_looks = 200;
+  double memory_frames = 200;
   int first_rebuild = 8;
   int scan_after = 60;
   int scans = 3;
@@ -29,17 +29,19 @@ void visit(V& v, ShapeFitParams& p) {
   v.user("enabled", p.enabled,
          "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
   v("every", p.every, 1, 1000,
-    "every n-th frame contributes to the shape, until there are `eager_looks` contributions");
+    "every n-th frame contributes to the shape, until there are `initial_frames` contributions");
   v("every_later", p.every_later, 1, 100000,
-    "every n-th frame contributes to the shape after the first `eager_looks` contributions");
-  v("eager_looks", p.eager_looks, 0, 100000, "number of contributions at the interval `every`");
+    "every n-th frame contributes to the shape after the first `initial_frames` contributions");
+  v.formerly("eager_looks");
+  v("initial_frames", p.initial_frames, 0, 100000, "number of contributions at the interval `every`");
   v("weight", p.weight, 1e-6, 1.0,
     "weight of one frame relative to the prior, which is how people differ; it is small, as errors of the model repeat "
     "in all frames");
   v("memory", p.memory, 0.01, 10.0,
     "length of the memory relative to the number of contributions so far; old ones were made with a less accurate "
     "hand");
-  v("memory_looks", p.memory_looks, 1.0, 1e6, "longest memory, in contributions");
+  v.formerly("memory_looks");
+  v("memory_frames", p.memory_frames, 1.0, 1e6, "longest memory, in contributions");
   v("first_rebuild", p.first_rebuild, 1, 100000,
     "contributions before the skin is first rebuilt; each later rebuild waits for twice as many");
   v.user("scan_after", p.scan_after, 32, 100000,
@@ -60,7 +62,7 @@ class ShapeFit {
   HandShape estimate() const;
   /// Standard deviation of each number of the shape, same units.
   HandShape deviation() const;
-  int looks() const { return looks_; }
+  int frames() const { return frames_; }
 
  private:
   using Matrix = Eigen::Matrix<double, kShapeCount, kShapeCount>;
@@ -69,7 +71,7 @@ class ShapeFit {
   ShapeFitParams params_;
   Matrix information_ = Matrix::Zero();
   HandShape weighted_ = HandShape::Zero();  // information times shape
-  int looks_ = 0;
+  int frames_ = 0;
 };
 
 }  // namespace barehand

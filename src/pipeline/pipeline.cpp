@@ -290,7 +290,7 @@ std::span<QueueHealth> Pipeline::own_queues(PipelineHealth& health) {
   return std::span(health.queues).last(kQueueCount);
 }
 
-PipelinePulse Pipeline::pulse() const {
+PipelineHeartbeat Pipeline::heartbeat() const {
   // Read these counters before the queue's, so that the number of frames inside is never too small.
   const std::int64_t finished = published_ + failed_;
   const QueueHealth input = queues_[kInput].health();

@@ -59,7 +59,7 @@ struct RunResult {
 };
 
 /// Counters, since the start of the run, by which a watchdog sees whether the pipeline still works.
-struct PipelinePulse {
+struct PipelineHeartbeat {
   std::int64_t answers = 0;   ///< calls of the source that returned, with or without a frame
   std::int64_t finished = 0;  ///< frames that left the pipeline, published or failed
   std::int64_t inside = 0;    ///< frames in the queues and stages now
@@ -85,7 +85,7 @@ class Pipeline {
   /// Like health(), but times and latency are those since the last call of this function. Only one caller may use it.
   PipelineHealth take_interval_health();
   /// Counters for a watchdog. Any thread may call it at any time.
-  PipelinePulse pulse() const;
+  PipelineHeartbeat heartbeat() const;
 
  private:
   struct Item {

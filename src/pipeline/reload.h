@@ -21,7 +21,7 @@ class Reload {
   /// `in_force`: the configuration that the run was started with. `out` must outlive this object.
   Reload(Config in_force, PendingParams& out) : in_force_(std::move(in_force)), out_(out) {}
 
-  /// What changed: one text per value, such as "tracker.doubt: 0.15 -> 0.2".
+  /// What changed: one text per value, such as "tracker.ambiguity_margin: 0.15 -> 0.2".
   struct Changes {
     std::vector<std::string> made;
     std::vector<std::string> for_restart;  ///< cannot change while running; the old values stay in force

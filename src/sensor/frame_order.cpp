@@ -68,10 +68,10 @@ Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number)
       ++unused_;
       return fail("its time is not later than that of the frame before");
     }
-    look_at_restart(utime, number);
-  } else if (begun_ && !judged_steps_) {
+    check_restart(utime, number);
+  } else if (begun_ && !steps_checked_) {
     steps_.push_back(utime - last_utime_);
-    if (steps_.size() >= kSteps) look_at_steps();
+    if (steps_.size() >= kSteps) check_steps();
   }
   number = going_on(number);
   begun_ = true;
@@ -88,17 +88,17 @@ std::int64_t FrameOrder::going_on(std::int64_t number) {
   return number + number_shift_;
 }
 
-void FrameOrder::look_at_restart(std::int64_t utime, std::int64_t number) {
+void FrameOrder::check_restart(std::int64_t utime, std::int64_t number) {
   if (said_restart_) return;
   said_restart_ = true;
   const double back = seconds(last_utime_) - seconds(utime);
-  doubts_.push_back(formatted("at frame %lld the time goes back by %.3f s%s: it is taken as a new start",
-                              static_cast<long long>(number), back, overflow(back).c_str()));
+  warnings_.push_back(formatted("at frame %lld the time goes back by %.3f s%s: it is taken as a new start",
+                                static_cast<long long>(number), back, overflow(back).c_str()));
 }
 
-void FrameOrder::look_at_steps() {
-  if (judged_steps_ || steps_.size() < kFewestSteps) return;
-  judged_steps_ = true;
+void FrameOrder::check_steps() {
+  if (steps_checked_ || steps_.size() < kFewestSteps) return;
+  steps_checked_ = true;
 
   // Find the typical interval between two frames: the median, which a few gaps do not change.
   const auto [least, most] = std::ranges::minmax(steps_);
@@ -124,21 +124,21 @@ void FrameOrder::look_at_steps() {
                                                                          : "another unit";
   }
   if (like.empty()) return;
-  doubts_.push_back(
+  warnings_.push_back(
       formatted("%s, and the frames are %.6g s apart: these look like ", in_unit(unit_).c_str(), 1e-6 * typical) +
       like + ". They are used as they stand, so that motion and time limits are wrong");
 }
 
-std::vector<std::string> FrameOrder::take_doubts() { return std::exchange(doubts_, {}); }
+std::vector<std::string> FrameOrder::take_warnings() { return std::exchange(warnings_, {}); }
 
-std::vector<std::string> FrameOrder::take_last_doubts() {
-  look_at_steps();
+std::vector<std::string> FrameOrder::take_last_warnings() {
+  check_steps();
   if (unused_ * kUnusedRatio > frames_)
-    doubts_.push_back(
+    warnings_.push_back(
         formatted("%lld of %lld frames are not later than the frame before them and are not used: are "
                   "they in order of time?",
                   static_cast<long long>(unused_), static_cast<long long>(frames_)));
-  return take_doubts();
+  return take_warnings();
 }
 
 }  // namespace barehand

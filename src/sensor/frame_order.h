@@ -41,23 +41,23 @@ class FrameOrder {
   Result<std::int64_t> number(std::int64_t utime, std::int64_t number);
 
   /// Returns the warnings about the frames since the last call, each only once.
-  std::vector<std::string> take_doubts();
-  /// Like take_doubts(), to be called after the last frame: also checks a recording that was too short until then, and
-  /// counts the unused frames.
-  std::vector<std::string> take_last_doubts();
+  std::vector<std::string> take_warnings();
+  /// Like take_warnings(), to be called after the last frame: also checks a recording that was too short until then,
+  /// and counts the unused frames.
+  std::vector<std::string> take_last_warnings();
 
  private:
-  void look_at_restart(std::int64_t utime, std::int64_t number);
+  void check_restart(std::int64_t utime, std::int64_t number);
   std::int64_t going_on(std::int64_t number);
-  void look_at_steps();
+  void check_steps();
 
   StampUnit unit_;
   std::int64_t last_utime_ = 0, last_number_ = 0;
   std::int64_t number_shift_ = 0;
   std::int64_t frames_ = 0, unused_ = 0;
-  bool begun_ = false, said_restart_ = false, judged_steps_ = false;
+  bool begun_ = false, said_restart_ = false, steps_checked_ = false;
   std::vector<std::int64_t> steps_;  ///< times between the first frames [us]
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace barehand

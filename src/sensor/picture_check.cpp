@@ -9,7 +9,7 @@ namespace {
 
 // Detects depth images without usable content.
 
-// A depth image with a larger fraction of jumps between neighbours (see jump_share()) is noise.
+// A depth image with a larger fraction of jumps between neighbours (see jump_fraction()) is noise.
 constexpr double kSenseless = 0.4;
 constexpr int kRowStep = 4;       // only every fourth row is tested, which is enough
 constexpr int kFewestPairs = 64;  // with fewer pairs of measured neighbours, an image is not tested for noise
@@ -20,7 +20,7 @@ bool same(const Image<std::uint16_t>& a, const Image<std::uint16_t>& b) {
 
 }  // namespace
 
-double jump_share(const Image<std::uint16_t>& depth) {
+double jump_fraction(const Image<std::uint16_t>& depth) {
   std::int64_t pairs = 0, jumps = 0;
   for (int v = 0; v < depth.height(); v += kRowStep) {
     const std::uint16_t* row = depth.row(v);
@@ -38,7 +38,7 @@ DepthFault check_depth(const Image<std::uint16_t>& depth, const Image<std::uint1
   const bool measured = std::any_of(depth.data(), depth.data() + depth.size(), [](std::uint16_t d) { return d != 0; });
   if (!measured) return DepthFault::empty;
   if (before && same(depth, *before)) return DepthFault::repeated;
-  return jump_share(depth) > kSenseless ? DepthFault::senseless : DepthFault::none;
+  return jump_fraction(depth) > kSenseless ? DepthFault::senseless : DepthFault::none;
 }
 
 }  // namespace barehand

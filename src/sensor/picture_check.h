@@ -17,7 +17,7 @@ enum class DepthFault {
 
 /// Fraction of the pairs of horizontal neighbours, both measured, whose depths differ by more than a fifth. It is a few
 /// percent for an image of surfaces. Returns 0 if there are too few pairs.
-double jump_share(const Image<std::uint16_t>& depth);
+double jump_fraction(const Image<std::uint16_t>& depth);
 
 /// Checks a depth image that is complete. `before` is the previous image, or null.
 DepthFault check_depth(const Image<std::uint16_t>& depth, const Image<std::uint16_t>* before);

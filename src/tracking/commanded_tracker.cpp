@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hand/profile_doubts.h"
+#include "hand/profile_warnings.h"
 #include "io/hand/hand_json.h"
 
 namespace barehand {
@@ -67,7 +67,7 @@ void CommandedTracker::follow(const Command& command) {
   if (hands.empty()) return;
   if (command.kind == Command::Kind::reset) {
     log_.logger().info("command: forget the hand and search again");
-    for (const int k : hands) tracker_.hand(k).apply(StartAnew{});
+    for (const int k : hands) tracker_.hand(k).apply(ResetTracker{});
   } else if (command.kind == Command::Kind::initialise) {
     if (hands.size() > 1)
       return log_.warn("command", "ignored a pose: two hands are tracked, so the command must name one");
@@ -76,7 +76,8 @@ void CommandedTracker::follow(const Command& command) {
   } else {
     auto profile = parse_profile(command.profile, "command");
     if (!profile) return log_.warn("command", "ignored a hand profile: " + profile.error().message());
-    for (const std::string& doubt : profile_doubts(*profile)) log_.warn("profile", "the given hand profile: " + doubt);
+    for (const std::string& warning : profile_warnings(*profile))
+      log_.warn("profile", "the given hand profile: " + warning);
     use(hands, std::move(*profile));
   }
 }

@@ -22,11 +22,11 @@ double confidence(const HandProfile& profile, const SegmentState& state, int seg
 
 // Additional covariance because of an unknown scale: if the hand seems to have another size than its profile, the depth
 // values may be wrong by that factor, and with them the hand's distance from the camera.
-Matrix6d scale_doubt(const SE3& T_camera_segment, double size_in_view) {
-  Matrix6d doubt = Matrix6d::Zero();
+Matrix6d size_covariance(const SE3& T_camera_segment, double size_in_view) {
+  Matrix6d covariance = Matrix6d::Zero();
   const Eigen::Vector3d off = (size_in_view - 1) * T_camera_segment.t;
-  doubt.topLeftCorner<3, 3>() = off * off.transpose();
-  return doubt;
+  covariance.topLeftCorner<3, 3>() = off * off.transpose();
+  return covariance;
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
     SegmentState& state = out.segments[s];
     state.T_camera_segment = refined.pose[s];
     state.covariance = covariance[s];
-    if (size_in_view != 1) state.covariance += scale_doubt(refined.pose[s], size_in_view);
+    if (size_in_view != 1) state.covariance += size_covariance(refined.pose[s], size_in_view);
     if (bad) state.covariance.diagonal().head<3>().array() += kBadDeviation * kBadDeviation;
     state.visible = refined.visible[s];
     state.seen = !hidden[s];

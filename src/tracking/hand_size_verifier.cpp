@@ -46,11 +46,12 @@ std::string other_size(double size, const HandProfile& profile) {
       100 * std::abs(size - 1), size > 1 ? "larger" : "smaller", std::string(to_string(profile.handedness)).c_str());
 }
 
-std::optional<double> HandSizeVerifier::look(const HandObservation& observation, const HandPose& pose, double score) {
+std::optional<double> HandSizeVerifier::add_frame(const HandObservation& observation, const HandPose& pose,
+                                                  double score) {
   // One copy per frame, in turn, since more would delay the frame.
   if (compared_ >= kFramesCompared) return std::nullopt;
   if (candidates_.empty()) make_candidates();
-  const std::size_t turn = frames_++ % kLookEvery;
+  const std::size_t turn = frames_++ % kCompareEvery;
   if (turn >= candidates_.size()) return std::nullopt;
   Candidate& candidate = candidates_[turn];
   const HandPose start = scaled(*profile_, pose, candidate.size);

@@ -13,7 +13,7 @@ namespace barehand {
 /// compares how well smaller and larger copies of the hand explain the data.
 class HandSizeVerifier {
  public:
-  /// `skin`: the one that was built for the profile. The copies are made at the first call of look(), since most
+  /// `skin`: the one that was built for the profile. The copies are made at the first call of add_frame(), since most
   /// trackers only search.
   HandSizeVerifier(const RefinementParams& params, std::shared_ptr<const HandProfile> profile,
                    std::shared_ptr<const Skin> skin)
@@ -23,10 +23,10 @@ class HandSizeVerifier {
   /// explains the frame with `score` [m]. After enough frames it returns, once, the size of the hand in view relative
   /// to the profile, provided that another size explains most of these frames clearly better. A few frames are enough
   /// if it explains all of them far better.
-  std::optional<double> look(const HandObservation& observation, const HandPose& pose, double score);
+  std::optional<double> add_frame(const HandObservation& observation, const HandPose& pose, double score);
 
  private:
-  static constexpr int kLookEvery = 7;        // each copy is compared in every n-th tracked frame
+  static constexpr int kCompareEvery = 7;     // each copy is compared in every n-th tracked frame
   static constexpr int kFramesCompared = 10;  // frames in which each copy is compared before the check concludes
   static constexpr int kVotesNeeded = 7;  // the copy must explain this many of kFramesCompared frames clearly better
   static constexpr int kFramesIfObvious = 3;  // frames that suffice if a copy explains all of them far better
@@ -45,7 +45,7 @@ class HandSizeVerifier {
   std::shared_ptr<const HandProfile> profile_;
   std::shared_ptr<const Skin> skin_;
   std::vector<Candidate> candidates_;
-  int frames_ = 0;    // calls of look()
+  int frames_ = 0;    // calls of add_frame()
   int compared_ = 0;  // frames in which each copy was compared
 };
 

@@ -36,14 +36,15 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
     followed = follower_.follow(observation, person_.hand(), track_.motion, frame_, choice_);
 
   // Propose another pose. If the followed pose is good but ambiguous or tentative, propose an alternative to it
-  // (Proposers::beside). If it is bad or missing, search the whole observation (Proposers::anywhere).
+  // (Proposers::propose_alternative). If it is bad or missing, search the whole observation (Proposers::search_frame).
   const ChoiceParams& rules = context_.params.choice;
-  const double score = followed ? choice_.judged_score(observation, person_.profile(), followed->refined) : INFINITY;
-  if (score < track_.state.bad_threshold(evidence) && !track_.unlike_before(score, rules)) {
+  const double score =
+      followed ? choice_.score_with_detection(observation, person_.profile(), followed->refined) : INFINITY;
+  if (score < track_.state.bad_threshold(evidence) && !track_.is_another_hand(score, rules)) {
     track_.search_frames = 0;
-    proposers_.uncross(observation, person_.hand(), *followed);
+    proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
-    other = proposers_.beside(observation, person_.hand(), track_, *followed, frame_);
+    other = proposers_.propose_alternative(observation, person_.hand(), track_, *followed, frame_);
   } else {
     const Effort effort = track_.effort(context_.params.full_search_every);
     other = search(observation, effort, track_.attempts(effort, context_.params.search_attempts));
@@ -51,10 +52,10 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   if (!followed || !other) return conclude(observation, followed ? followed : other, evidence);
 
   // Choose. A hand seldom jumps, so a pose in another place needs a larger advantage, unless the track is tentative.
-  const bool elsewhere =
-      !track_.tentative() && pose_distance(person_.profile(), followed->refined.pose, other->refined.pose) > kAlike;
-  const double advantage = elsewhere ? rules.elsewhere_advantage : rules.search_advantage;
-  const char* const rule = elsewhere ? "elsewhere" : "search";
+  const bool different_pose = !track_.tentative() && pose_distance(person_.profile(), followed->refined.pose,
+                                                                   other->refined.pose) > kSamePalmDistance;
+  const double advantage = different_pose ? rules.different_pose_advantage : rules.search_advantage;
+  const char* const rule = different_pose ? "different_pose" : "search";
   return conclude(observation, choice_.replaces(rule, *other, *followed, advantage) ? other : followed, evidence);
 }
 
@@ -68,7 +69,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation, std::op
 
 std::optional<Hypothesis> HandTracker::search(const HandObservation& observation, Effort effort, int attempts) {
   track_.searched = true;
-  return proposers_.anywhere(observation, person_.hand(), track_, effort, attempts, frame_);
+  return proposers_.search_frame(observation, person_.hand(), track_, effort, attempts, frame_);
 }
 
 HandEstimatePtr HandTracker::conclude(const HandObservation& observation, const std::optional<Hypothesis>& best,
@@ -127,10 +128,10 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
   // Collect the evidence of the best pose. If it does not look like the hand that was lost, its score does not count.
   const ChoiceParams& rules = context_.params.choice;
   if (best) {
-    const double score = choice_.judged_score(observation, person_.profile(), best->refined);
+    const double score = choice_.score_with_detection(observation, person_.profile(), best->refined);
     const bool confirms = track_.tentative() && best->prediction;
     evidence.to_be_confirmed = track_.needs_confirmation(score, confirms, rules);
-    if (!track_.unlike_before(score, rules)) evidence.score = score;
+    if (!track_.is_another_hand(score, rules)) evidence.score = score;
   }
 
   // Update the state machine, and restart or clear the motion model when the phase requires it.
@@ -152,21 +153,21 @@ void HandTracker::commit(const HandObservation& observation, const Hypothesis& b
 
   // A pose that was found without a prediction starts a track, or resumes one.
   if (!track_.motion.has_pose()) start_track();
-  if (best.size != 1) person_.doubt_size(best.size);
+  if (best.size != 1) person_.note_size_mismatch(best.size);
   track_.motion.restart(best.refined.pose, observation.frame->utime);
 }
 
 void HandTracker::apply(const TrackRequest& request) {
   if (const auto* start = std::get_if<StartAt>(&request)) {
     given_start_ = start->pose;
-  } else if (std::holds_alternative<StartAnew>(request)) {
-    start_anew();
+  } else if (std::holds_alternative<ResetTracker>(request)) {
+    reset_track();
     person_.reset();  // the next hand may be another person's
   } else if (const auto* other = std::get_if<UseProfile>(&request)) {
-    start_anew();
+    reset_track();
     person_.use(other->profile);
-  } else if (const auto* doubt = std::get_if<DoubtSize>(&request)) {
-    person_.doubt_size(doubt->size);
+  } else if (const auto* mismatch = std::get_if<NoteSizeMismatch>(&request)) {
+    person_.note_size_mismatch(mismatch->size);
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
     // Do first what may throw, so that an exception leaves everything unchanged.
     std::shared_ptr<Observer> observer = context_.observer_for(changed->params);
@@ -180,7 +181,7 @@ void HandTracker::apply(const TrackRequest& request) {
   }
 }
 
-void HandTracker::start_anew() {
+void HandTracker::reset_track() {
   track_.forget();
   estimates_.reset();
   given_start_.reset();
@@ -191,9 +192,9 @@ TrackView HandTracker::view() const {
   const HandPose* const last = track_.motion.has_pose() ? &track_.motion.pose() : nullptr;
   return {.status = track_.state.status(),
           .tentative = track_.tentative(),
-          .doubts_size = person_.size_in_view() != 1,
+          .size_mismatch = person_.size_in_view() != 1,
           .start_is_given = given_start_.has_value(),
-          .whereabouts = given_start_ ? &*given_start_ : last,
+          .expected_pose = given_start_ ? &*given_start_ : last,
           .profile = person_.shared_profile(),
           .effort = track_.effort(params.full_search_every),
           .full_attempts = track_.attempts(Effort::full, params.search_attempts)};

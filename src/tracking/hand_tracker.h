@@ -20,7 +20,7 @@ struct StartAt {
   HandPose pose;  ///< T_camera_segment; the next observation, if it shows a hand, is tracked from this pose
 };
 /// Forget the hand and the person, and search.
-struct StartAnew {};
+struct ResetTracker {};
 /// Forget the hand, and search for that of another person.
 struct UseProfile {
   std::shared_ptr<const HandProfile> profile;  ///< of the other person
@@ -29,19 +29,19 @@ struct UseProfile {
 struct UseParams {
   TrackerParams params;
 };
-/// The hand in view seems to have another size than its profile (PersonModel::doubt_size).
-struct DoubtSize {
+/// The hand in view seems to have another size than its profile (PersonModel::note_size_mismatch).
+struct NoteSizeMismatch {
   double size;  ///< size of the hand in view, as a factor on the profile's size
 };
-using TrackRequest = std::variant<StartAt, StartAnew, UseProfile, UseParams, DoubtSize>;
+using TrackRequest = std::variant<StartAt, ResetTracker, UseProfile, UseParams, NoteSizeMismatch>;
 
 /// The state of a track between two frames, for code outside the tracker.
 struct TrackView {
   TrackStatus status;                          ///< as of the last observation
   bool tentative;                              ///< a lost hand may have been found; the next frame must confirm it
-  bool doubts_size;                            ///< the hand in view seems to have another size than its profile
+  bool size_mismatch;                          ///< the hand in view seems to have another size than its profile
   bool start_is_given;                         ///< a pose given by StartAt waits for the next observation
-  const HandPose* whereabouts;                 ///< last or given pose, near which the hand is expected; null: unknown
+  const HandPose* expected_pose;               ///< last or given pose, near which the hand is expected; null: unknown
   std::shared_ptr<const HandProfile> profile;  ///< as fitted to the person so far
   Effort effort;                               ///< effort of the next search
   int full_attempts;                           ///< number of attempts of a full search
@@ -70,7 +70,7 @@ class HandTracker {
   /// search(), or none if it does not. `decisions`: how the caller decided.
   HandEstimatePtr process(const HandObservation& observation, std::optional<Hypothesis> found,
                           std::span<const Decision> decisions = {});
-  /// Returns the best pose that up to `attempts` searches find in the next observation (Proposers::anywhere).
+  /// Returns the best pose that up to `attempts` searches find in the next observation (Proposers::search_frame).
   std::optional<Hypothesis> search(const HandObservation& observation, Effort effort, int attempts);
   /// Executes a request between two frames. UseParams may throw; then nothing has changed.
   void apply(const TrackRequest& request);
@@ -85,7 +85,7 @@ class HandTracker {
   TrackStatus update_state(const HandObservation& observation, const std::optional<Hypothesis>& best,
                            TrackEvidence& evidence);
   void commit(const HandObservation& observation, const Hypothesis& best);
-  void start_anew();
+  void reset_track();
 
   TrackerContext context_;
   PersonModel person_;

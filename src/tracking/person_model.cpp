@@ -55,8 +55,8 @@ void PersonModel::change(const TrackerParams& params, std::shared_ptr<Observer> 
 
 void PersonModel::start_track() {
   if (scan_) scan_->restart();
-  const bool doubted = std::exchange(size_in_view_, 1) != 1;
-  if (doubted || (fit_ && model_->profile->scanned_skin)) expect_any_size();
+  const bool had_mismatch = std::exchange(size_in_view_, 1) != 1;
+  if (had_mismatch || (fit_ && model_->profile->scanned_skin)) expect_any_size();
 }
 
 void PersonModel::learn(const HandObservation& observation, const RefinedPose& refined, bool good) {
@@ -68,25 +68,25 @@ void PersonModel::learn(const HandObservation& observation, const RefinedPose& r
 
 void PersonModel::check_size(const HandObservation& observation, const RefinedPose& refined) {
   if (size_in_view_ != 1) return;
-  const auto size = size_verifier_->look(observation, refined.pose, refined.score);
+  const auto size = size_verifier_->add_frame(observation, refined.pose, refined.score);
   if (!size) return;
-  if (!fit_) return doubt_size(*size);
+  if (!fit_) return note_size_mismatch(*size);
   context_.log->info("the bone fit starts again with a hand of {:.2f} times the size of the last one", *size);
   reset();
 }
 
-void PersonModel::doubt_size(double size) {
+void PersonModel::note_size_mismatch(double size) {
   size_in_view_ = size;
   if (!std::exchange(size_reported_, true)) context_.log->warn("{}", other_size(size, *model_->profile));
 }
 
 void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {
-  const PersonFit::Change change = fit_->look(observation, pose, model_->refinement, model_->skin);
+  const PersonFit::Change change = fit_->add_frame(observation, pose, model_->refinement, model_->skin);
   if (change == PersonFit::Change::large) {
     model_ = model_of(fit_->profile());
     context_.log->info(
         "hand fitted to the person after {} contributing frames: {:.0f} mm long, the mean hand {:.0f} mm",
-        fit_->fit().looks(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());
+        fit_->fit().frames(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());
   } else if (change == PersonFit::Change::small) {
     model_ = std::make_unique<HandModel>(context_.params, fit_->profile(), fit_->skin(), model_->initialiser,
                                          context_.workers, context_.observer);

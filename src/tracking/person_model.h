@@ -28,7 +28,7 @@ class PersonModel {
 
   /// Notes that the hand in view seems to have `size` times the profile's size. This is reported to the user once, and
   /// the estimates state a larger uncertainty until the next track.
-  void doubt_size(double size);
+  void note_size_mismatch(double size);
   /// Must be called when a track begins, possibly that of another person.
   void start_track();
   /// Learns from a tracked frame. `good`: the frame is explained well enough to learn the bones and the skin from it.

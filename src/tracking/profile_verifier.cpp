@@ -23,7 +23,7 @@ constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 constexpr double kAnySize = 0.4,  // standard deviation expected of the size of a hand in view
     kOtherSize = 0.1,             // a size that deviates by more than this is verified, which costs a search
     kSameSize = 0.2;              // a size within this range of the confirmed one counts as the confirmed one
-constexpr int kSizeLooks = 10,    // number of frames of a track whose detected joints are used
+constexpr int kSizeChecks = 10,   // number of frames of a track whose detected joints are used
     kVerified = 3,                // number of deviating sizes that are all verified after the last confirmed one
     kVerifiedEvery = 30;          // later, only every n-th deviating size is verified
 // The networks understate sizes far from those of real hands: beyond kFarSize (logarithm), the true deviation may be
@@ -73,7 +73,7 @@ HandTracker& ProfileVerifier::other_side() {
 }
 
 void ProfileVerifier::begin_verification(const HandObservation& observation, std::optional<Hypothesis> found) {
-  other_side().apply(StartAnew{});
+  other_side().apply(ResetTracker{});
   other_side().process(observation, std::move(found));
   verification_.emplace();
 }
@@ -91,7 +91,7 @@ bool ProfileVerifier::is_detected_as_other_side(const HandObservation& observati
 bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
   // Search with the mirrored profile in the same observation.
   verification_.reset();
-  const bool confident = score < params_.choice.search_convincing;
+  const bool confident = score < params_.choice.confident_score;
   auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
 
@@ -138,8 +138,9 @@ bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
 
 std::optional<double> ProfileVerifier::other_size_in_view(const HandObservation& observation, double score) {
   // The detected joints show the size of the hand; a mean hand is fitted to the person instead.
-  if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_looks_ >= kSizeLooks) return std::nullopt;
-  ++size_looks_;
+  if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_checks_ >= kSizeChecks)
+    return std::nullopt;
+  ++size_checks_;
   const bool own_side = observation.detected->side() == profile_.handedness;
   const auto seen =
       fit_size_to_joints(own_side ? profile_ : mirrored(profile_), observation.detected->joints, kAnySize);

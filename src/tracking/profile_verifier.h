@@ -40,14 +40,14 @@ class ProfileVerifier {
   /// verification ends in favour of the other side.
   bool turns_out_other_side(const HandEstimate& own);
   /// The pose of the mirrored hand when the verification ended (T_camera_segment).
-  const HandPose& mirrored_pose() const { return *mirrored_->view().whereabouts; }
+  const HandPose& mirrored_pose() const { return *mirrored_->view().expected_pose; }
 
   /// Call with an observation in which a pose of the profile was found or tracked with `score`. Returns the size of the
   /// hand in view relative to a profile that is not fitted while tracking, if the detected joints show another size
   /// and a copy of that size explains the observation clearly better. Only the first frames of a track are used.
   std::optional<double> other_size_in_view(const HandObservation& observation, double score);
   /// Call when a new track starts, before other_size_in_view().
-  void expect_any_size() { size_looks_ = 0; }
+  void expect_any_size() { size_checks_ = 0; }
 
   /// Call when a search found no hand in an observation. After some of these calls, another size is tried, and reported
   /// if it fits. `score`: that of the best pose [m]; infinite if there was none.
@@ -72,7 +72,7 @@ class ProfileVerifier {
   std::uint32_t searched_frames_ = 0;
   bool side_reported_ = false, size_reported_ = false;
   int failures_ = 0, tries_ = 0;  // calls of nothing_found() with a hand-like region, and tries of another size
-  int size_looks_ = 0;            // frames of this track whose detected joints were used
+  int size_checks_ = 0;           // frames of this track whose detected joints were used
   int size_refuted_ = 0;          // number of deviating sizes that detected joints showed since one was confirmed
   std::optional<double> confirmed_size_;
 

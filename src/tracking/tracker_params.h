@@ -25,16 +25,16 @@ struct TrackerParams {
   double nominal_rate = 30;
   double seen_fraction = 0.15;
   bool hidden_follow = true;
-  bool relax = true;
+  bool neutral_joints = true;
   bool side_check = true;
   bool size_check = true;
   int search_refined = 12;
   int search_iterations = 12;
   int full_search_every = 10;
   int search_attempts = 16;
-  int doubt_every = 12;
-  int doubt_near_every = 2;
-  int doubt_iterations = 6;
+  int ambiguous_search_every = 12;
+  int ambiguous_near_every = 2;
+  int near_iterations = 6;
   ChoiceParams choice;
   SegmentTrackerParams segment_tracker;
   FusionParams fusion;
@@ -61,7 +61,8 @@ void visit(V& v, TrackerParams& p) {
   v("seen_fraction", p.seen_fraction, 0.0, 1.0,
     "a segment counts as seen if at least this fraction of its skin matches the data");
   v("hidden_follow", p.hidden_follow, "fingers that are not seen bend with the neighbouring fingers");
-  v("relax", p.relax, "set the hidden joints of a pose that a search found to neutral angles");
+  v.formerly("relax");
+  v("neutral_joints", p.neutral_joints, "set the hidden joints of a pose that a search found to neutral angles");
   v("side_check", p.side_check,
     "test whether the mirrored hand explains the data better, while searching and in the first tracked frames");
   v("size_check", p.size_check, "test whether a smaller or larger hand explains the data better");
@@ -73,12 +74,15 @@ void visit(V& v, TrackerParams& p) {
   v("search_attempts", p.search_attempts, 1, 100,
     "maximum number of full searches of one frame while no hand has been tracked yet; they end early once one result "
     "is good enough, three agree or, from eight on, all but one agree or none explains the frame");
-  v("doubt_every", p.doubt_every, 1, 100000,
+  v.formerly("doubt_every");
+  v("ambiguous_search_every", p.ambiguous_search_every, 1, 100000,
     "of every n consecutive ambiguous frames the middle one is searched from templates, the first time with full "
     "effort");
-  v("doubt_near_every", p.doubt_near_every, 1, 100000,
+  v.formerly("doubt_near_every");
+  v("ambiguous_near_every", p.ambiguous_near_every, 1, 100000,
     "of every n consecutive ambiguous frames one is searched near the followed pose");
-  v("doubt_iterations", p.doubt_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
+  v.formerly("doubt_iterations");
+  v("near_iterations", p.near_iterations, 1, 100, "Gauss-Newton steps for each pose found near the followed one");
   v("segment_tracker", p.segment_tracker, "local trackers (Sec. 4.1, 4.2)");
   v("fusion", p.fusion, "soft constraints and belief propagation (Sec. 4.3, 4.4)");
   v("refinement", p.refinement, "continuous refinement of the best hypothesis");

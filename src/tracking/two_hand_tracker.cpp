@@ -98,14 +98,14 @@ void TwoHandTracker::apply_verification(int k, const HandEstimate& estimate) {
   ProfileVerifier& check = *verifiers_[k];
   if (other && other->view().status == TrackStatus::tracking) check.end_verification();
   if (!check.verifying() || !check.turns_out_other_side(estimate)) return;
-  hands_[k]->apply(StartAnew{});
+  hands_[k]->apply(ResetTracker{});
   if (other) other->apply(StartAt{check.mirrored_pose()});
 }
 
 void TwoHandTracker::check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
-  if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().doubts_size) return;
+  if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().size_mismatch) return;
   const auto size = verifiers_[k]->other_size_in_view(observation, estimate.score);
-  if (size) hands_[k]->apply(DoubtSize{*size});
+  if (size) hands_[k]->apply(NoteSizeMismatch{*size});
 }
 
 bool TwoHandTracker::check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found) {
@@ -113,7 +113,7 @@ bool TwoHandTracker::check_found_size(int k, const HandObservation& observation,
   verifiers_[k]->expect_any_size();
   const auto size = verifiers_[k]->other_size_in_view(observation, found->score());
   if (!size) return false;
-  hands_[k]->apply(DoubtSize{*size});  // the size is reported even if no track starts
+  hands_[k]->apply(NoteSizeMismatch{*size});  // the size is reported even if no track starts
   found->size = *size;
   return true;
 }
@@ -155,7 +155,7 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
 HandObservations TwoHandTracker::by_hand(const HandObservations& observations) const {
   if (observations[0]->followed || observations[1]->followed) return observations;
   const auto apart = [&](int k, int j) {
-    const HandPose* pose = hands_[k]->view().whereabouts;
+    const HandPose* pose = hands_[k]->view().expected_pose;
     return pose ? distance(*pose, *observations[j]) : 0;
   };
   if (apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1)) return {observations[1], observations[0]};
@@ -186,12 +186,13 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const Choice choice(params_.choice);
   const auto score = [&](int k, int j) {
     if (!found[k][j]) return none;
-    return std::min(choice.judged_score(*observations[j], *hands_[k]->view().profile, found[k][j]->refined), none);
+    return std::min(choice.score_with_detection(*observations[j], *hands_[k]->view().profile, found[k][j]->refined),
+                    none);
   };
 
   // Whether one of the sides explains the observation well enough already.
   const auto confident = [&](int j) {
-    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.search_convincing;
+    return !observations[j]->hand_present || std::min(score(0, j), score(1, j)) < params_.choice.confident_score;
   };
 
   // Both sides search with the same effort, which gives them equal chances.
@@ -201,12 +202,12 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
 
   // Each side searches every region once, and again with more attempts where neither side is confident.
-  const auto look = [&](int j, int attempts) {
+  const auto search_observation = [&](int j, int attempts) {
     for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
   for (int j = 0; j < 2; ++j) {
-    look(j, 1);
-    if (most > 1 && !confident(j)) look(j, most);
+    search_observation(j, 1);
+    if (most > 1 && !confident(j)) search_observation(j, most);
   }
 
   // Each side owns the observation that it explains clearly better than the other side does. Two observations are

@@ -53,7 +53,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   hands_.resize(estimates.size());
 
   // Collect the surfaces around the tracked hands, and tell the objects apart.
-  space_.see(observations);
+  space_.observe(observations);
   points_.clear();
   open_.clear();
   for (std::size_t k = 0; k < estimates.size(); ++k) {
@@ -88,7 +88,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
 
 /// Finds the known objects. Their meshes take the place of the points that are seen of them.
 void ContactStage::find_known(const HandObservations& observations, const HandEstimates& estimates,
-                              FrameVector<SeenObject>& objects) {
+                              FrameVector<ObjectEstimate>& objects) {
   if (!find_known_) return;
   known_ = find_known_(observations, estimates, points_, objects);
   std::erase_if(points_, [&](const SurfacePoint& point) {
@@ -126,7 +126,7 @@ void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estima
     contact.inferred = !segment.seen;
     contact.partner = known.object->id;
     const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
-    judge(contact, (params_.touch_distance - contact.distance) / contact.deviation, holds ? kHolds : 1);
+    set_state(contact, (params_.touch_distance - contact.distance) / contact.deviation, holds ? kHolds : 1);
   }
 }
 
@@ -157,21 +157,22 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     // Where little of the segment is seen, there may be something nearer than what was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
-    judge(contact, visible && below > 0 ? kNearer * below : below);
+    set_state(contact, visible && below > 0 ? kNearer * below : below);
     if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
 
 void ContactStage::touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const {
   all_apart(estimate, contacts);
-  const auto& rods = hand.rods().rods();
+  const auto& capsules = hand.capsules().capsules();
   const SegmentState& palm = estimate.segments[kPalm];
-  for (const auto& [a, b] : hand.rods().apart()) {
-    const RodDistance measured = HandRods::distance(rods[a], hand.segments(), rods[b], hand.segments());
+  for (const auto& [a, b] : hand.capsules().apart()) {
+    const CapsuleDistance measured = HandCapsules::distance(capsules[a], hand.segments(), capsules[b], hand.segments());
     if (measured.distance > params_.near_distance) continue;
 
     // Both segments hang on the palm, whose own error moves them together.
-    const SegmentState &first = estimate.segments[rods[a].segment], &second = estimate.segments[rods[b].segment];
+    const SegmentState &first = estimate.segments[capsules[a].segment],
+                       &second = estimate.segments[capsules[b].segment];
     const double common = variance(palm, measured.on_a, measured.normal);
     const double apart =
         variance(first, measured.on_a, measured.normal) + variance(second, measured.on_b, measured.normal) - 2 * common;
@@ -182,8 +183,8 @@ void ContactStage::touch_itself(const PosedHand& hand, const HandEstimate& estim
     for (const bool from_a : {true, false}) {
       contact.point = from_a ? measured.on_b : measured.on_a;
       contact.normal = from_a ? measured.normal : Vector3d(-measured.normal);
-      contact.segment = static_cast<std::int8_t>(from_a ? rods[b].segment : rods[a].segment);
-      offer(contacts[from_a ? rods[a].segment : rods[b].segment], contact);
+      contact.segment = static_cast<std::int8_t>(from_a ? capsules[b].segment : capsules[a].segment);
+      offer(contacts[from_a ? capsules[a].segment : capsules[b].segment], contact);
     }
   }
 }
@@ -192,9 +193,9 @@ void ContactStage::touch_hand(std::size_t own, std::size_t other, const HandEsti
                               SegmentContacts& contacts) const {
   all_apart(*estimates[own], contacts);
   const PosedHand &hand = hands_[own], &partner = hands_[other];
-  for (const HandRods::Rod& a : hand.rods().rods())
-    for (const HandRods::Rod& b : partner.rods().rods()) {
-      const RodDistance measured = HandRods::distance(a, hand.segments(), b, partner.segments());
+  for (const HandCapsules::Capsule& a : hand.capsules().capsules())
+    for (const HandCapsules::Capsule& b : partner.capsules().capsules()) {
+      const CapsuleDistance measured = HandCapsules::distance(a, hand.segments(), b, partner.segments());
       if (measured.distance > params_.near_distance) continue;
 
       // The poses of two hands err independently.
@@ -217,13 +218,13 @@ Contact ContactStage::touch_of_skins(double distance, double variance, const Seg
   contact.distance = distance;
   contact.deviation = std::sqrt(variance + 2 * kSkinDeviation * kSkinDeviation);
   contact.inferred = !first.seen || !second.seen;
-  judge(contact, (params_.touch_distance - distance) / contact.deviation);
+  set_state(contact, (params_.touch_distance - distance) / contact.deviation);
   return contact;
 }
 
 /// Sets the probability of a touch, and the state, from the distance in deviations below the touch distance. `odds`:
 /// how much more likely a touch is for other reasons.
-void ContactStage::judge(Contact& contact, double deviations, double odds) const {
+void ContactStage::set_state(Contact& contact, double deviations, double odds) const {
   const double p = 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
   contact.probability = odds * p / (odds * p + 1 - p);
   contact.state = contact.probability >= 0.5                 ? ContactState::touching

@@ -10,18 +10,18 @@
 #include "observe/observation.h"
 #include "stages/contact/contact_params.h"
 #include "stages/contact/object_tracker.h"
+#include "stages/contact/observed_space.h"
 #include "stages/contact/posed_hand.h"
-#include "stages/contact/seen_space.h"
 #include "stages/contact/surface_cells.h"
 #include "stages/contact/surface_distance.h"
 
 namespace barehand {
 
-/// Finds the objects whose shape is known among the things near the hands. Gives their points in `points` their ids,
-/// and puts them into `objects` in place of the things that they are.
+/// Finds the objects whose shape is known among the objects near the hands. Gives their points in `points` their ids,
+/// and puts them into `objects` in place of the objects that they are.
 using KnownObjectFinder =
     std::function<std::vector<PosedObject>(const HandObservations& observations, const HandEstimates& estimates,
-                                           std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects)>;
+                                           std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects)>;
 
 /// The contact stage: says what the tracked hands of a frame touch, from their estimates and observations, frame after
 /// frame in order. It changes no estimate. Contacts are stated for hands that are tracked; those of the others are
@@ -39,18 +39,18 @@ class ContactStage {
  private:
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
   void find_known(const HandObservations& observations, const HandEstimates& estimates,
-                  FrameVector<SeenObject>& objects);
+                  FrameVector<ObjectEstimate>& objects);
   void touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const;
   void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
-  void judge(Contact& contact, double deviations, double odds = 1) const;
+  void set_state(Contact& contact, double deviations, double odds = 1) const;
 
   ContactParams params_;
   KnownObjectFinder find_known_;  // empty: there are none
   SurfaceCells cells_;
   ObjectTracker objects_;
-  SeenSpace space_;
+  ObservedSpace space_;
   SurfaceDistance distance_;
   std::vector<PosedHand> hands_;  // one per configured hand
   std::vector<SurfacePoint> points_;

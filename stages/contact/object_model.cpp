@@ -72,7 +72,7 @@ int ObjectModel::nearest(const Vector3f& p) const {
 }
 
 double ObjectModel::misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
-                           const SeenSpace& space) const {
+                           const ObservedSpace& space) const {
   // Compare the points with the surface.
   const Pose T(T_camera_object);
   double sum = 0;
@@ -87,7 +87,7 @@ double ObjectModel::misfit(const SE3& T_camera_object, std::span<const SurfacePo
 }
 
 double ObjectModel::contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
-                                  const SeenSpace& space) const {
+                                  const ObservedSpace& space) const {
   int inside = 0, count = 0;
   const Pose T(T_camera_object);
   for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / kMostPoints, ++count) {
@@ -98,7 +98,7 @@ double ObjectModel::contradiction(const SE3& T_camera_object, std::span<const Su
 }
 
 /// The share of the surfels where a frame shows that there are none.
-double ObjectModel::contradicted(const SE3& T_camera_object, const SeenSpace& space) const {
+double ObjectModel::contradicted(const SE3& T_camera_object, const ObservedSpace& space) const {
   const Pose T(T_camera_object);
   int count = 0, all = 0;
   for (std::size_t i = 0; i < surfels_.size(); i += 1 + surfels_.size() / kMostPoints, ++all) {
@@ -109,7 +109,7 @@ double ObjectModel::contradicted(const SE3& T_camera_object, const SeenSpace& sp
 }
 
 SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* const> points,
-                         const SeenSpace& space) const {
+                         const ObservedSpace& space) const {
   Vector3f wanted = Vector3f::Zero();
   for (const SurfacePoint* point : points) wanted += point->p / static_cast<float>(points.size());
   SE3 pose = predicted;
@@ -121,7 +121,7 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
     for (const Surfel& surfel : surfels_) {
       const Vector3f p = T * surfel.p;
       if (surfel.weight < kTrusted || !faces_camera(T, surfel)) continue;
-      if (round > 0 && space.at(p) == SeenSpace::Place::unknown) continue;
+      if (round > 0 && space.at(p) == ObservedSpace::Occupancy::unknown) continue;
       sum += p;
       ++count;
     }
@@ -171,8 +171,8 @@ SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const
   return pose;
 }
 
-void ObjectModel::fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space,
-                       bool credible) {
+void ObjectModel::fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
+                       const ObservedSpace& space, bool credible) {
   if (cells_.empty()) cells_.resize(kSide * kSide * kSide);
   const Pose T(T_camera_object);
   if (credible)
@@ -215,7 +215,7 @@ void ObjectModel::add(const Vector3f& p, const Vector3f& n) {
 
 /// Surfels at places that are seen to be empty lose weight until they are gone; so do, more slowly, those that should
 /// be measured where nothing is.
-void ObjectModel::remove_contradicted(const SE3& T_camera_object, const SeenSpace& space) {
+void ObjectModel::remove_contradicted(const SE3& T_camera_object, const ObservedSpace& space) {
   const Pose T(T_camera_object);
   for (std::size_t i = 0; i < surfels_.size();) {
     Surfel& surfel = surfels_[i];
@@ -239,7 +239,7 @@ void ObjectModel::remove_contradicted(const SE3& T_camera_object, const SeenSpac
 }
 
 /// Remembers which cells around the surface are seen to be empty.
-void ObjectModel::see_empty_cells(const SE3& T_camera_object, const SeenSpace& space) {
+void ObjectModel::see_empty_cells(const SE3& T_camera_object, const ObservedSpace& space) {
   if (surfels_.empty()) return;
   const Pose T(T_camera_object);
   const auto [lower, upper] = bounds();
@@ -261,13 +261,13 @@ void ObjectModel::see_empty_cells(const SE3& T_camera_object, const SeenSpace& s
     }
 }
 
-void ObjectModel::append_hidden(const SE3& T_camera_object, const SeenSpace& space, std::int32_t object,
+void ObjectModel::append_hidden(const SE3& T_camera_object, const ObservedSpace& space, std::int32_t object,
                                 std::vector<SurfacePoint>& points) const {
   const Pose T(T_camera_object);
   for (const Surfel& surfel : surfels_) {
     if (surfel.weight < kTrusted) continue;
     const Vector3f p = T * surfel.p;
-    if (space.at(p) != SeenSpace::Place::unknown) continue;
+    if (space.at(p) != ObservedSpace::Occupancy::unknown) continue;
     SurfacePoint& point = points.emplace_back();
     point.p = p;
     point.n = T.R * surfel.n;

@@ -6,7 +6,7 @@
 
 #include "math/se3.h"
 #include "object/known_object.h"
-#include "stages/contact/seen_space.h"
+#include "stages/contact/observed_space.h"
 #include "stages/contact/surface_cells.h"
 
 namespace barehand {
@@ -21,23 +21,24 @@ class ObjectModel {
   /// Whether there is enough of it to compare points with.
   bool has_surface() const { return surfels_.size() >= 8; }
   /// How badly the points of a frame agree with the model at a pose of it: their mean distance from it, kFar at most,
-  /// plus kFar times the share of it that is seen to be empty [m].
-  double misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space) const;
+  /// plus kFar times the fraction of it that is seen to be empty [m].
+  double misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
+                const ObservedSpace& space) const;
   /// How much speaks against a pose: the share of its surface where this frame sees that nothing is, or the share of
   /// the points at places that were seen to be empty, whichever is larger.
   double contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
-                       const SeenSpace& space) const;
+                       const ObservedSpace& space) const;
   /// A predicted pose, moved so that the middle of what would be seen of the surface is that of the points.
-  SE3 centred(const SE3& predicted, std::span<const SurfacePoint* const> points, const SeenSpace& space) const;
+  SE3 centred(const SE3& predicted, std::span<const SurfacePoint* const> points, const ObservedSpace& space) const;
   /// The pose near a predicted one at which the points lie on the model's surface, by point-to-plane ICP. Directions in
   /// which the surface slides over itself stay as predicted. `covariance`: of the pose's boxplus twist.
   SE3 align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const;
   /// Adds the points of a frame, if the pose is `credible`, and the space that is seen to be empty, and removes surfels
   /// that are there.
-  void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const SeenSpace& space,
+  void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const ObservedSpace& space,
             bool credible = true);
   /// Appends the surfels that are hidden in this frame, in the camera frame.
-  void append_hidden(const SE3& T_camera_object, const SeenSpace& space, std::int32_t object,
+  void append_hidden(const SE3& T_camera_object, const ObservedSpace& space, std::int32_t object,
                      std::vector<SurfacePoint>& points) const;
   /// Whether a place in the object's frame was seen to be empty.
   bool seen_empty(const Eigen::Vector3f& p) const;
@@ -63,13 +64,13 @@ class ObjectModel {
     std::uint8_t around = 0;   // number of surfels up to two cells away
   };
 
-  double contradicted(const SE3& T_camera_object, const SeenSpace& space) const;
+  double contradicted(const SE3& T_camera_object, const ObservedSpace& space) const;
   std::int32_t cell_of(const Eigen::Vector3f& p) const;
   int nearest(const Eigen::Vector3f& p) const;
   void count_around(std::int32_t cell, int change);
   void add(const Eigen::Vector3f& p, const Eigen::Vector3f& n);
-  void remove_contradicted(const SE3& T_camera_object, const SeenSpace& space);
-  void see_empty_cells(const SE3& T_camera_object, const SeenSpace& space);
+  void remove_contradicted(const SE3& T_camera_object, const ObservedSpace& space);
+  void see_empty_cells(const SE3& T_camera_object, const ObservedSpace& space);
 
   std::vector<Surfel> surfels_;
   std::vector<Cell> cells_;  // empty until something was added

@@ -17,7 +17,7 @@ constexpr double kPlace = 0.005, kTurn = 1.0;  // deviations of an object withou
 
 }  // namespace
 
-void ObjectTrack::predict(const HandEstimates& estimates, const SeenSpace& space,
+void ObjectTrack::predict(const HandEstimates& estimates, const ObservedSpace& space,
                           std::span<const SurfacePoint* const> all) {
   points.clear();
   placed = false;
@@ -31,7 +31,8 @@ void ObjectTrack::predict(const HandEstimates& estimates, const SeenSpace& space
   }
 }
 
-void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates& estimates, const SeenSpace& space) {
+void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates& estimates,
+                         const ObservedSpace& space) {
   state.velocity = unknown_velocity();
   if (points.empty())
     state.T_camera_object = predicted;
@@ -41,7 +42,7 @@ void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates
 }
 
 /// Updates the pose from the points of this frame, and the model.
-void ObjectTrack::place(double elapsed, const SeenSpace& space) {
+void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
   centre.setZero();
   for (const SurfacePoint* point : points) centre += point->p.cast<double>() / static_cast<double>(points.size());
   const SE3 before = state.T_camera_object;
@@ -98,9 +99,9 @@ void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
 
     // Begin anew with another palm, or if the object has left its place in the palm.
     const double left =
-        companion_ == hand_ ? (T_palm_object_.t - in_palm_).norm() : std::numeric_limits<double>::infinity();
+        compared_hand_ == hand_ ? (T_palm_object_.t - in_palm_).norm() : std::numeric_limits<double>::infinity();
     if (left > (state.held ? kLeft : kFirm)) {
-      companion_ = hand_;
+      compared_hand_ = hand_;
       in_palm_ = T_palm_object_.t;
       palm_ = T_camera_palm.t;
     }
@@ -108,12 +109,12 @@ void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
     // It is held once it was carried, until it leaves.
     held = state.held ? left < kLeft : left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried;
   } else {
-    companion_ = -1;
+    compared_hand_ = -1;
   }
 
   if (held != state.held) state.since = utime;
   state.held = held;
-  state.hand_id = held ? companion_ : -1;
+  state.hand_id = held ? compared_hand_ : -1;
 }
 
 }  // namespace barehand

@@ -12,7 +12,7 @@ namespace barehand {
 /// One object from frame to frame: its model, its pose, and whether it is held. In each frame predict(), then points
 /// from whoever tells objects apart, then update().
 struct ObjectTrack {
-  SeenObject state;
+  ObjectEstimate state;
   ObjectModel model;                        ///< of nothing while the object is open
   std::vector<const SurfacePoint*> points;  ///< its points in this frame
   SE3 predicted;                            ///< T_camera_object in this frame
@@ -26,18 +26,18 @@ struct ObjectTrack {
 
   /// Predicts where the object is: where it was, or where it was in the palm, whichever agrees better with all points
   /// of the frame.
-  void predict(const HandEstimates& estimates, const SeenSpace& space, std::span<const SurfacePoint* const> all);
+  void predict(const HandEstimates& estimates, const ObservedSpace& space, std::span<const SurfacePoint* const> all);
   /// Updates the pose, the model, and whether the object is held. `elapsed`: since the last frame [s]; 0: not known.
-  void update(std::int64_t utime, double elapsed, const HandEstimates& estimates, const SeenSpace& space);
+  void update(std::int64_t utime, double elapsed, const HandEstimates& estimates, const ObservedSpace& space);
 
  private:
-  void place(double elapsed, const SeenSpace& space);
+  void place(double elapsed, const ObservedSpace& space);
   void hold(std::int64_t utime, const HandEstimates& estimates);
 
-  std::int32_t hand_ = -1;          // hand_id of the nearest palm in the last frame; -1: none
-  SE3 T_palm_object_;               // relative to that palm
-  Eigen::Vector3d in_palm_, palm_;  // place relative to the palm, and place of the palm, when both were first compared
-  std::int32_t companion_ = -1;     // hand_id of that palm; -1: none
+  std::int32_t hand_ = -1;           // hand_id of the nearest palm in the last frame; -1: none
+  SE3 T_palm_object_;                // relative to that palm
+  Eigen::Vector3d in_palm_, palm_;   // place relative to the palm, and place of the palm, when both were first compared
+  std::int32_t compared_hand_ = -1;  // hand_id of that palm; -1: none
 };
 
 }  // namespace barehand

@@ -9,18 +9,18 @@ namespace {
 constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) are no object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
 constexpr double kOpenPlace = 0.2;   // and the middle of what is seen of a table [m]
-constexpr double kOverlap = 0.4;     // share of a component on the model of an object that makes it a part of it
+constexpr double kOverlap = 0.4;     // fraction of a component on the model of an object that makes it a part of it
 constexpr double kGone = 0.25;       // contradiction of a model at its place by which it is no longer there
-constexpr double kSame = 0.7;        // share of it on a second model that makes both the same object
+constexpr double kSame = 0.7;        // fraction of it on a second model that makes both the same object
 // Time after which an object that is not seen is forgotten, and one that is held [us].
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
 constexpr double kLongest = 0.25;  // time between two frames that still gives a velocity [s]
 
 }  // namespace
 
-void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, const SeenSpace& space,
+void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
                             const std::vector<bool>& open, std::vector<SurfacePoint>& points,
-                            FrameVector<SeenObject>& objects) {
+                            FrameVector<ObjectEstimate>& objects) {
   // Tell the objects apart, with what is known of them.
   links_.link(open, points);
   all_.clear();
@@ -65,7 +65,8 @@ bool ObjectTracker::seen_empty(std::int32_t object, const Eigen::Vector3f& p) co
 
 /// Gives every component to the model on which most of it lies. What continues out of view, as a table does, is never
 /// given to the model of what stands on it.
-void ObjectTracker::match_models(std::int64_t utime, const SeenSpace& space, const std::vector<SurfacePoint>& points) {
+void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
+                                 const std::vector<SurfacePoint>& points) {
   // Count the points of each component on each model.
   const auto components = static_cast<std::size_t>(links_.components());
   count_.assign(components, 0);
@@ -105,28 +106,29 @@ void ObjectTracker::match_models(std::int64_t utime, const SeenSpace& space, con
 /// Gives every other object the track that was nearest, or a new one.
 void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points) {
   // Add up the objects.
-  things_.assign(static_cast<std::size_t>(links_.components()), {});
+  clusters_.assign(static_cast<std::size_t>(links_.components()), {});
   for (std::int32_t i = 0; i < links_.components(); ++i)
-    if (links_.open(i)) things_[links_.root(i)].open = true;
+    if (links_.open(i)) clusters_[links_.root(i)].open = true;
   for (const SurfacePoint& point : points) {
     if (owner_[point.component] >= 0) continue;
-    Thing& thing = things_[links_.root(point.component)];
-    thing.sum += point.p.cast<double>();
-    ++thing.count;
+    Cluster& cluster = clusters_[links_.root(point.component)];
+    cluster.sum += point.p.cast<double>();
+    ++cluster.count;
   }
 
   // Join the nearest pairs of an object and a track that are both free.
   const std::size_t known = tracks_.size();
   while (true) {
-    Thing* best = nullptr;
+    Cluster* best = nullptr;
     std::size_t best_track = 0;
     double least = 1;
-    for (Thing& thing : things_) {
-      if (thing.count < kSpeck || thing.track >= 0) continue;
+    for (Cluster& cluster : clusters_) {
+      if (cluster.count < kSpeck || cluster.track >= 0) continue;
       for (std::size_t t = 0; t < known; ++t) {
-        if (tracks_[t].seen == utime || tracks_[t].open != thing.open) continue;
-        const double distance = (thing.centre() - tracks_[t].centre).norm() / (thing.open ? kOpenPlace : kSamePlace);
-        if (distance < least) best = &thing, best_track = t, least = distance;
+        if (tracks_[t].seen == utime || tracks_[t].open != cluster.open) continue;
+        const double distance =
+            (cluster.centre() - tracks_[t].centre).norm() / (cluster.open ? kOpenPlace : kSamePlace);
+        if (distance < least) best = &cluster, best_track = t, least = distance;
       }
     }
     if (!best) break;
@@ -135,13 +137,13 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
   }
 
   // Begin new tracks.
-  for (Thing& thing : things_) {
-    if (thing.count < kSpeck || thing.track >= 0) continue;
-    thing.track = static_cast<int>(tracks_.size());
+  for (Cluster& cluster : clusters_) {
+    if (cluster.count < kSpeck || cluster.track >= 0) continue;
+    cluster.track = static_cast<int>(tracks_.size());
     ObjectTrack& track = tracks_.emplace_back();
     track.state.id = next_id_++;
     track.seen = track.state.since = utime;
-    track.open = thing.open;
+    track.open = cluster.open;
   }
 }
 
@@ -167,7 +169,7 @@ void ObjectTracker::merge(std::int64_t utime) {
 /// Tells the points whose they are, and the tracks which points they have.
 void ObjectTracker::give_points(std::vector<SurfacePoint>& points) {
   for (SurfacePoint& point : points) {
-    const int owner = owner_[point.component], t = owner >= 0 ? owner : things_[links_.root(point.component)].track;
+    const int owner = owner_[point.component], t = owner >= 0 ? owner : clusters_[links_.root(point.component)].track;
     point.object = t < 0 ? -1 : tracks_[t].state.id;
   }
   std::erase_if(points, [](const SurfacePoint& point) { return point.object < 0; });

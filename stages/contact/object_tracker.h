@@ -18,8 +18,8 @@ class ObjectTracker {
 
   /// Removes points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models that
   /// are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
-  void process(std::int64_t utime, const HandEstimates& estimates, const SeenSpace& space,
-               const std::vector<bool>& open, std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects);
+  void process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
+               const std::vector<bool>& open, std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects);
   /// The objects as of the last frame.
   std::span<const ObjectTrack> tracks() const { return tracks_; }
   /// Takes note of what the hands touch in this frame: it probably moves with them.
@@ -29,7 +29,7 @@ class ObjectTracker {
 
  private:
   /// All surfaces of one object in this frame that are linked and on no model.
-  struct Thing {
+  struct Cluster {
     int count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of the points
     bool open = false;
@@ -37,7 +37,7 @@ class ObjectTracker {
     Eigen::Vector3d centre() const { return sum / count; }
   };
 
-  void match_models(std::int64_t utime, const SeenSpace& space, const std::vector<SurfacePoint>& points);
+  void match_models(std::int64_t utime, const ObservedSpace& space, const std::vector<SurfacePoint>& points);
   void match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points);
   void merge(std::int64_t utime);
   void give_points(std::vector<SurfacePoint>& points);
@@ -45,7 +45,7 @@ class ObjectTracker {
   SurfaceLinks links_;
   std::vector<const SurfacePoint*> all_;   // points of the frame
   std::vector<int> count_, near_, owner_;  // of each component: points; points on each model; the model's track or -1
-  std::vector<Thing> things_;              // by first component; those of the other components are empty
+  std::vector<Cluster> clusters_;          // by first component; those of the other components are empty
   std::vector<ObjectTrack> tracks_;
   std::int64_t last_ = 0;  // time of the last frame [us]
   std::int32_t next_id_;

@@ -43,7 +43,7 @@ void PosedHand::pose(const HandEstimate& estimate) {
     const HandProfile& profile = *estimate.profile;
     surface_ = profile.scanned_skin ? surface_points(*profile.scanned_skin, profile, kSkinPoints)
                                     : make_cylinder_surface(profile, kSkinPoints);
-    rods_.emplace(profile);
+    capsules_.emplace(profile);
     profile_ = estimate.profile;
   }
 

@@ -6,14 +6,14 @@
 
 #include "hand/hand_pose.h"
 #include "hand/surface.h"
-#include "stages/contact/hand_rods.h"
+#include "stages/contact/hand_capsules.h"
 #include "stages/contact/surface_cells.h"
 #include "stages/contact/surface_distance.h"
 
 namespace barehand {
 
-/// The skin and the rods of one tracked hand, posed. The skin is the scanned one, or tapered cylinders, which take no
-/// time to make.
+/// The skin and the capsules of one tracked hand, posed. The skin is the scanned one, or tapered cylinders, which take
+/// no time to make.
 class PosedHand {
  public:
   /// Takes over the pose of a tracked hand. The skin is made anew if the profile has changed by more than fractions of
@@ -21,7 +21,7 @@ class PosedHand {
   void pose(const HandEstimate& estimate);
 
   const PosedSkin& skin(int segment) const { return skin_[segment]; }
-  const HandRods& rods() const { return *rods_; }
+  const HandCapsules& capsules() const { return *capsules_; }
   const HandPose& segments() const { return pose_; }
 
   /// Whether a place is on or in the skin, or behind the wrist (camera frame [m]).
@@ -33,7 +33,7 @@ class PosedHand {
  private:
   std::shared_ptr<const HandProfile> profile_;  // of the skin
   HandSurface surface_;                         // in the frames of the segments
-  std::optional<HandRods> rods_;
+  std::optional<HandCapsules> capsules_;
   std::array<PosedSkin, kSegmentCount> skin_;
   HandPose pose_;
 };

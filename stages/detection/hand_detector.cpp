@@ -116,7 +116,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
   known_.begin_search();
   std::erase_if(palms_, [&](const Palm& palm) {
     const auto here = [&](const ExpectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };
-    return std::ranges::none_of(tracked, here) && known_.may_wait(palm.centre, palm.probability);
+    return std::ranges::none_of(tracked, here) && known_.may_skip(palm.centre, palm.probability);
   });
 
   for (next_ = 0; next_ < palms_.size() && out.hands.size() < kMostHands;) {

@@ -8,8 +8,8 @@
 #include "core/parallel/parallel.h"
 #include "observe/detection.h"
 #include "sensor/rgbd_frame.h"
-#include "stages/detection/known_places.h"
 #include "stages/detection/network.h"
+#include "stages/detection/palm_history.h"
 #include "stages/detection/params.h"
 #include "stages/detection/window_examiner.h"
 
@@ -20,7 +20,7 @@ struct DepthView;
 /// Finds hands in a depth image of any size and focal length without prior knowledge of their positions: one network
 /// finds palms in the whole frame; a second one is applied to a window around each palm and estimates the joints, the
 /// side (left or right) and labels of the surface. Earlier frames only decide which places may wait for the next frame
-/// (KnownPlaces). Synchronous. Windows are spread over the workers, whose number does not change results. Not
+/// (PalmHistory). Synchronous. Windows are spread over the workers, whose number does not change results. Not
 /// thread-safe.
 class HandDetector {
  public:
@@ -60,7 +60,7 @@ class HandDetector {
   std::vector<WindowExaminer> examiners_;  // kAtOnce
   std::string version_;
   DetectionParams params_;
-  KnownPlaces known_;
+  PalmHistory known_;
 
   // Scratch of the current frame.
   std::vector<Palm> palms_;                                         // most probable first

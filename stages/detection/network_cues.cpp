@@ -1,4 +1,4 @@
-// Judges by the outputs of the networks whether what they detected is a hand.
+// Decides by the outputs of the networks whether what they detected is a hand.
 #include "stages/detection/network_cues.h"
 
 #include <algorithm>

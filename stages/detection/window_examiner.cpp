@@ -26,8 +26,8 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
 
 /// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
 /// into a right one; the network was trained with right hands.
-Result<WindowExaminer::Window> WindowExaminer::look(const RgbdFrame& frame, const Eigen::Vector3d& centre,
-                                                    bool mirrored) {
+Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
+                                                           bool mirrored) {
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
@@ -49,21 +49,21 @@ Result<WindowExaminer::Window> WindowExaminer::look(const RgbdFrame& frame, cons
 /// the window was mirrored for.
 Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place) {
   bool mirrored = place.side == Handedness::left;
-  auto window = look(frame, place.centre, mirrored);
+  auto window = run_network(frame, place.centre, mirrored);
   if (!window) return tl::unexpected(window.error());
   const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || other_side()) {
     if (window->hand.centre.z() <= 0) return std::nullopt;
     mirrored = mirrored != other_side();
-    window = look(frame, window->hand.centre, mirrored);
+    window = run_network(frame, window->hand.centre, mirrored);
     if (!window) return tl::unexpected(window.error());
   }
 
   // If the window still shows the other side, try the other mirroring, too. The average of the log odds decides the
   // side, and the window of that side gives the joints.
   if (other_side() && window->hand.centre.z() > 0) {
-    auto other = look(frame, window->hand.centre, !mirrored);
+    auto other = run_network(frame, window->hand.centre, !mirrored);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
     if ((right < 0) != mirrored) *window = std::move(*other);

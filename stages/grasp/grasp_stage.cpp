@@ -14,11 +14,11 @@ Result<FrameGraspsPtr> GraspStage::process(const HandEstimates& estimates) {
   while (hands_.size() < estimates.size()) hands_.emplace_back(classifier_.memory());
   for (std::size_t k = 0; k < estimates.size(); ++k)
     if (estimates[k]->status == TrackStatus::tracking && estimates[k]->profile)
-      (*out)[k] = judge(hands_[k], *estimates[k]);
+      (*out)[k] = estimate_grasp(hands_[k], *estimates[k]);
   return out;
 }
 
-HandGrasp GraspStage::judge(Hand& hand, const HandEstimate& estimate) const {
+HandGrasp GraspStage::estimate_grasp(Hand& hand, const HandEstimate& estimate) const {
   // Begin anew with another hand, and after a gap.
   const std::int64_t passed = estimate.utime - hand.utime;
   if (hand.id != estimate.hand_id || passed <= 0 || passed > kMemoryUs) {

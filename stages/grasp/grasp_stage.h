@@ -26,7 +26,7 @@ class GraspStage {
     int grasp = 0;
   };
 
-  HandGrasp judge(Hand& hand, const HandEstimate& estimate) const;
+  HandGrasp estimate_grasp(Hand& hand, const HandEstimate& estimate) const;
 
   GraspClassifier classifier_;
   std::vector<Hand> hands_;  // in the order of the estimates

@@ -11,7 +11,7 @@ constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 
 }  // namespace
 
-void Holding::update(std::int64_t utime, const HandEstimates& estimates, SeenObject& state) {
+void Holding::update(std::int64_t utime, const HandEstimates& estimates, ObjectEstimate& state) {
   // Find the nearest palm.
   const HandEstimate* nearest = nullptr;
   const auto distance = [&](const HandEstimate& hand) {
@@ -27,9 +27,9 @@ void Holding::update(std::int64_t utime, const HandEstimates& estimates, SeenObj
     const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
     const Eigen::Vector3d in_palm = T_camera_palm.inverse() * state.T_camera_object.t;
     const double left =
-        companion_ == nearest->hand_id ? (in_palm - in_palm_).norm() : std::numeric_limits<double>::infinity();
+        compared_hand_ == nearest->hand_id ? (in_palm - in_palm_).norm() : std::numeric_limits<double>::infinity();
     if (left > kLeft) {
-      companion_ = nearest->hand_id;
+      compared_hand_ = nearest->hand_id;
       in_palm_ = in_palm;
       palm_ = T_camera_palm.t;
     }
@@ -37,14 +37,14 @@ void Holding::update(std::int64_t utime, const HandEstimates& estimates, SeenObj
     // It is held once it was carried, until it leaves.
     held = (held_ && left < kLeft) || (left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried);
   } else {
-    companion_ = -1;
+    compared_hand_ = -1;
   }
 
   // State it.
   if (held != held_ || since_ == 0) since_ = utime;
   held_ = held;
   state.held = held;
-  state.hand_id = held ? companion_ : -1;
+  state.hand_id = held ? compared_hand_ : -1;
   state.since = since_;
 }
 

@@ -11,11 +11,11 @@ namespace barehand {
 class Holding {
  public:
   /// Sets `held`, `hand_id` and `since` of the state from its pose and the hands of the frame.
-  void update(std::int64_t utime, const HandEstimates& estimates, SeenObject& state);
+  void update(std::int64_t utime, const HandEstimates& estimates, ObjectEstimate& state);
 
  private:
-  Eigen::Vector3d in_palm_, palm_;  // place in the palm, and place of the palm, when both were first compared
-  std::int32_t companion_ = -1;     // hand_id of that palm; -1: none
+  Eigen::Vector3d in_palm_, palm_;   // place in the palm, and place of the palm, when both were first compared
+  std::int32_t compared_hand_ = -1;  // hand_id of that palm; -1: none
   bool held_ = false;
   std::int64_t since_ = 0;
 };

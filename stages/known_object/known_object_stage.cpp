@@ -7,7 +7,7 @@ namespace barehand {
 namespace {
 
 constexpr float kOwn = 0.008f;      // points this near to the surface of a known object are its own [m]
-constexpr double kMostlyOwn = 0.5;  // fraction of its points that makes a thing the known object
+constexpr double kMostlyOwn = 0.5;  // fraction of its points that makes an object the known one
 
 }  // namespace
 
@@ -26,15 +26,15 @@ void KnownObjectStage::collect_free(const std::vector<SurfacePoint>& points) {
 
 std::vector<PosedObject> KnownObjectStage::process(const HandObservations& observations, const HandEstimates& estimates,
                                                    std::vector<SurfacePoint>& points,
-                                                   FrameVector<SeenObject>& objects) {
+                                                   FrameVector<ObjectEstimate>& objects) {
   std::vector<PosedObject> posed;
   if (observations.empty() || !observations.front()->frame) return posed;
-  const SeenDepth view(observations);
+  const ObservedDepth view(observations);
   std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by id: points, and those that were claimed
   for (const SurfacePoint& point : points) ++claimed[point.object].first;
 
   // Track one after the other; what one claims, no other can be.
-  FrameVector<SeenObject> known;
+  FrameVector<ObjectEstimate> known;
   for (KnownObjectTracker& tracker : trackers_) {
     collect_free(points);
     const auto seen = tracker.process(observations.front()->frame->utime, view, estimates, free_);
@@ -50,9 +50,9 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
     }
   }
 
-  // Replace the things that they are.
-  std::erase_if(objects, [&](const SeenObject& thing) {
-    const auto& [all, own] = claimed[thing.id];
+  // Replace the objects that they are.
+  std::erase_if(objects, [&](const ObjectEstimate& estimate) {
+    const auto& [all, own] = claimed[estimate.id];
     return static_cast<double>(own) > kMostlyOwn * static_cast<double>(all);
   });
   objects.insert(objects.begin(), known.begin(), known.end());

@@ -14,10 +14,10 @@ class KnownObjectStage {
  public:
   explicit KnownObjectStage(const std::vector<KnownObjectPtr>& objects);
 
-  /// `points`: of all things near the hands; those of a known object get its id. `objects`: all things near the hands;
-  /// those that are known objects are replaced by them. Returns the known objects that are seen.
+  /// `points`: of all objects near the hands; those of a known object get its id. `objects`: all objects near the
+  /// hands; those that are known objects are replaced by them. Returns the known objects that are seen.
   std::vector<PosedObject> process(const HandObservations& observations, const HandEstimates& estimates,
-                                   std::vector<SurfacePoint>& points, FrameVector<SeenObject>& objects);
+                                   std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects);
 
  private:
   void collect_free(const std::vector<SurfacePoint>& points);

@@ -60,7 +60,7 @@ std::vector<KnownObjectTracker::Prediction> KnownObjectTracker::predictions(doub
 }
 
 /// Refines the best prediction. Returns whether the object is there.
-bool KnownObjectTracker::follow(double dt, const SeenDepth& view, const HandEstimates& estimates,
+bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const HandEstimates& estimates,
                                 std::span<const Vector3f> points) {
   // Compare the predictions on the points near to any of them.
   const auto all = predictions(dt, estimates);
@@ -99,7 +99,8 @@ bool KnownObjectTracker::follow(double dt, const SeenDepth& view, const HandEsti
 
 /// Searches for the object around one place: by turns between the fingers and around the hands. Returns whether it was
 /// found.
-bool KnownObjectTracker::find(const SeenDepth& view, const HandEstimates& estimates, std::span<const Vector3f> points) {
+bool KnownObjectTracker::find(const ObservedDepth& view, const HandEstimates& estimates,
+                              std::span<const Vector3f> points) {
   if (--wait_ > 0 || points.empty()) return false;
   wait_ = kSearchEvery;
 
@@ -120,7 +121,7 @@ bool KnownObjectTracker::find(const SeenDepth& view, const HandEstimates& estima
   return true;
 }
 
-void KnownObjectTracker::remember(std::int64_t utime, const HandEstimates& estimates) {
+void KnownObjectTracker::store_palms(std::int64_t utime, const HandEstimates& estimates) {
   utime_ = utime;
   palms_.clear();
   for (const HandEstimatePtr& estimate : estimates)
@@ -128,21 +129,21 @@ void KnownObjectTracker::remember(std::int64_t utime, const HandEstimates& estim
       palms_[estimate->hand_id] = estimate->segments[kPalm].T_camera_segment;
 }
 
-std::optional<SeenObject> KnownObjectTracker::process(std::int64_t utime, const SeenDepth& view,
-                                                      const HandEstimates& estimates,
-                                                      std::span<const Vector3f> points) {
+std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, const ObservedDepth& view,
+                                                          const HandEstimates& estimates,
+                                                          std::span<const Vector3f> points) {
   // Follow it, or find it.
   const double dt = static_cast<double>(utime - utime_) * 1e-6;
   if (T_ && (std::abs(dt) > kLongestStep || std::abs(utime - seen_) > kForgotten)) T_.reset();
   bool seen = T_ && follow(std::abs(dt), view, estimates, points);
   const bool found = !seen && find(view, estimates, points);
   if (found) seen = follow(0, view, {}, points);
-  remember(utime, estimates);
+  store_palms(utime, estimates);
   if (!seen) return std::nullopt;
   seen_ = utime;
 
   // State it. A velocity needs two frames.
-  SeenObject state;
+  ObjectEstimate state;
   state.id = object_->id;
   state.T_camera_object = *T_;
   if (!found) state.velocity = velocity_;

@@ -10,7 +10,7 @@
 #include "stages/known_object/holding.h"
 #include "stages/known_object/object_fit.h"
 #include "stages/known_object/object_search.h"
-#include "stages/known_object/seen_depth.h"
+#include "stages/known_object/observed_depth.h"
 
 namespace barehand {
 
@@ -21,10 +21,10 @@ class KnownObjectTracker {
  public:
   explicit KnownObjectTracker(KnownObjectPtr object) : object_(std::move(object)) {}
 
-  /// The object in this frame; none: it was not found. `points`: of the things near the hands that are
+  /// The object in this frame; none: it was not found. `points`: of the objects near the hands that are
   /// no other known object.
-  std::optional<SeenObject> process(std::int64_t utime, const SeenDepth& view, const HandEstimates& estimates,
-                                    std::span<const Eigen::Vector3f> points);
+  std::optional<ObjectEstimate> process(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
+                                        std::span<const Eigen::Vector3f> points);
   const KnownObjectPtr& object() const { return object_; }
 
  private:
@@ -34,10 +34,10 @@ class KnownObjectTracker {
     double shift = 0, turn = 0;  // standard deviations [m], [rad]
   };
   std::vector<Prediction> predictions(double dt, const HandEstimates& estimates) const;
-  bool follow(double dt, const SeenDepth& view, const HandEstimates& estimates,
+  bool follow(double dt, const ObservedDepth& view, const HandEstimates& estimates,
               std::span<const Eigen::Vector3f> points);
-  bool find(const SeenDepth& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
-  void remember(std::int64_t utime, const HandEstimates& estimates);
+  bool find(const ObservedDepth& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
+  void store_palms(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;
   ObjectSearch search_;

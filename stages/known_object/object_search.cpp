@@ -22,7 +22,7 @@ constexpr int kFewIterations = 6, kIterations = 12;
 constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
 constexpr double kOnSurface = 0.006, kReach = 0.015;
 constexpr std::size_t kSamples = 300;
-constexpr double kLeastShown = 0.2, kMostDoubtful = 0.15, kLeastExplained = 0.65;
+constexpr double kLeastShown = 0.2, kMaxInconsistent = 0.15, kLeastExplained = 0.65;
 constexpr int kLeastSeen = 15;
 
 /// Orientations that cover all rotations evenly (super-Fibonacci spirals, Alexa 2022).
@@ -49,7 +49,7 @@ PosePrior anywhere_near(const SE3& T) {
 
 }  // namespace
 
-PoseQuality quality_of(const KnownObject& object, const SeenDepth& view, const SE3& T_camera_object,
+PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, const SE3& T_camera_object,
                        std::span<const Vector3f> points) {
   PoseQuality quality;
   quality.visibility = view.visibility(object, T_camera_object, kSamples);
@@ -118,7 +118,7 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
   return middle;
 }
 
-std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const SeenDepth& view,
+std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const ObservedDepth& view,
                                               std::span<const Vector3f> points, const Vector3f& seed) {
   const Vector3d middle = gather(object, points, seed).cast<double>();
   if (around_.size() < kLeastPoints) return std::nullopt;
@@ -132,7 +132,7 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const S
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::nth_element(tried.begin(), tried.begin() + kCompared, tried.end(), less);
   tried.resize(kCompared);
-  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFew).doubtful();
+  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFew).inconsistent();
   std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
   tried.resize(kRefined);
 
@@ -146,8 +146,8 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const S
     if (!found || pose.quality.cost() < found->quality.cost()) found = pose;
   }
   const auto& [visibility, explained] = found->quality;
-  if (visibility.shown() < kLeastShown || visibility.seen < kLeastSeen || visibility.doubtful() > kMostDoubtful ||
-      explained < kLeastExplained)
+  if (visibility.shown() < kLeastShown || visibility.seen < kLeastSeen ||
+      visibility.inconsistent() > kMaxInconsistent || explained < kLeastExplained)
     return std::nullopt;
   return found;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "object/known_object.h"
-#include "stages/known_object/seen_depth.h"
+#include "stages/known_object/observed_depth.h"
 
 namespace barehand {
 
@@ -13,7 +13,7 @@ namespace barehand {
 struct PoseQuality {
   Visibility visibility;
   double explained = 0;  ///< fraction of the points within the object's bounding sphere that lie on its surface
-  double cost() const { return 1 - explained + 2 * visibility.doubtful(); }
+  double cost() const { return 1 - explained + 2 * visibility.inconsistent(); }
 };
 
 /// A pose that was found, with its quality.
@@ -28,7 +28,7 @@ class ObjectSearch {
  public:
   ObjectSearch();
   /// `points`: of everything that may be the object; `seed`: the place [m]. None: no pose agrees with the frame.
-  std::optional<FoundPose> search(const KnownObject& object, const SeenDepth& view,
+  std::optional<FoundPose> search(const KnownObject& object, const ObservedDepth& view,
                                   std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
 
  private:
@@ -41,7 +41,7 @@ class ObjectSearch {
 };
 
 /// The quality of a pose. `points`: of everything that may be the object.
-PoseQuality quality_of(const KnownObject& object, const SeenDepth& view, const SE3& T_camera_object,
+PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, const SE3& T_camera_object,
                        std::span<const Eigen::Vector3f> points);
 
 }  // namespace barehand

@@ -29,7 +29,7 @@ struct Silhouette {
 };
 
 /// A capsule projected to the image.
-struct Rod {
+struct ProjectedCapsule {
   Eigen::Vector2f a, axis;  ///< one end, and the vector to the other end [pixels]
   float inverse_length_sq, za, dz, radius, pixel_radius;
 };
@@ -48,22 +48,23 @@ struct RowOfDistances {
     z.assign(width, 0);
   }
   /// Adds a capsule. The row's first pixel is at (u0, v); distances above `border` pixels need not be exact.
-  void add(const Rod& rod, float u0, float v, float border) {
-    const float reach = rod.pixel_radius + border, y = v - rod.a.y(), other_y = y - rod.axis.y();
+  void add(const ProjectedCapsule& capsule, float u0, float v, float border) {
+    const float reach = capsule.pixel_radius + border, y = v - capsule.a.y(), other_y = y - capsule.axis.y();
     if (std::min(y, other_y) > reach || std::max(y, other_y) < -reach) return;
-    const float low = rod.a.x() + std::min(rod.axis.x(), 0.f) - reach - u0;
-    const float high = rod.a.x() + std::max(rod.axis.x(), 0.f) + reach - u0;
+    const float low = capsule.a.x() + std::min(capsule.axis.x(), 0.f) - reach - u0;
+    const float high = capsule.a.x() + std::max(capsule.axis.x(), 0.f) + reach - u0;
     const int begin = std::max(0, static_cast<int>(low));
     const int end = std::min(static_cast<int>(distance.size()), static_cast<int>(high) + 1);
-    const float ax = rod.axis.x(), ay = rod.axis.y(), start = u0 - rod.a.x();
+    const float ax = capsule.axis.x(), ay = capsule.axis.y(), start = u0 - capsule.a.x();
     float *nearest = distance.data(), *skin = z.data();
     for (int u = begin; u < end; ++u) {
       const float x = start + static_cast<float>(u);
-      float t = (x * ax + y * ay) * rod.inverse_length_sq;
+      float t = (x * ax + y * ay) * capsule.inverse_length_sq;
       t = t < 0.f ? 0.f : t;
       t = t > 1.f ? 1.f : t;
       const float ex = x - t * ax, ey = y - t * ay;
-      const float d = std::sqrt(ex * ex + ey * ey) - rod.pixel_radius, depth = rod.za + t * rod.dz - rod.radius;
+      const float d = std::sqrt(ex * ex + ey * ey) - capsule.pixel_radius,
+                  depth = capsule.za + t * capsule.dz - capsule.radius;
       const bool nearer = d < nearest[u];
       skin[u] = nearer ? depth : skin[u];
       nearest[u] = nearer ? d : nearest[u];
@@ -78,27 +79,27 @@ class Drawer {
   void draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out);
 
  private:
-  std::vector<Rod> rods_;
+  std::vector<ProjectedCapsule> projected_;
   RowOfDistances row_;
 };
 
 void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out) {
   out.total = 0;
-  rods_.clear();
+  projected_.clear();
   const float depth = std::max(0.05f, hand.centre().z());
   const float per_metre = static_cast<float>(camera.fx) / depth;
   Eigen::Vector2f low(1e6f, 1e6f), high(-1e6f, -1e6f);
   for (const Capsule& c : hand.capsules()) {
     if (c.a.z() < 0.05f || c.b.z() < 0.05f) continue;
     const Eigen::Vector2f a = project(camera, c.a), b = project(camera, c.b), axis = b - a;
-    rods_.push_back(
+    projected_.push_back(
         {a, axis, 1 / std::max(axis.squaredNorm(), 1e-6f), c.a.z(), c.b.z() - c.a.z(), c.radius, c.radius * per_metre});
     low = low.cwiseMin(a).cwiseMin(b);
     high = high.cwiseMax(a).cwiseMax(b);
   }
   const float border = (kRing + 0.02f) * per_metre;
   const int limit = 2 * (camera.width + camera.height);
-  if (rods_.empty() || !(high - low).allFinite() || (high - low).maxCoeff() > static_cast<float>(limit)) return;
+  if (projected_.empty() || !(high - low).allFinite() || (high - low).maxCoeff() > static_cast<float>(limit)) return;
   out.u0 = static_cast<int>(std::floor(low.x() - border));
   out.v0 = static_cast<int>(std::floor(low.y() - border));
   const int width = static_cast<int>(high.x() + border) - out.u0 + 1;
@@ -110,8 +111,8 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
   const Eigen::Vector2f arm = project(camera, hand.wrist() + 0.02f * hand.arm_axis()) - wrist;
   for (int v = 0; v < height; ++v) {
     row_.reset(width);
-    for (const Rod& rod : rods_)
-      row_.add(rod, static_cast<float>(out.u0), static_cast<float>(v + out.v0), kRing * per_metre);
+    for (const ProjectedCapsule& capsule : projected_)
+      row_.add(capsule, static_cast<float>(out.u0), static_cast<float>(v + out.v0), kRing * per_metre);
     for (int u = 0; u < width; ++u) {
       const float metres = row_.distance[u] / per_metre;
       const Eigen::Vector2f p(static_cast<float>(u + out.u0), static_cast<float>(v + out.v0));

@@ -11,13 +11,13 @@ namespace {
 
 // Number of neighbours at its own depth that a pixel needs in order not to count as flying. In a line one pixel wide
 // along a silhouette, pixels have two; at a corner of a real surface, they have three.
-constexpr float kFewestCompanions = 3;
+constexpr float kMinNeighbours = 3;
 
 }  // namespace
 
 void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params, const Region& region,
                          Image<float>& depth, Image<std::uint8_t>& edge) {
-  companions_.resize(region.width);
+  neighbours_.resize(region.width);
   raw_.reset(region.width + 2, region.height + 2);
   depth.reset(region.width, region.height);
   edge.reset(region.width, region.height);
@@ -37,16 +37,16 @@ void DepthCleaner::clean(const RgbdFrame& frame, const PreprocessParams& params,
     const float* below = raw_.row(v + 2) + 1;
     float* out = depth.row(v);
     std::uint8_t* border = edge.row(v);
-    float* companions = companions_.data();
+    float* neighbours = neighbours_.data();
     for (int u = 0; u < region.width; ++u) {  // uses only floats, so that the compiler vectorises it
       const float z = own[u], step = same_surface_step(z, fx);
       const auto same = [z, step](float other) { return std::abs(other - z) < step ? 1.f : 0.f; };
       const float count = same(above[u - 1]) + same(above[u]) + same(above[u + 1]) + same(own[u - 1]) +
                           same(own[u + 1]) + same(below[u - 1]) + same(below[u]) + same(below[u + 1]);
-      companions[u] = count;
-      out[u] = count < kFewestCompanions ? 0.f : z;
+      neighbours[u] = count;
+      out[u] = count < kMinNeighbours ? 0.f : z;
     }
-    for (int u = 0; u < region.width; ++u) border[u] = companions[u] < 8.f;
+    for (int u = 0; u < region.width; ++u) border[u] = neighbours[u] < 8.f;
   }
 }
 

@@ -22,7 +22,7 @@ class DepthCleaner {
 
  private:
   Image<float> raw_;               // depth [m] with a border of one empty pixel
-  std::vector<float> companions_;  // for each pixel of the current row, its neighbours at the same depth
+  std::vector<float> neighbours_;  // for each pixel of the current row, its neighbours at the same depth
 };
 
 }  // namespace barehand

@@ -38,7 +38,7 @@ constexpr double kCloseBy = 0.05;        // motion that is allowed for a hand th
 std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
                                               double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
-  if (detection && !grid.coloured) leave_labelled(grid, *detection);  // colour, if any, is the better evidence
+  if (detection && !grid.coloured) remove_labelled(grid, *detection);  // colour, if any, is the better evidence
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
   predictions_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
@@ -53,20 +53,20 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     if (!tracked(k)) continue;
     candidates_ = all_candidates_;
     for (std::size_t other = 0; other < hands_.size(); ++other)
-      if (other != k && tracked(other)) leave_to(grid, *predictions_[other], *predictions_[k]);
+      if (other != k && tracked(other)) remove_nearer_to(grid, *predictions_[other], *predictions_[k]);
     split_surfaces(grid, candidates_, surfaces_);
     hands_[k].found = hands_[k].followed = follow(grid, *predictions_[k], feedback_age, detection, hands_[k]);
   }
   if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
   candidates_ = all_candidates_;
   for (const CoarseHand& hand : hands_)
-    if (hand.followed) take_away(grid, hand);
+    if (hand.followed) remove_hand(grid, hand);
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     CoarseHand& hand = hands_[k];
     if (hand.found || !predictions_[k] || tracked(k)) continue;
     split_surfaces(grid, candidates_, surfaces_);
     hand.found = hand.followed = follow(grid, *predictions_[k], feedback_age, detection, hand);
-    if (hand.found) take_away(grid, hand);
+    if (hand.found) remove_hand(grid, hand);
   }
   for (CoarseHand& hand : hands_) {  // hands without a match come last, as a held hand may be the nearest candidate
     if (hand.found) continue;
@@ -77,13 +77,13 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
       split_surfaces(grid, candidates_, surfaces_);
       hand.found = start(grid, hand);
     }
-    if (hand.found) take_away(grid, hand);
+    if (hand.found) remove_hand(grid, hand);
   }
   return hands_;
 }
 
 /// Removes the candidates that are in a window of the detection and not labelled as hand.
-void HandLocator::leave_labelled(const CoarseGrid& grid, const Detection& detection) {
+void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detection) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = all_candidates_.at(u, v);
@@ -150,7 +150,7 @@ bool HandLocator::start_at(const CoarseGrid& grid, const DetectedHand& detected,
 }
 
 /// Removes the candidates that are nearer to the hand `other` than to the hand `own`.
-void HandLocator::leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
+void HandLocator::remove_nearer_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       if (!candidates_.at(u, v)) continue;
@@ -161,7 +161,7 @@ void HandLocator::leave_to(const CoarseGrid& grid, const PredictedHand& other, c
 }
 
 /// Removes a hand that was found, and its forearm, from the candidates for the other hands.
-void HandLocator::take_away(const CoarseGrid& grid, const CoarseHand& hand) {
+void HandLocator::remove_hand(const CoarseGrid& grid, const CoarseHand& hand) {
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = candidates_.at(u, v);
@@ -208,7 +208,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
   body.translate(*step);
   const float margin = static_cast<float>(params_.wrist_margin);
 
-  shares_.assign(surfaces_.parts.size(), {});
+  match_counts_.assign(surfaces_.parts.size(), {});
   hand.distance.reset(grid.z.width(), grid.z.height(), INFINITY);
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
@@ -217,13 +217,13 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
       const Eigen::Vector3f p = grid.point(u, v);
       if ((p - body.centre()).squaredNorm() > kSearchRadius * kSearchRadius || body.behind_wrist(p) > margin) continue;
       const float d = hand.distance.at(u, v) = body.distance(p);
-      shares_[id].on_model += d < kOnModel;
-      shares_[id].off_model += d > kLeakReach;
+      match_counts_[id].on_model += d < kOnModel;
+      match_counts_[id].off_model += d > kLeakReach;
     }
   for (std::size_t i = 0; i < hand.distance.size(); ++i) {
     const std::int32_t id = surfaces_.id[i];
     if (id < 0 || std::isinf(hand.distance[i])) continue;
-    const Share& own = shares_[id];
+    const MatchCounts& own = match_counts_[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));

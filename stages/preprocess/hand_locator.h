@@ -41,20 +41,20 @@ class HandLocator {
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
-  void leave_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
+  void remove_nearer_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
   bool follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
               CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
-  void leave_labelled(const CoarseGrid& grid, const Detection& detection);
+  void remove_labelled(const CoarseGrid& grid, const Detection& detection);
   const DetectedHand* detected_near(const Detection& detection, const Eigen::Vector3f& centre, double reach) const;
   const DetectedHand* choose_detected(const Detection& detection) const;
   bool start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand);
-  void take_away(const CoarseGrid& grid, const CoarseHand& hand);
+  void remove_hand(const CoarseGrid& grid, const CoarseHand& hand);
   int choose_part(const CoarseGrid& grid) const;
   float hand_area(const CoarseGrid& grid, const CoarseHand& hand) const;
 
   /// Numbers of a surface's cells that match the prediction of a hand (on_model) and that are farther away (off_model).
-  struct Share {
+  struct MatchCounts {
     int on_model = 0, off_model = 0;
   };
 
@@ -63,7 +63,7 @@ class HandLocator {
   CandidateFinder finder_;
   TranslationSearch translation_;
   Components surfaces_;
-  std::vector<Share> shares_;  // numbers of matching cells for every surface
+  std::vector<MatchCounts> match_counts_;  // numbers of matching cells for every surface
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> predictions_;
 };

@@ -105,13 +105,13 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
   const float least_skin = static_cast<float>(params_.skin_odds), most_other = -static_cast<float>(params_.other_odds);
   const int window = 2 * params_.skew_px + 1, most_coloured = window * window;
   const int width = depth.width();
-  judged_.resize(width);
+  row_evidence_.resize(width);
   for (int v = 0; v < depth.height(); ++v) {
     const float *z = depth.row(v), *sum = summed_log_odds_.row(v), *own = skin_log_odds_.row(v);
     const std::uint16_t *coloured_count = coloured_count_.row(v), *edges = edges_.row(v),
                         *non_skin_count = non_skin_count_.row(v);
     const std::uint8_t* supported = supported_.row(v);
-    std::int32_t* judged = judged_.data();
+    std::int32_t* row_evidence = row_evidence_.data();
     for (int u = 0; u < width; ++u) {  // computes all cases before it selects one, so that the compiler vectorises it
       const float mean = sum[u] / static_cast<float>(coloured_count[u]);
       // Require the pixel's own colour, too: near a colour border, the mean alone would assign a strip of one side to
@@ -125,10 +125,10 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
       // everywhere, would be assigned to the object.
       const bool sure = skin & (non_skin_count[u] == 0) & (2 * coloured_count[u] > most_coloured);
       e = (edges[u] > 0) & !sure ? kOpen : e;
-      judged[u] = z[u] > 0 ? e : kNone;
+      row_evidence[u] = z[u] > 0 ? e : kNone;
     }
     Evidence* evidence = evidence_.row(v);
-    for (int u = 0; u < width; ++u) evidence[u] = static_cast<Evidence>(judged[u]);
+    for (int u = 0; u < width; ++u) evidence[u] = static_cast<Evidence>(row_evidence[u]);
   }
 }
 

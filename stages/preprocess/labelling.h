@@ -39,7 +39,7 @@ class HandMask {
   std::vector<int> column_, row_;  // grid column of every column of the region, and grid row of every row
   Image<float> lowest_, highest_;  // range of depths at which the pixels of each grid cell may be hand [m]
   std::vector<float> low_, high_;  // range of depths of hand pixels for every pixel of the current row [m]
-  std::vector<std::int32_t> judged_;
+  std::vector<std::int32_t> row_evidence_;
   // Data of every pixel; the window around a pixel reaches `skew_px` to every side.
   Image<std::uint8_t> supported_;                 // 1 = the pixel may be hand according to its depth
   Image<float> skin_log_odds_, summed_log_odds_;  // log odds of skin, and their sum over the window

@@ -36,12 +36,12 @@ std::optional<PredictedHand> PredictedHand::from(const HandEstimate* earlier) {
 
 void PredictedHand::arrange() {
   for (int k = 0; k < kLanes; ++k) {
-    const Capsule& c = capsules_[std::min(k, kRods - 1)];
+    const Capsule& c = capsules_[std::min(k, kCapsules - 1)];
     const Eigen::Vector3f d = c.b - c.a;
-    rods_.ax[k] = c.a.x(), rods_.ay[k] = c.a.y(), rods_.az[k] = c.a.z();
-    rods_.dx[k] = d.x(), rods_.dy[k] = d.y(), rods_.dz[k] = d.z();
-    rods_.inverse_length_sq[k] = 1.f / std::max(d.squaredNorm(), 1e-8f);
-    rods_.radius[k] = c.radius;
+    arrays_.ax[k] = c.a.x(), arrays_.ay[k] = c.a.y(), arrays_.az[k] = c.a.z();
+    arrays_.dx[k] = d.x(), arrays_.dy[k] = d.y(), arrays_.dz[k] = d.z();
+    arrays_.inverse_length_sq[k] = 1.f / std::max(d.squaredNorm(), 1e-8f);
+    arrays_.radius[k] = c.radius;
   }
 }
 
@@ -49,12 +49,12 @@ float PredictedHand::distance(const Eigen::Vector3f& p) const {
   const float px = p.x(), py = p.y(), pz = p.z();
   std::array<float, kLanes> d;
   for (int k = 0; k < kLanes; ++k) {
-    const float x = px - rods_.ax[k], y = py - rods_.ay[k], z = pz - rods_.az[k];
-    float t = (x * rods_.dx[k] + y * rods_.dy[k] + z * rods_.dz[k]) * rods_.inverse_length_sq[k];
+    const float x = px - arrays_.ax[k], y = py - arrays_.ay[k], z = pz - arrays_.az[k];
+    float t = (x * arrays_.dx[k] + y * arrays_.dy[k] + z * arrays_.dz[k]) * arrays_.inverse_length_sq[k];
     t = t < 0.f ? 0.f : t;
     t = t > 1.f ? 1.f : t;
-    const float ex = x - t * rods_.dx[k], ey = y - t * rods_.dy[k], ez = z - t * rods_.dz[k];
-    d[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - rods_.radius[k];
+    const float ex = x - t * arrays_.dx[k], ey = y - t * arrays_.dy[k], ez = z - t * arrays_.dz[k];
+    d[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - arrays_.radius[k];
   }
   for (int half = kLanes / 2; half >= 3; half /= 2)
     for (int k = 0; k < half; ++k) d[k] = d[k] < d[k + half] ? d[k] : d[k + half];

@@ -19,7 +19,7 @@ struct Capsule {
 /// needs to know where the hand may be and where it ends at the wrist, not its exact skin.
 class PredictedHand {
  public:
-  static constexpr int kRods = 19;
+  static constexpr int kCapsules = 19;
 
   /// Makes the shape from an estimate; none if it has no pose or no profile.
   static std::optional<PredictedHand> from(const HandEstimate* earlier);
@@ -29,7 +29,7 @@ class PredictedHand {
   /// How far [m] a point lies behind the wrist joint along the forearm; negative on the hand's side.
   float behind_wrist(const Eigen::Vector3f& p) const { return (p - wrist_).dot(arm_axis_); }
   Eigen::Vector3f centre() const { return 0.5f * (capsules_[1].a + capsules_[1].b); }
-  const std::array<Capsule, kRods>& capsules() const { return capsules_; }
+  const std::array<Capsule, kCapsules>& capsules() const { return capsules_; }
   const Eigen::Vector3f& wrist() const { return wrist_; }
   const Eigen::Vector3f& arm_axis() const { return arm_axis_; }
   void translate(const Eigen::Vector3f& by);
@@ -37,11 +37,11 @@ class PredictedHand {
  private:
   void arrange();
 
-  std::array<Capsule, kRods> capsules_;  // 4 capsules of the palm, then 15 of the phalanges
-  static constexpr int kLanes = 24;      // number of capsules for SIMD, the last one repeated to fill the vectors
-  struct Rods {
+  std::array<Capsule, kCapsules> capsules_;  // 4 capsules of the palm, then 15 of the phalanges
+  static constexpr int kLanes = 24;          // number of capsules for SIMD, the last one repeated to fill the vectors
+  struct CapsuleArrays {
     std::array<float, kLanes> ax, ay, az, dx, dy, dz, inverse_length_sq, radius;
-  } rods_{};
+  } arrays_{};
   Eigen::Vector3f wrist_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f arm_axis_ = Eigen::Vector3f::UnitZ();  // unit vector from the fingers towards the elbow, camera frame
 };

@@ -78,7 +78,7 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
     masker_.compute(*frame, skin_, grid_, hand, hands, region, out->depth, edge_, mask_);
   else
     mask_.reset(0, 0);
-  if (hands.size() > 1) leave_out_taken(*out);
+  if (hands.size() > 1) remove_taken(*out);
   describe_hand(*out);
   out->followed = out->hand_present && hand.followed;
   return out;
@@ -86,7 +86,7 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
 
 /// Removes pixels that an earlier hand of this frame has taken. A pixel near the cells of two hands belongs to the
 /// first.
-void Preprocessor::leave_out_taken(const HandObservation& out) {
+void Preprocessor::remove_taken(const HandObservation& out) {
   for (int v = 0; v < mask_.height(); ++v)
     for (int u = 0; u < mask_.width(); ++u) {
       std::uint8_t &mask = mask_.at(u, v), &taken = taken_.at(u + out.u0, v + out.v0);
@@ -152,10 +152,10 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
 void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
                               const HandObservations& seen) {
   if (!grid_.coloured) return;
-  teachers_.clear();
+  training_hands_.clear();
   for (std::size_t k = 0; k < feedback.size(); ++k)
-    if (seen[k]->followed && feedback[k]->status == TrackStatus::tracking) teachers_.push_back(&hands[k]);
-  if (teachers_.empty()) return;
+    if (seen[k]->followed && feedback[k]->status == TrackStatus::tracking) training_hands_.push_back(&hands[k]);
+  if (training_hands_.empty()) return;
   skin_colours_.clear();
   other_colours_.clear();
   for (int r = 0; r < grid_.z.height(); ++r)
@@ -169,13 +169,13 @@ void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const
       const auto is_hand = [&](const CoarseHand& hand) { return hand.found && hand.cells.at(c, r); };
       if (std::ranges::any_of(hands, is_hand)) {
         const auto surely = [&](const CoarseHand* h) { return is_hand(*h) && h->distance.at(c, r) < kSurelySkin; };
-        if (std::ranges::any_of(teachers_, surely)) skin_colours_.push_back(colour);
-      } else if (grid_.odds.at(c, r) > 0 &&
-                 (std::ranges::none_of(teachers_, near) || std::ranges::any_of(teachers_, [&](const CoarseHand* hand) {
-                    return hand->prediction->behind_wrist(p) > 0;
-                  }))) {
+        if (std::ranges::any_of(training_hands_, surely)) skin_colours_.push_back(colour);
+      } else if (grid_.odds.at(c, r) > 0 && (std::ranges::none_of(training_hands_, near) ||
+                                             std::ranges::any_of(training_hands_, [&](const CoarseHand* hand) {
+                                               return hand->prediction->behind_wrist(p) > 0;
+                                             }))) {
         continue;  // other skin, such as a face, another person's hand or the forearm, is not evidence against skin
-      } else if ((c + r) % 2 == 0 && std::ranges::all_of(teachers_, [&](const CoarseHand* hand) {
+      } else if ((c + r) % 2 == 0 && std::ranges::all_of(training_hands_, [&](const CoarseHand* hand) {
                    return !near(hand) || hand->prediction->distance(p) > kSurelyOther;
                  })) {
         other_colours_.push_back(colour);

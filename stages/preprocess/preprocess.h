@@ -33,7 +33,7 @@ class Preprocessor {
  private:
   HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands,
                              const DetectionPtr& detection);
-  void leave_out_taken(const HandObservation& out);
+  void remove_taken(const HandObservation& out);
   Region region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const;
   void describe_hand(HandObservation& out);
   void learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
@@ -51,8 +51,8 @@ class Preprocessor {
   ObservationPool pool_;
   CoarseGrid grid_;
   Image<std::uint8_t> edge_, mask_, object_;
-  Image<std::uint8_t> taken_;                // pixels of the frame that its earlier hands have taken
-  std::vector<const CoarseHand*> teachers_;  // tracked hands from which the skin model learns in this frame
+  Image<std::uint8_t> taken_;                      // pixels of the frame that its earlier hands have taken
+  std::vector<const CoarseHand*> training_hands_;  // tracked hands from which the skin model learns in this frame
   std::vector<Rgb> skin_colours_, other_colours_;
 };
 

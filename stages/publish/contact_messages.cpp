@@ -8,12 +8,12 @@
 namespace barehand {
 namespace {
 
-const SeenObject* find_object(const FrameVector<SeenObject>& objects, std::int32_t id) {
-  const auto found = std::find_if(objects.begin(), objects.end(), [&](const SeenObject& o) { return o.id == id; });
+const ObjectEstimate* find_object(const FrameVector<ObjectEstimate>& objects, std::int32_t id) {
+  const auto found = std::find_if(objects.begin(), objects.end(), [&](const ObjectEstimate& o) { return o.id == id; });
   return found == objects.end() ? nullptr : &*found;
 }
 
-segment_contact_t segment_message(const Contact& contact, const SeenObject* object) {
+segment_contact_t segment_message(const Contact& contact, const ObjectEstimate* object) {
   segment_contact_t out{};
   out.state = static_cast<std::int8_t>(contact.state);
   out.inferred = contact.inferred;
@@ -41,7 +41,7 @@ void fill_frame(Message& out, const HandEstimate& estimate) {
 }  // namespace
 
 contact_state_t contact_message(const HandEstimate& estimate, const HandContacts& contacts,
-                                const FrameVector<SeenObject>& objects) {
+                                const FrameVector<ObjectEstimate>& objects) {
   contact_state_t out{};
   fill_frame(out, estimate);
   out.hand_id = estimate.hand_id;
@@ -55,7 +55,7 @@ contact_state_t contact_message(const HandEstimate& estimate, const HandContacts
   return out;
 }
 
-object_state_t object_message(const HandEstimate& estimate, const SeenObject& object) {
+object_state_t object_message(const HandEstimate& estimate, const ObjectEstimate& object) {
   object_state_t out{};
   fill_frame(out, estimate);
   out.object_id = object.id;

@@ -12,9 +12,9 @@ namespace barehand {
 /// The message about what one hand of a frame touches. `objects`: those of the frame, in whose frames contacts are
 /// expressed as well.
 contact_state_t contact_message(const HandEstimate& estimate, const HandContacts& contacts,
-                                const FrameVector<SeenObject>& objects);
+                                const FrameVector<ObjectEstimate>& objects);
 
 /// The message about an object in the frame of `estimate`.
-object_state_t object_message(const HandEstimate& estimate, const SeenObject& object);
+object_state_t object_message(const HandEstimate& estimate, const ObjectEstimate& object);
 
 }  // namespace barehand

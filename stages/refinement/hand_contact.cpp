@@ -13,9 +13,9 @@ namespace {
 using Eigen::Vector3d;
 using Axis = LineSegment;
 
-constexpr double kCarpus = 0.3;     // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
-constexpr double kTiny = 1e-12;     // squared lengths below this count as zero [m^2]
-constexpr double kPalmShare = 0.9;  // radius of a capsule in the palm, as a fraction of its finger's radius at the root
+constexpr double kCarpus = 0.3;        // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
+constexpr double kTiny = 1e-12;        // squared lengths below this count as zero [m^2]
+constexpr double kPalmFraction = 0.9;  // of its finger's radius: that of a capsule in the palm
 
 double least_radius(const SegmentProfile& s) {
   return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});
@@ -34,52 +34,54 @@ HandContact::HandContact(const HandProfile& profile) {
   // Make one capsule per phalanx. The thumb's metacarpal has none, because it lies within the flesh of the palm.
   for (int s = segment_of(0, 1); s < kSegmentCount; ++s) {
     const SegmentProfile& phalanx = profile.segments[s];
-    Rod rod{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
+    Capsule capsule{s, {Vector3d::Zero(), phalanx.distal}, least_radius(phalanx)};
     for (int end = 0; end < 2; ++end)
-      rod.ends[end] += Vector3d(phalanx.flesh_offset_x[end], phalanx.flesh_offset_y[end], 0);
-    rods_.push_back(rod);
+      capsule.ends[end] += Vector3d(phalanx.flesh_offset_x[end], phalanx.flesh_offset_y[end], 0);
+    capsules_.push_back(capsule);
   }
 
   // Make one capsule in the palm for each finger but the thumb, from the carpus to the knuckle.
-  const int phalanges = static_cast<int>(rods_.size());
+  const int phalanges = static_cast<int>(capsules_.size());
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const int root = segment_of(finger, 0);
     const SegmentProfile& s = profile.segments[root];
     const Vector3d knuckle = profile.rest_relative(root).t;
-    rods_.push_back({kPalm, {kCarpus * knuckle, knuckle}, kPalmShare * std::min(s.half_width[0], s.half_thickness[0])});
+    capsules_.push_back(
+        {kPalm, {kCarpus * knuckle, knuckle}, kPalmFraction * std::min(s.half_width[0], s.half_thickness[0])});
   }
 
   // List the pairs to test: phalanges against phalanges, and against the palm all phalanges that are not jointed to it.
-  const int rods = static_cast<int>(rods_.size());
+  const int capsules = static_cast<int>(capsules_.size());
   for (int a = 0; a < phalanges; ++a) {
-    const int s = rods_[a].segment;
+    const int s = capsules_[a].segment;
     for (int b = a + 1; b < phalanges; ++b)
-      if (!may_overlap_by_nature(s, rods_[b].segment)) pairs_.push_back({a, b});
+      if (!may_overlap_by_nature(s, capsules_[b].segment)) pairs_.push_back({a, b});
     if (parent_of(s) != kPalm)
-      for (int b = phalanges; b < rods; ++b) pairs_.push_back({a, b});
+      for (int b = phalanges; b < capsules; ++b) pairs_.push_back({a, b});
   }
 }
 
 template <class Use>
 void HandContact::for_each_overlap(const HandPose& pose, const Use& use) const {
-  constexpr int kMostRods = 2 * kSegmentCount;
+  constexpr int kMaxCapsules = 2 * kSegmentCount;
   // Transform the axes of all capsules to the camera frame.
-  std::array<Axis, kMostRods> axes;
-  for (std::size_t i = 0; i < rods_.size(); ++i)
-    for (int end = 0; end < 2; ++end) axes[i][end] = pose[rods_[i].segment] * rods_[i].ends[end];
+  std::array<Axis, kMaxCapsules> axes;
+  for (std::size_t i = 0; i < capsules_.size(); ++i)
+    for (int end = 0; end < 2; ++end) axes[i][end] = pose[capsules_[i].segment] * capsules_[i].ends[end];
 
   // Report the pairs whose axes come closer than the sum of their radii.
   for (const auto& [a, b] : pairs_) {
     const auto [p_a, p_b] = closest_points(axes[a], axes[b]);
-    const double reach = rods_[a].radius + rods_[b].radius;
-    if ((p_a - p_b).squaredNorm() < reach * reach) use(rods_[a], rods_[b], p_a, p_b, reach - (p_a - p_b).norm());
+    const double reach = capsules_[a].radius + capsules_[b].radius;
+    if ((p_a - p_b).squaredNorm() < reach * reach)
+      use(capsules_[a], capsules_[b], p_a, p_b, reach - (p_a - p_b).norm());
   }
 }
 
 double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& tree) const {
   const double information = 1 / (sigma * sigma);
   double total = 0;
-  for_each_overlap(pose, [&](const Rod& a, const Rod& b, const Vector3d& p_a, const Vector3d& p_b, double overlap) {
+  for_each_overlap(pose, [&](const Capsule& a, const Capsule& b, const auto& p_a, const auto& p_b, double overlap) {
     total += information * overlap * overlap;
 
     const Vector3d between = p_a - p_b;
@@ -101,7 +103,7 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
 
 double HandContact::deepest(const HandPose& pose) const {
   double deepest = 0;
-  for_each_overlap(pose, [&](const Rod&, const Rod&, const Vector3d&, const Vector3d&, double overlap) {
+  for_each_overlap(pose, [&](const Capsule&, const Capsule&, const Vector3d&, const Vector3d&, double overlap) {
     deepest = std::max(deepest, overlap);
   });
   return deepest;

@@ -9,7 +9,7 @@
 namespace barehand {
 
 /// Keeps fingers and palm from passing through one another. Every phalanx, and the part of the palm that leads to each
-/// finger, carries a capsule within its skin (called "rod" in the code). Capsules of different fingers may touch but
+/// finger, carries a capsule within its skin. Capsules of different fingers may touch but
 /// not overlap; pairs that overlap in every real hand, such as neighbouring proximal phalanges joined by the web, are
 /// left out.
 class HandContact {
@@ -25,18 +25,18 @@ class HandContact {
   double deepest(const HandPose& pose) const;
 
  private:
-  struct Rod {
+  struct Capsule {
     int segment = 0;
     std::array<Eigen::Vector3d, 2> ends;  // ends of the capsule's axis, in the segment frame [m]
     double radius = 0;                    // radius of the capsule [m]
   };
-  /// Calls `use(rod_a, rod_b, p_a, p_b, overlap)` for every pair of capsules that overlap. p_a and p_b are the closest
-  /// points of the two axes in the camera frame [m]; `overlap` is the depth of the overlap [m].
+  /// Calls `use(capsule_a, capsule_b, p_a, p_b, overlap)` for every pair of capsules that overlap. p_a and p_b are the
+  /// closest points of the two axes in the camera frame [m]; `overlap` is the depth of the overlap [m].
   template <class Use>
   void for_each_overlap(const HandPose& pose, const Use& use) const;
 
-  std::vector<Rod> rods_;
-  std::vector<std::array<int, 2>> pairs_;  // indices into rods_ of the pairs that are tested
+  std::vector<Capsule> capsules_;
+  std::vector<std::array<int, 2>> pairs_;  // indices into capsules_ of the pairs that are tested
 };
 
 }  // namespace barehand

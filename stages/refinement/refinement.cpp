@@ -179,8 +179,8 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   compare_at(observation, pose, fine(), Normals::computed, *work);
 
   // Weight the data for fitting the shape instead of tracking.
-  RefinedPose judged;
-  summarise(*work, judged);
+  RefinedPose summary;
+  summarise(*work, summary);
   equations.set_zero();
   GaussianTree& tree = equations.tree;
   EnergyParams energy = params_.energy;
@@ -193,7 +193,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   add_data_terms(*skin_, pose, work->comparison, energy, {}, tree, &moments);
   add_joint_terms(*profile_, limits_, pose, energy, tree);
   contact_.add_terms(pose, energy.sigma_overlap, tree);
-  add_prior_terms(*profile_, pose, towards(kFree, judged), pose, energy, tree);
+  add_prior_terms(*profile_, pose, towards(kFree, summary), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
 
   // Couple the pose with the shape.

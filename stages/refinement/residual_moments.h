@@ -56,11 +56,11 @@ class ResidualMoments {
   using Square = Eigen::Matrix<float, 8, 6>;
 
   // The Jacobian row with respect to the twist of segment s; see the comment of the class.
-  Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float share) const {
+  Row row(int s, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float skin_weight) const {
     const Eigen::Vector3f turn = (p - origin_[s]).cross(d);
     Row row = Row::Zero();
-    row.head<3>() = share * d;
-    row.segment<3>(3) = share * turn;
+    row.head<3>() = skin_weight * d;
+    row.segment<3>(3) = skin_weight * turn;
     return row;
   }
   static void add_product(Square& sum, const Row& a, const Row& b, float w) {

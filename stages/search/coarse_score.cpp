@@ -201,7 +201,7 @@ double CoarseScorer::border_cost(float u, float v, float z) const {
 
 /// Marks the points to draw and computes their cells; returns whether a point that faces the camera leaves the grid. It
 /// is a separate function so that the compiler vectorises it.
-bool CoarseScorer::judge(std::size_t count) {
+bool CoarseScorer::find_cells(std::size_t count) {
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   const std::int32_t stride = camera_.width, start = static_cast<std::int32_t>(before_grid());
   const float *u = u_.data(), *v = v_.data(), *z = z_.data(), *facing = facing_.data();
@@ -222,7 +222,7 @@ void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector
   const Transform to_camera(T);
   depth_and_facing(part, to_camera, z_.data(), facing_.data());
   pixels(part, to_camera, camera_, shrink_, z_.data(), u_.data(), v_.data());
-  leaves_grid_ = judge(part.size());
+  leaves_grid_ = find_cells(part.size());
   float* nearest = z_buffer.data();
   int visible = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {

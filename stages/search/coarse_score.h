@@ -56,7 +56,7 @@ class CoarseScorer {
   };
   void prepare(const ScoreGrid& grid);
   void prepare_cell(const ScoreGrid& grid, std::size_t from, std::size_t to);
-  bool judge(std::size_t count);
+  bool find_cells(std::size_t count);
   void splat(const CoarseSkin::Part& part, const SE3& T, std::vector<float>& z_buffer);
   double outside_cost(const CoarseSkin::Part& part) const;
   double border_cost(float u, float v, float z) const;

@@ -74,14 +74,15 @@ Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const Initi
       fine_skin_(make_coarse_skin(*profile_, surface_, params.fine_cell)) {}
 
 std::vector<StartCandidate> Initialiser::propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                                 Workers& workers, Hiding hiding, const HandPose* last_good) const {
+                                                 Workers& workers, HiddenCost hidden_cost,
+                                                 const HandPose* last_good) const {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
   const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
   const ScoreGrid coarse = make_score_grid(observation, params_.coarse_cell);
   const ScoreGrid fine = make_score_grid(observation, params_.fine_cell);
   if (coarse.empty() || fine.empty()) return {};
   CoarseScoreParams score = params_.score;
-  if (hiding == Hiding::free) score.hidden = 0;
+  if (hidden_cost == HiddenCost::ignored) score.hidden = 0;
   const PoseCost coarse_cost(*profile_, coarse, coarse_skin_, score, params_.search.shape_prior);
   const PoseCost fine_cost(*profile_, fine, fine_skin_, score, params_.search.shape_prior);
   const auto frame = static_cast<std::uint32_t>(observation.frame->number);
@@ -93,14 +94,14 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
   if (last_good) std::ranges::move(last_good_shapes(*last_good), std::back_inserter(trials));
   for_each_trial(trials, coarse_cost, kPlacedTogether, workers,
                  [&](Trial& trial, std::uint32_t, PoseCost& cost) { place(trial, coarse, cost); });
-  trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct, work.elsewhere);
+  trials = most_promising(std::move(trials), work.first_survivors, 2 * params_.distinct, work.distant_fraction);
 
   // First round: improve the kept poses by a random search on the coarse grid.
   for_each_trial(trials, coarse_cost, 1, workers, [&](Trial& trial, std::uint32_t number, PoseCost& cost) {
     const KeyedRandom random(seed, frame, 1, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.first_evaluations, random, params_.search);
   });
-  trials = most_promising(std::move(trials), work.second_survivors, params_.distinct, work.elsewhere);
+  trials = most_promising(std::move(trials), work.second_survivors, params_.distinct, work.distant_fraction);
 
   // Second round: align the best of these to the hand's points by ICP, and improve them on the fine grid.
   const ObservedCloud cloud(observation);
@@ -110,7 +111,7 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
     const KeyedRandom random(seed, frame, 2, number);
     trial.scored = search_pose(trial.scored, cost, limits_, work.second_evaluations, random, params_.search);
   });
-  return ranked(std::move(trials), params_.distinct, work.elsewhere);
+  return ranked(std::move(trials), params_.distinct, work.distant_fraction);
 }
 
 std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& observation, const HandPose& followed,
@@ -136,9 +137,9 @@ std::vector<StartCandidate> Initialiser::propose_near(const HandObservation& obs
   return ranked(std::move(trials), distinct, 0);
 }
 
-std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct, double elsewhere) const {
+std::vector<StartCandidate> Initialiser::ranked(Trials trials, double distinct, double distant_fraction) const {
   std::vector<StartCandidate> result;
-  for (Trial& trial : most_promising(std::move(trials), params_.results, distinct, elsewhere))
+  for (Trial& trial : most_promising(std::move(trials), params_.results, distinct, distant_fraction))
     result.push_back({trial.name, posed(*profile_, trial.scored.articulated), trial.scored.cost});
   return result;
 }
@@ -236,10 +237,11 @@ Initialiser::Trials Initialiser::last_good_shapes(const HandPose& last_good) con
   return trials;
 }
 
-/// Returns the best `count` trials of which no two are closer than `distinct` [m], best first. A fraction `elsewhere`
-/// of them is reserved for the best trials that are farther than params_.apart from all others, if there are any, so
-/// that variants of one pose do not displace all other poses.
-Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct, double elsewhere) const {
+/// Returns the best `count` trials of which no two are closer than `distinct` [m], best first. A fraction
+/// `distant_fraction` of them is reserved for the best trials that are farther than params_.apart from all others, if
+/// there are any, so that variants of one pose do not displace all other poses.
+Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double distinct,
+                                                double distant_fraction) const {
   const auto by_cost = [](const Trial& a, const Trial& b) { return a.scored.cost < b.scored.cost; };
   std::ranges::stable_sort(trials, by_cost);
   Trials chosen;
@@ -261,7 +263,7 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
     }
     return i;
   };
-  const std::size_t rest = choose(0, count - static_cast<int>(elsewhere * count), distinct);
+  const std::size_t rest = choose(0, count - static_cast<int>(distant_fraction * count), distinct);
   choose(rest, count, std::max(distinct, params_.apart));
   choose(rest, count, distinct);
   std::ranges::stable_sort(chosen, by_cost);

@@ -23,7 +23,7 @@ struct SearchEffort {
   int first_evaluations = 120;
   int second_survivors = 24;
   int second_evaluations = 400;
-  double elsewhere = 0.34;
+  double distant_fraction = 0.34;
   bool operator==(const SearchEffort&) const = default;
 };
 
@@ -40,7 +40,8 @@ void visit(V& v, SearchEffort& p) {
     "number of poses that are improved further, by ICP and on the fine grid");
   v("second_evaluations", p.second_evaluations, 0, 100000,
     "random trials for each pose that is improved on the fine grid");
-  v("elsewhere", p.elsewhere, 0.0, 1.0,
+  v.formerly("elsewhere");
+  v("distant_fraction", p.distant_fraction, 0.0, 1.0,
     "fraction of the poses kept in each round that must differ from the others by `apart`");
 }
 
@@ -91,9 +92,9 @@ struct StartCandidate {
 
 enum class Effort { quick, full };
 
-/// Cost of model cells that are hidden behind an object: `costs` means a small cost, which suits a mostly visible hand;
-/// `free` means none.
-enum class Hiding { costs, free };
+/// Cost of model cells that are hidden behind an object: `counted` means a small cost, which suits a mostly visible
+/// hand; `ignored` means none.
+enum class HiddenCost { counted, ignored };
 
 /// Proposes start poses from a single observation. (Not in the paper, whose start is manual; Sec. 5.2.) Templates of
 /// hand shapes are laid over the hand's pixels in many orientations, scored by silhouette and depth, and the best are
@@ -106,9 +107,10 @@ class Initialiser {
   /// Returns start poses, best first; none if the observation shows too little of a hand. `last_good`: last good pose
   /// before a loss, which is tried at its own position and, in several in-plane rotations, moved onto the data. A quick
   /// search uses other orientations of the templates in every frame, so that successive frames complement each other.
-  /// `hiding` should be `free` if so little of the hand is visible that otherwise the most compact shape would win.
+  /// `hidden_cost` should be `ignored` if so little of the hand is visible that otherwise the most compact shape would
+  /// win.
   std::vector<StartCandidate> propose(const HandObservation& observation, Effort effort, std::uint64_t seed,
-                                      Workers& workers, Hiding hiding = Hiding::costs,
+                                      Workers& workers, HiddenCost hidden_cost = HiddenCost::counted,
                                       const HandPose* last_good = nullptr) const;
 
   /// Returns start poses near `followed`, best first. The palm of `followed` must be about right, since the search
@@ -124,10 +126,10 @@ class Initialiser {
   static void for_each_trial(Trials& trials, const PoseCost& cost, int together, Workers& workers, const Visit& visit);
   Trials template_shapes(const SearchEffort& effort, double turn) const;
   Trials changed_fingers(const HandPose& pose) const;
-  std::vector<StartCandidate> ranked(Trials trials, double distinct, double elsewhere) const;
+  std::vector<StartCandidate> ranked(Trials trials, double distinct, double distant_fraction) const;
   Trials last_good_shapes(const HandPose& last_good) const;
   void place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const;
-  Trials most_promising(Trials trials, int count, double distinct, double elsewhere) const;
+  Trials most_promising(Trials trials, int count, double distinct, double distant_fraction) const;
   void align(Trial& trial, const HandObservation& observation, const ObservedCloud& cloud, PoseCost& cost) const;
 
   std::shared_ptr<const HandProfile> profile_;

@@ -36,12 +36,12 @@ class Model : public testing::Test {
     }
     return points;
   }
-  void fuse(const std::vector<SurfacePoint>& points, const SeenSpace& space) {
+  void fuse(const std::vector<SurfacePoint>& points, const ObservedSpace& space) {
     const auto there = moved(points, placed());
     model_.fuse(placed(), pointers(there), space);
   }
   /// Space before a wall that fills the view.
-  static SeenSpace before_wall(double z) {
+  static ObservedSpace before_wall(double z) {
     auto frame = std::make_shared<RgbdFrame>();
     frame->camera = {100, 100, 100, 100, 50, 50};
     auto observation = std::make_shared<HandObservation>();
@@ -49,8 +49,8 @@ class Model : public testing::Test {
     observation->hand_present = true;
     observation->depth.reset(100, 100, static_cast<float>(z));
     kept().push_back(observation);
-    SeenSpace space;
-    space.see({observation});
+    ObservedSpace space;
+    space.observe({observation});
     return space;
   }
   static std::vector<HandObservationPtr>& kept() {

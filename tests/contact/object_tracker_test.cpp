@@ -21,7 +21,7 @@ class Objects : public testing::Test {
     open_.push_back(open);
   }
   /// Tracks one frame with the pieces that were added since the last one.
-  const FrameVector<SeenObject>& frame(const Eigen::Vector3d& palm = {0, 0, 0.5}) {
+  const FrameVector<ObjectEstimate>& frame(const Eigen::Vector3d& palm = {0, 0, 0.5}) {
     auto estimate = std::make_shared<HandEstimate>();
     estimate->status = TrackStatus::tracking;
     estimate->hand_id = 3;
@@ -35,11 +35,11 @@ class Objects : public testing::Test {
     return objects_;
   }
 
-  SeenSpace space_;  // nothing is seen to be empty
+  ObservedSpace space_;  // nothing is seen to be empty
   ObjectTracker tracker_;
   std::vector<SurfacePoint> points_, left_;
   std::vector<bool> open_;
-  FrameVector<SeenObject> objects_;
+  FrameVector<ObjectEstimate> objects_;
   std::int64_t utime_ = 0;
 };
 

@@ -64,7 +64,7 @@ TEST(Workers, DoAsideBeforeTheyReturnWhereNothingIsLive) {
     Workers workers(threads);
     std::thread::id where;
     int cores = 0;
-    auto result = workers.aside([&](Workers& w) {
+    auto result = workers.run_in_background([&](Workers& w) {
       where = std::this_thread::get_id();
       cores = w.threads();
       return 7;
@@ -82,8 +82,8 @@ TEST(Workers, DoAsideMeanwhileAndGiveWayWhereFramesComeByThemselves) {
   Workers workers(2);
   workers.go_live();
   std::promise<void> returned;
-  auto result = workers.aside([&](Workers& alone) {
-    returned.get_future().wait();  // would never end if aside() waited for it
+  auto result = workers.run_in_background([&](Workers& alone) {
+    returned.get_future().wait();  // would never end if run_in_background() waited for it
     EXPECT_EQ(alone.threads(), 1);
     return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
   });
@@ -96,7 +96,7 @@ TEST(Workers, WhatIsDoneAsideThrowsWhereItIsAskedFor) {
   for (const bool live : {false, true}) {
     Workers workers(1);
     if (live) workers.go_live();
-    auto result = workers.aside([](Workers&) -> int { throw std::runtime_error("no"); });
+    auto result = workers.run_in_background([](Workers&) -> int { throw std::runtime_error("no"); });
     EXPECT_THROW(result.get(), std::runtime_error) << live;
   }
 }

@@ -80,7 +80,7 @@ TEST(Evaluation, ReturnsIntoViewAndHandsWhereThereIsNone) {
   for (int i : {0, 1, 2, 3, 9, 12, 20}) result.frames.push_back(truth_frame(i));
   const auto e = evaluate(truth, result);
   ASSERT_TRUE(e);
-  EXPECT_THAT(e->phantoms, ElementsAre(3, 12));
+  EXPECT_THAT(e->false_hands, ElementsAre(3, 12));
   ASSERT_EQ(e->returns.size(), 2u);
   EXPECT_EQ(e->returns[0].number, 7);
   EXPECT_EQ(e->returns[0].frames, 2);

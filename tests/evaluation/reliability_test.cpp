@@ -33,7 +33,7 @@ std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, d
 }
 
 TEST(Reliability, RightStatementsCoverNineOfTen) {
-  const auto r = judge_reliability({sequence(kDeviation, 1)});
+  const auto r = evaluate_reliability({sequence(kDeviation, 1)});
   ASSERT_TRUE(r);
   EXPECT_EQ(r->frames, 200u);
   EXPECT_EQ(r->all.intervals, 200u * kSegmentCount * 2 * 3);
@@ -45,12 +45,12 @@ TEST(Reliability, RightStatementsCoverNineOfTen) {
 }
 
 TEST(Reliability, BoldAndTimidStatementsAreFoundOut) {
-  EXPECT_LT(judge_reliability({sequence(kDeviation / 2, 1)})->all.covered, 0.62);
-  EXPECT_GT(judge_reliability({sequence(kDeviation * 2, 1)})->all.covered, 0.99);
+  EXPECT_LT(evaluate_reliability({sequence(kDeviation / 2, 1)})->all.covered, 0.62);
+  EXPECT_GT(evaluate_reliability({sequence(kDeviation * 2, 1)})->all.covered, 0.99);
 }
 
 TEST(Reliability, BinsHoldWhatWasSaidAgainstWhatWas) {
-  const auto r = judge_reliability({sequence(kDeviation, 1, 0.95), sequence(4 * kDeviation, 2, 0.31)});
+  const auto r = evaluate_reliability({sequence(kDeviation, 1, 0.95), sequence(4 * kDeviation, 2, 0.31)});
   ASSERT_TRUE(r);
   ASSERT_EQ(r->errors.size(), 2u);
   EXPECT_NEAR(r->errors[0].stated, r->errors[0].actual, 1e-4);
@@ -66,7 +66,7 @@ TEST(Reliability, BinsHoldWhatWasSaidAgainstWhatWas) {
 TEST(Reliability, WithoutACommonFrameThereIsNothingToSay) {
   auto other = sequence(kDeviation, 1);
   for (TableFrame& frame : other.first.frames) frame.number += 1000;
-  EXPECT_FALSE(judge_reliability({other}));
+  EXPECT_FALSE(evaluate_reliability({other}));
 }
 
 }  // namespace

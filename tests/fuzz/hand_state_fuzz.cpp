@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!stated) return 0;
   ResultTable truth;
   for (const auto& [number, segments] : *stated) truth.frames.push_back({number, 0, {}});
-  const auto reliability = judge_reliability({{truth, *stated}});
+  const auto reliability = evaluate_reliability({{truth, *stated}});
   CHECK(reliability && reliability->frames == stated->size() && std::isfinite(reliability->all.stated));
   return 0;
 }

@@ -4,14 +4,14 @@
 /// Input: a message that the live page sends to the program.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
-  const auto demand = parse_view_demand({reinterpret_cast<const char*>(data), size});
-  if (!demand) {
-    CHECK(!demand.error().message().empty());
+  const auto request = parse_view_request({reinterpret_cast<const char*>(data), size});
+  if (!request) {
+    CHECK(!request.error().message().empty());
     return 0;
   }
-  if (const auto* wish = std::get_if<ViewWish>(&*demand)) {
-    CHECK(wish->rate >= 0.1 && wish->rate <= 1000);
-    CHECK(wish->window >= 0 && wish->window <= 100);
+  if (const auto* settings = std::get_if<ViewSettings>(&*request)) {
+    CHECK(settings->rate >= 0.1 && settings->rate <= 1000);
+    CHECK(settings->window >= 0 && settings->window <= 100);
   }
   return 0;
 }

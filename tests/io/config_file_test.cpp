@@ -36,6 +36,7 @@ void visit(V& v, Outer& p) {
   v.user("levels", p.levels, 1, 100, "hierarchy levels");
   v.retired("depth", "levels");
   v("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers");
+  v.formerly("active");
   v("enabled", p.enabled, "what it does");
   v("mode", p.mode, {"auto", "cpu"}, "which way");
   v("name", p.name, "free text");
@@ -68,6 +69,18 @@ class ConfigFile : public ::testing::Test {
     return path_ + ":" + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": ";
   }
 };
+
+TEST_F(ConfigFile, AnOlderNameOfAKeyIsReadButNotPrinted) {
+  const auto read = load(with("enabled: true", "active: false"));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_FALSE(read->enabled);
+  EXPECT_THAT(print_config(*read), AllOf(HasSubstr("enabled: false"), Not(HasSubstr("active"))));
+
+  EXPECT_THAT(error_of(with("enabled: true", "active: maybe")),
+              HasSubstr("'active' is 'maybe', but must be true or false"));
+  EXPECT_THAT(error_of(with("enabled: true", "enabled: true\nactive: true")),
+              HasSubstr("'active' is now 'enabled', give that alone"));
+}
 
 TEST_F(ConfigFile, PrintedConfigReadsBackExactly) {
   Outer config;

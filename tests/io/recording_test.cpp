@@ -236,7 +236,7 @@ TEST_F(RecordingFolder, WhatCannotBeLookedAtIsAnErrorToo) {
   record();
   fs::remove(path_ + "/rgb.txt");
   fs::create_symlink("rgb.txt", path_ + "/rgb.txt");  // a link to itself
-  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("rgb.txt: cannot be read")));
+  EXPECT_THAT(open_recording(path_)->warnings, ElementsAre(HasSubstr("rgb.txt: cannot be read")));
   fs::remove(path_ + "/camera.json");
   fs::create_symlink("camera.json", path_ + "/camera.json");
   EXPECT_THAT(open_error(), HasSubstr("camera.json: cannot be read"));
@@ -253,7 +253,7 @@ TEST_F(RecordingFolder, FramesOutOfOrderAreNotUsedAndALargeStepBackIsANewStart) 
   replace("depth.txt", "1699999999.900000", "17.000000");
   const auto recording = open_recording(path_);
   EXPECT_EQ(recording->entries[1].fault, "");
-  EXPECT_THAT(recording->doubts,
+  EXPECT_THAT(recording->warnings,
               ElementsAre(AllOf(HasSubstr("depth.txt"), HasSubstr("frame 1"), HasSubstr("new start"))));
 }
 
@@ -266,7 +266,7 @@ TEST_F(RecordingFolder, StampsBeforeZeroAndWithExponentsAreTimes) {
   EXPECT_EQ(recording->entries[0].utime, -50'000);
   EXPECT_EQ(recording->entries[1].utime, -17'000);
   EXPECT_EQ(recording->entries[2].utime, 16'000);
-  EXPECT_THAT(recording->doubts, IsEmpty());
+  EXPECT_THAT(recording->warnings, IsEmpty());
 }
 
 TEST_F(RecordingFolder, StampsInOtherUnitsAreNamedAndThoseThatCannotBeTimesStopTheStart) {
@@ -277,9 +277,9 @@ TEST_F(RecordingFolder, StampsInOtherUnitsAreNamedAndThoseThatCannotBeTimesStopT
     test::write_text(path_ + "/depth.txt", text);
   };
   list("1000", "1033.3", "1066.7");
-  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("milliseconds: divide them by 1e3")));
+  EXPECT_THAT(open_recording(path_)->warnings, ElementsAre(HasSubstr("milliseconds: divide them by 1e3")));
   list("1", "2", "3");
-  EXPECT_THAT(open_recording(path_)->doubts, ElementsAre(HasSubstr("frame numbers")));
+  EXPECT_THAT(open_recording(path_)->warnings, ElementsAre(HasSubstr("frame numbers")));
   list("1700000000000", "1700000000033", "1700000000067");
   EXPECT_THAT(open_error(), AllOf(HasSubstr("line 1"), HasSubstr("milliseconds since the epoch")));
   list("1700000000000000000", "1700000000033000000", "1700000000067000000");
@@ -346,7 +346,7 @@ TEST_F(RecordingFolder, AListOfColourThatMakesNoSenseCostsNoDepth) {
     test::write_text(path_ + "/rgb.txt", text);
     const auto recording = open_recording(path_);
     ASSERT_TRUE(recording) << text;
-    EXPECT_THAT(recording->doubts, ElementsAre(AllOf(HasSubstr("rgb.txt"), HasSubstr("without colour")))) << text;
+    EXPECT_THAT(recording->warnings, ElementsAre(AllOf(HasSubstr("rgb.txt"), HasSubstr("without colour")))) << text;
     EXPECT_TRUE((*read_frame(*recording, 0))->colour.empty());
   }
 }
@@ -371,7 +371,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   };
   const auto undistorted = [&](const std::string& keys) {
     const Recording recording = open_with(keys);
-    EXPECT_THAT(recording.doubts, ElementsAre(AllOf(HasSubstr("undistorted"), HasSubstr("rectified")))) << keys;
+    EXPECT_THAT(recording.warnings, ElementsAre(AllOf(HasSubstr("undistorted"), HasSubstr("rectified")))) << keys;
     return recording.undistortion != nullptr;
   };
   EXPECT_TRUE(undistorted(R"("distortion_model": "plumb_bob", "D": [-2.5, 0, 0, 0, 0])")) << "ROS";
@@ -385,7 +385,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
 
   const auto refused = [&](const std::string& keys, const char* why) {
     const Recording recording = open_with(keys);
-    EXPECT_THAT(recording.doubts, ElementsAre(HasSubstr(why))) << keys;
+    EXPECT_THAT(recording.warnings, ElementsAre(HasSubstr(why))) << keys;
     return recording.undistortion == nullptr;
   };
   EXPECT_TRUE(refused(R"("model": "inverse_brown_conrady", "coeffs": [-2.5, 0, 0, 0, 0])", "inverse_brown_conrady"));
@@ -399,7 +399,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
         R"("model": "none", "coeffs": [0.1, 0, 0, 0, 0])", R"("D": [1e-6, 0, 0, 0, 0])",
         R"("D": [-2.5, 0, 0, 0, 0], "rectified": true)", R"("distortion": null)"}) {
     const Recording recording = open_with(none);
-    EXPECT_THAT(recording.doubts, IsEmpty()) << none;
+    EXPECT_THAT(recording.warnings, IsEmpty()) << none;
     EXPECT_FALSE(recording.undistortion) << none;
   }
 }

@@ -23,7 +23,7 @@ class KnownObjects : public testing::Test {
     stage_.emplace(std::vector<KnownObjectPtr>{object_});
   }
   /// Passes one frame to the stage, and returns the state of the known object.
-  std::optional<SeenObject> next() {
+  std::optional<ObjectEstimate> next() {
     utime_ += kFrame;
     const HandObservations observations{scene_.observe(utime_)};
     auto estimate = std::make_shared<HandEstimate>();
@@ -35,12 +35,14 @@ class KnownObjects : public testing::Test {
     objects_.assign(1, {});
     objects_[0].id = 7;
     posed_ = stage_->process(observations, {estimate}, points_, objects_);
-    for (const SeenObject& object : objects_)
+    for (const ObjectEstimate& object : objects_)
       if (object.id == 1) return object;
     return std::nullopt;
   }
-  double shift(const SeenObject& state) const { return (state.T_camera_object.t - scene_.T_camera_object.t).norm(); }
-  double turn(const SeenObject& state) const {
+  double shift(const ObjectEstimate& state) const {
+    return (state.T_camera_object.t - scene_.T_camera_object.t).norm();
+  }
+  double turn(const ObjectEstimate& state) const {
     return log_so3(state.T_camera_object.R * scene_.T_camera_object.R.transpose()).norm();
   }
   /// Moves object and palm about the object's middle.
@@ -55,14 +57,14 @@ class KnownObjects : public testing::Test {
   SE3 T_camera_palm_{Eigen::Matrix3d::Identity(), {0.06, 0, 0.5}};
   std::optional<KnownObjectStage> stage_;
   std::vector<SurfacePoint> points_;
-  FrameVector<SeenObject> objects_;
+  FrameVector<ObjectEstimate> objects_;
   std::vector<PosedObject> posed_;
   std::int64_t utime_ = 1'000'000;
 };
 
 TEST_F(KnownObjects, AreFoundAndFollowed) {
   look_for(test::hammer_mesh());
-  std::optional<SeenObject> state;
+  std::optional<ObjectEstimate> state;
   for (int i = 0; i < 10 && !state; ++i) state = next();
   ASSERT_TRUE(state);
 
@@ -94,7 +96,7 @@ TEST_F(KnownObjects, TakeThePlaceOfWhatTheyAre) {
 
 TEST_F(KnownObjects, ThatAreSymmetricDoNotTurn) {
   look_for(test::ball_mesh(0.04f));
-  std::optional<SeenObject> state;
+  std::optional<ObjectEstimate> state;
   for (int i = 0; i < 10 && !state; ++i) state = next();
   ASSERT_TRUE(state);
   Eigen::Matrix3d R = state->T_camera_object.R;
@@ -127,7 +129,7 @@ TEST_F(KnownObjects, AreLostBehindAHandAndFoundAgain) {
   // Meanwhile it was moved.
   scene_.T_camera_object = {exp_so3({-1.0, 0.5, 1.5}), {-0.04, 0.02, 0.55}};
   scene_.covered_from = 200;
-  std::optional<SeenObject> state;
+  std::optional<ObjectEstimate> state;
   for (int i = 0; i < 10 && !state; ++i) state = next();
   ASSERT_TRUE(state);
   EXPECT_LT(shift(*state), 0.003);

@@ -19,7 +19,7 @@ std::optional<FoundPose> search(const KnownObject& wanted, const test::ObjectSce
   std::vector<Vector3f> points;
   for (const SurfacePoint& point : test::ObjectScene::points(*seen)) points.push_back(point.p);
   if (points.empty()) return std::nullopt;
-  return ObjectSearch().search(wanted, SeenDepth(observations), points, points.front());
+  return ObjectSearch().search(wanted, ObservedDepth(observations), points, points.front());
 }
 
 TEST(ObjectSearch, FindsAnObjectInAnyOrientation) {
@@ -49,7 +49,7 @@ TEST(ObjectSearch, FindsNothingWhereSomethingElseIs) {
     scene.T_camera_object = {exp_so3({0.3, 0.2, 0.1}), {0, 0, 0.5}};
     const auto wrong = search(*hammer, scene);
     EXPECT_FALSE(wrong) << other->name << " explained " << wrong->quality.explained << " doubtful "
-                        << wrong->quality.visibility.doubtful() << " shown " << wrong->quality.visibility.shown();
+                        << wrong->quality.visibility.inconsistent() << " shown " << wrong->quality.visibility.shown();
     const auto right = search(*other, scene);
     ASSERT_TRUE(right) << other->name;
     EXPECT_LT(right->quality.cost(), 0.3);

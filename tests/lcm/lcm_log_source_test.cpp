@@ -147,8 +147,8 @@ TEST_F(LcmLog, AClockThatWasSetBackIsANewStart) {
   EXPECT_EQ(play(), "100 101 102 103 skip 104 end") << "numbers go on";
   EXPECT_EQ(play({.step = -1}), "104 skip 103 102 101 100 end");
   const auto source = LcmLogSource::open(path_).value();
-  ASSERT_EQ(source->doubts().size(), 2u) << "and one frame of six is out of order";
-  EXPECT_NE(source->doubts()[0].find("new start"), std::string::npos);
+  ASSERT_EQ(source->warnings().size(), 2u) << "and one frame of six is out of order";
+  EXPECT_NE(source->warnings()[0].find("new start"), std::string::npos);
 }
 
 TEST_F(LcmLog, NumbersGoOnOverASetOfLogsWhoseRecorderWasStartedAgain) {
@@ -164,7 +164,7 @@ TEST_F(LcmLog, NumbersGoOnOverASetOfLogsWhoseRecorderWasStartedAgain) {
   EXPECT_EQ(play(), "0 1 2 3 4 5 end");
   EXPECT_EQ(play({.start = 4}), "4 5 end") << "a number does not depend on where play starts";
   EXPECT_EQ(play({.step = -2}), "5 3 1 end");
-  EXPECT_TRUE(LcmLogSource::open(path_).value()->doubts().empty());
+  EXPECT_TRUE(LcmLogSource::open(path_).value()->warnings().empty());
 }
 
 TEST_F(LcmLog, TimesInAnotherUnitAreNamed) {
@@ -175,8 +175,8 @@ TEST_F(LcmLog, TimesInAnotherUnitAreNamed) {
   }
   EXPECT_EQ(play(), "0 1 2 3 4 end");
   const auto source = LcmLogSource::open(path_).value();
-  ASSERT_EQ(source->doubts().size(), 1u);
-  EXPECT_NE(source->doubts()[0].find("milliseconds"), std::string::npos) << source->doubts()[0];
+  ASSERT_EQ(source->warnings().size(), 1u);
+  EXPECT_NE(source->warnings()[0].find("milliseconds"), std::string::npos) << source->warnings()[0];
 
   RgbdFrame frame = test_frame(5);
   frame.utime = 1'700'000'000'000'000'000;
@@ -278,8 +278,8 @@ TEST_F(LcmLog, AFolderPlaysWhatAKilledRecorderLeft) {
   path_ = folder_.path();
   EXPECT_EQ(play(), "149 150 151 end");
   const auto source = LcmLogSource::open(path_).value();
-  ASSERT_EQ(source->doubts().size(), 1u);
-  EXPECT_NE(source->doubts().front().find("2.lcmlog.unfinished: was left by a killed recorder"), std::string::npos);
+  ASSERT_EQ(source->warnings().size(), 1u);
+  EXPECT_NE(source->warnings().front().find("2.lcmlog.unfinished: was left by a killed recorder"), std::string::npos);
 
   // When the recorder is started again, it gives the unfinished log its final name.
   std::filesystem::rename(folder_ / "2.lcmlog.unfinished", folder_ / "2.lcmlog");

@@ -51,7 +51,7 @@ class McapFile : public testing::Test {
       ADD_FAILURE() << reader.error().message();
       return {};
     }
-    doubts_ = reader->doubts();
+    warnings_ = reader->warnings();
     std::vector<int> numbers;
     for (const Message& one : found) {
       const auto bytes = reader->read(one);
@@ -64,13 +64,13 @@ class McapFile : public testing::Test {
 
   test::TempFolder folder_;
   std::string path_ = folder_ / "a.mcap";
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
 };
 
 TEST_F(McapFile, ReadsWhatWasWritten) {
   write(5);
   EXPECT_THAT(read(), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(doubts_, IsEmpty());
+  EXPECT_THAT(warnings_, IsEmpty());
 }
 
 TEST_F(McapFile, EqualMessagesGiveEqualBytes) {
@@ -87,7 +87,7 @@ TEST_F(McapFile, WhatAKilledProgramLeavesIsReadUpToItsLastChunk) {
   ASSERT_TRUE(writer->finish());
   path_ = folder_ / "killed.mcap";
   EXPECT_THAT(read(), ElementsAre(0, 1, 2, 3, 4, 5));
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("was not finished")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("was not finished")));
 }
 
 TEST_F(McapFile, ASlowCameraLosesNoMoreThanASecond) {
@@ -105,7 +105,7 @@ TEST_F(McapFile, ACutFileIsReadUpToItsLastChunk) {
   bytes.resize(1'700'000);
   test::write_bytes(path_, bytes);
   EXPECT_THAT(read(), ElementsAre(0, 1, 2));
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("cut off")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("cut off")));
 }
 
 TEST_F(McapFile, ADamagedChunkIsLeftOut) {
@@ -114,7 +114,7 @@ TEST_F(McapFile, ADamagedChunkIsLeftOut) {
   bytes[2'000'000] ^= 0x10;
   test::write_bytes(path_, bytes);
   EXPECT_THAT(read(), ElementsAre(0, 1, 2, 6, 7));
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("a chunk is left out, damaged")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("a chunk is left out, damaged")));
 }
 
 TEST_F(McapFile, AfterADamagedLengthItGoesOnWithTheNextChunk) {
@@ -126,20 +126,20 @@ TEST_F(McapFile, AfterADamagedLengthItGoesOnWithTheNextChunk) {
   *(chunk - 30) = 0xff;  // within the length of the second chunk's record
   test::write_bytes(path_, bytes);
   EXPECT_THAT(read(), ElementsAre(0, 1, 2, 6, 7));
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("bytes are damaged")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("bytes are damaged")));
 }
 
 TEST_F(McapFile, UnknownCompressionIsSaidWithARemedy) {
   test::ForeignMcap().chunk("lz4", 10, {1, 2, 3}).chunk("lz4", 10, {1, 2, 3}).write(path_);
   EXPECT_THAT(read(), IsEmpty());
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("2 chunks are left out, packed with lz4")));
-  EXPECT_THAT(doubts_[0], HasSubstr("mcap compress"));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("2 chunks are left out, packed with lz4")));
+  EXPECT_THAT(warnings_[0], HasSubstr("mcap compress"));
 }
 
 TEST_F(McapFile, AChunkThatLiesAboutItsSizeTakesNoMemory) {
   test::ForeignMcap().chunk("", 1ULL << 60, {1}).chunk("zstd", 1 << 20, {0x28, 0xb5, 0x2f, 0xfd}).write(path_);
   EXPECT_THAT(read(), IsEmpty());
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("damaged"), HasSubstr("256 MiB")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("damaged"), HasSubstr("256 MiB")));
 }
 
 TEST_F(McapFile, SomethingElseIsRefused) {
@@ -171,7 +171,7 @@ TEST_F(McapFile, AFullDiskLosesOneFrameAndKeepsTheRest) {
   add(*writer, 6);
   ASSERT_TRUE(writer->finish());
   EXPECT_THAT(read(), ElementsAre(0, 1, 2, 3, 4, 6));
-  EXPECT_THAT(doubts_, IsEmpty());
+  EXPECT_THAT(warnings_, IsEmpty());
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class McapReplay : public testing::Test {
       error_ = source.error().message();
       return {};
     }
-    doubts_ = (*source)->doubts();
+    warnings_ = (*source)->warnings();
     fps_ = (*source)->fps();
     std::vector<FramePtr> frames;
     while (true) {
@@ -55,7 +55,7 @@ class McapReplay : public testing::Test {
 
   test::TempFolder folder_;
   std::string path_ = folder_ / "a.mcap", error_;
-  std::vector<std::string> doubts_, skipped_;
+  std::vector<std::string> warnings_, skipped_;
   double fps_ = 0;
 };
 
@@ -89,7 +89,7 @@ TEST_F(McapReplay, FramesComeBackAsTheyWere) {
   expect_same_frame(*frames[0], test_frame(3));
   expect_same_frame(*frames[1], test_frame(4));
   EXPECT_EQ(fps_, 30);
-  EXPECT_THAT(doubts_, IsEmpty());
+  EXPECT_THAT(warnings_, IsEmpty());
 }
 
 TEST_F(McapReplay, TimesBeforeTheEpochAndUnitsThatChangeAreKept) {
@@ -160,7 +160,7 @@ TEST_F(McapReplay, ColourOfAnotherFrameIsNotUsedAndThatIsSaid) {
   const auto frames = play();
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_TRUE(frames[0]->colour.empty());
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("registered to depth")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("registered to depth")));
 }
 
 TEST_F(McapReplay, DamagedColourLeavesDepth) {
@@ -178,7 +178,7 @@ TEST_F(McapReplay, LensDistortionIsSaid) {
   bag.info_.d = {0.1, 0, 0, 0, 0};
   bag.write(path_);
   EXPECT_EQ(play().size(), 1u);
-  EXPECT_THAT(doubts_, ElementsAre(HasSubstr("lens distortion")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("lens distortion")));
 }
 
 TEST_F(McapReplay, WithoutCameraInfoIntrinsicsAreAskedFor) {

@@ -72,7 +72,7 @@ TEST_F(MessageLogTest, WhatIsCutOffIsSaid) {
   for (const auto& [path, entries] : {std::pair(lcm_, 8u), {mcap_, 9u}}) {
     const auto log = MessageLog::open(path);
     ASSERT_TRUE(log) << log.error().message();
-    EXPECT_EQ(log->doubts().size(), 1u) << path;
+    EXPECT_EQ(log->warnings().size(), 1u) << path;
     EXPECT_EQ(log->entries().size(), entries) << path;
   }
 }

@@ -30,7 +30,7 @@ class PersonFitTest : public ::testing::Test {
       const HandPose truth = test::turned(facing, {0.4 * std::sin(i), 0.5 * std::cos(0.7 * i), 0}, facing[kPalm].t);
       const auto observation = test::observe_skin(persons_skin_, truth);
       const RefinedPose refined = model_->refinement.refine(*observation, truth, truth, 5);
-      const auto change = fit_.look(*observation, refined.pose, model_->refinement, model_->skin);
+      const auto change = fit_.add_frame(*observation, refined.pose, model_->refinement, model_->skin);
       if (change == PersonFit::Change::large)
         model_ = std::make_unique<HandModel>(params_, fit_.profile(), workers_, nullptr);
       if (change == PersonFit::Change::small)

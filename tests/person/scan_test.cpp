@@ -235,7 +235,7 @@ TEST_F(ScanTest, FoldsAtTheKnucklesCountLessWhereJointsMove) {
 class ScanEquationsTest : public ScanTest {
  protected:
   /// Solves for the change that `change` made to a model that explained the frames exactly.
-  enum class Unknown { joint, offset, share };
+  enum class Unknown { joint, offset, skin_weight };
   Eigen::VectorXd found_back(Unknown unknown, const std::function<void(ScanModel&)>& change) {
     // A changed model.
     const ScanModel truth = make_scan_model(*start_, kCell);
@@ -249,7 +249,8 @@ class ScanEquationsTest : public ScanTest {
     shared.set_zero(variables.count());
     const int joints = ScanVariables::kJoints, offsets = static_cast<int>(truth.skin.vertices.size());
     for (int k = 0; k < variables.count(); ++k) {
-      const Unknown kind = k < joints ? Unknown::joint : (k < joints + offsets ? Unknown::offset : Unknown::share);
+      const Unknown kind =
+          k < joints ? Unknown::joint : (k < joints + offsets ? Unknown::offset : Unknown::skin_weight);
       shared.add(k, k, kind == unknown ? 1.0 : 1e12);
     }
 
@@ -297,7 +298,7 @@ TEST_F(ScanEquationsTest, PullSkinBackToItsShareOfTwoBones) {
     if (v.weight_b == 0 || finger_of(outer) == 0 || inner != segment_of(finger_of(outer), 0) ||
         parent_of(outer) != inner)
       continue;
-    change[variables.share(static_cast<int>(i))] = v.a == inner ? 0.2 : -0.2;
+    change[variables.skin_weight(static_cast<int>(i))] = v.a == inner ? 0.2 : -0.2;
   }
 
   // The equations of one frame of the unchanged model.
@@ -397,7 +398,7 @@ TEST_F(ScanTest, ThePriorsGradientFallsAsItsMatrixSays) {
   ScanModel model = start;
   variables.apply(step, model);
   for (int i = 0; i < static_cast<int>(model.skin.vertices.size()); ++i)  // weights end at 0 and 1
-    step[variables.share(i)] = model.skin.vertices[i].weight_b - start.skin.vertices[i].weight_b;
+    step[variables.skin_weight(i)] = model.skin.vertices[i].weight_b - start.skin.vertices[i].weight_b;
 
   // The equations before and after.
   ScanEquations before, after;

@@ -343,11 +343,11 @@ TEST_P(PipelineLifecycle, FailingSinkOfALiveRunIsWaitedFor) {
 }
 
 TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
-  // Get the counts of progress (the pulse) while the last frame is in the sink.
+  // Get the counts of progress (the heartbeat) while the last frame is in the sink.
   ScriptedSource source(false, frames_then_end(5));
-  PipelinePulse inside;
+  PipelineHeartbeat inside;
   world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
-    if (tracked.frame->number == 4) inside = world_.pipeline->pulse();
+    if (tracked.frame->number == 4) inside = world_.pipeline->heartbeat();
     return {};
   };
   world_.run(source);
@@ -356,7 +356,7 @@ TEST_P(PipelineLifecycle, PulseTellsWhatMovesAndWhatIsInside) {
   EXPECT_EQ(inside.finished, 4);
   EXPECT_EQ(inside.inside, 1) << "the one that the sink holds";
   EXPECT_GE(inside.answers, 5);
-  const PipelinePulse after = world_.pipeline->pulse();
+  const PipelineHeartbeat after = world_.pipeline->heartbeat();
   EXPECT_EQ(after.answers, 6) << "five frames and the end";
   EXPECT_EQ(after.finished, 5);
   EXPECT_EQ(after.inside, 0);

@@ -20,12 +20,12 @@ TEST(Reload, HandsOutTheGroupsThatChanged) {
   PendingParams pending;
   Reload reload({}, pending);
   Config wanted;
-  wanted.tracker.choice.doubt = 0.5;
+  wanted.tracker.choice.ambiguity_margin = 0.5;
   wanted.tracker.fusion.levels = 2;
   const Reload::Changes changes = reload.apply(wanted);
-  EXPECT_THAT(changes.made, ElementsAre("tracker.doubt: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));
+  EXPECT_THAT(changes.made, ElementsAre("tracker.ambiguity_margin: 0.15 -> 0.5", "tracker.fusion.levels: 4 -> 2"));
   EXPECT_THAT(changes.for_restart, IsEmpty());
-  EXPECT_EQ(pending.tracker.take()->choice.doubt, 0.5);
+  EXPECT_EQ(pending.tracker.take()->choice.ambiguity_margin, 0.5);
   EXPECT_FALSE(pending.preprocess.take());
   EXPECT_FALSE(pending.bus.take());
 }

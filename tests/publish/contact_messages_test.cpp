@@ -8,7 +8,7 @@ namespace {
 
 TEST(ContactMessages, StateContactsInTheFramesOfCameraAndObject) {
   const HandEstimate estimate = estimate_of(*test::adult_hand(Handedness::left), {}, 5'000'000);
-  FrameVector<SeenObject> objects(1);
+  FrameVector<ObjectEstimate> objects(1);
   objects[0].id = 7;
   objects[0].T_camera_object = somewhere();
   HandContacts contacts;
@@ -36,7 +36,7 @@ TEST(ContactMessages, StateContactsInTheFramesOfCameraAndObject) {
 
 TEST(ContactMessages, StateObjects) {
   const HandEstimate estimate = estimate_of(*test::adult_hand(), {}, 5'000'000);
-  SeenObject object;
+  ObjectEstimate object;
   object.id = 9;
   object.T_camera_object = somewhere();
   object.covariance(0, 4) = 0.25;

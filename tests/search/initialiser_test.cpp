@@ -90,7 +90,7 @@ TEST_F(InitialiserTest, VariantsOfOnePoseLeaveRoomForPosesElsewhere) {
     });
   };
   EXPECT_GE(alone(), 4);
-  params.full.elsewhere = 0;
+  params.full.distant_fraction = 0;
   EXPECT_LT(alone(), 4);
 }
 
@@ -109,7 +109,7 @@ TEST_F(InitialiserTest, ReacquiresFromTheLastGoodPoseQuickly) {
   const HandPose truth = shape(5, 0.8, 0.4);
   const HandPose last = moved({exp_so3({0, 0, 0.7}), {0.02, -0.03, 0.02}}, truth);
   const auto starts = initialiser_->propose(*test::PointWorld(*profile_).observe(truth), Effort::quick, kSeed, workers_,
-                                            Hiding::costs, &last);
+                                            HiddenCost::counted, &last);
   ASSERT_FALSE(starts.empty());
   EXPECT_EQ(starts.front().name, "last");
   EXPECT_LT(test::mean_error(*profile_, starts.front().pose, truth), 0.02);

@@ -26,10 +26,10 @@ std::string numbers(const std::vector<std::pair<std::int64_t, std::int64_t>>& fr
   return text;
 }
 
-std::vector<std::string> doubts(StampUnit unit, const std::function<std::int64_t(int)>& utime, int frames = 30) {
+std::vector<std::string> warnings(StampUnit unit, const std::function<std::int64_t(int)>& utime, int frames = 30) {
   FrameOrder order(unit);
   for (int i = 0; i < frames; ++i) order.number(utime(i), i);
-  return order.take_last_doubts();
+  return order.take_last_warnings();
 }
 
 TEST(FrameOrder, FramesThatRepeatOrWereOvertakenAreNotUsed) {
@@ -75,19 +75,19 @@ TEST(FrameOrder, WhatCannotBeATimeIsNotUsedAndSaysWhatItLooksLike) {
 TEST(FrameOrder, RecordingsAtUsualRatesRaiseNoDoubt) {
   for (const std::int64_t step : {1'000, 11'111, 16'667, 33'333, 66'667, 83'333, 200'000, 500'000, 1'500'000})
     for (const StampUnit unit : {StampUnit::seconds, StampUnit::microseconds})
-      EXPECT_THAT(doubts(unit, [&](int i) { return kNow + step * i; }), IsEmpty()) << step;
-  EXPECT_THAT(doubts(StampUnit::seconds, [](int i) { return i * kFrame + (i > 15 ? 600'000'000 : 0); }), IsEmpty())
+      EXPECT_THAT(warnings(unit, [&](int i) { return kNow + step * i; }), IsEmpty()) << step;
+  EXPECT_THAT(warnings(StampUnit::seconds, [](int i) { return i * kFrame + (i > 15 ? 600'000'000 : 0); }), IsEmpty())
       << "a pause of ten minutes";
-  EXPECT_THAT(doubts(
+  EXPECT_THAT(warnings(
                   StampUnit::seconds, [](int) { return kNow; }, 1),
               IsEmpty());
-  EXPECT_THAT(doubts(StampUnit::seconds, [](int i) { return kNow + 500'000 + i * 1'000'000LL; }), IsEmpty())
+  EXPECT_THAT(warnings(StampUnit::seconds, [](int i) { return kNow + 500'000 + i * 1'000'000LL; }), IsEmpty())
       << "one frame a second, at half seconds";
 }
 
 TEST(FrameOrder, OtherUnitsThanSecondsAreNamed) {
   const auto said = [](double factor, int frames = 30) {
-    return doubts(
+    return warnings(
         StampUnit::seconds, [&](int i) { return std::llround(1e6 * factor * (5 + i / 30.0)); }, frames);
   };
   EXPECT_THAT(said(1e3), ElementsAre(AllOf(HasSubstr("33.33"), HasSubstr("milliseconds: divide them by 1e3"))));
@@ -100,7 +100,7 @@ TEST(FrameOrder, OtherUnitsThanSecondsAreNamed) {
 
 TEST(FrameOrder, OtherUnitsThanMicrosecondsAreNamed) {
   const auto said = [](double factor) {
-    return doubts(StampUnit::microseconds, [&](int i) { return std::llround(1e6 * factor * (5 + i / 30.0)); });
+    return warnings(StampUnit::microseconds, [&](int i) { return std::llround(1e6 * factor * (5 + i / 30.0)); });
   };
   EXPECT_THAT(said(1e3), ElementsAre(HasSubstr("nanoseconds: divide them by 1e3")));
   EXPECT_THAT(said(1e-3), ElementsAre(HasSubstr("milliseconds: multiply them by 1000")));
@@ -109,7 +109,7 @@ TEST(FrameOrder, OtherUnitsThanMicrosecondsAreNamed) {
 
 TEST(FrameOrder, ACounterThatOverflowsIsNamed) {
   const auto wraps_at = [](std::int64_t range) {
-    return doubts(StampUnit::microseconds, [=](int i) { return (range - 10 * kFrame + i * kFrame) % range; });
+    return warnings(StampUnit::microseconds, [=](int i) { return (range - 10 * kFrame + i * kFrame) % range; });
   };
   EXPECT_THAT(wraps_at(1LL << 32), ElementsAre(AllOf(HasSubstr("frame 10"), HasSubstr("microseconds with 32 bits"))));
   EXPECT_THAT(wraps_at(1000 * (1LL << 32)), ElementsAre(HasSubstr("milliseconds with 32 bits")));
@@ -121,14 +121,14 @@ TEST(FrameOrder, EachThingIsSaidOnce) {
   int said = 0;
   for (int i = 0; i < 200; ++i) {
     order.number(i % 20 * 33'000'000LL, i);
-    said += static_cast<int>(order.take_doubts().size());
+    said += static_cast<int>(order.take_warnings().size());
   }
   EXPECT_EQ(said, 2) << "milliseconds, and a time that goes back";
-  EXPECT_THAT(order.take_last_doubts(), IsEmpty());
+  EXPECT_THAT(order.take_last_warnings(), IsEmpty());
 }
 
 TEST(FrameOrder, ManyFramesOutOfOrderAreCounted) {
-  EXPECT_THAT(doubts(StampUnit::seconds, [](int i) { return (i % 2 ? 0 : 50'000) + i * 20'000; }),
+  EXPECT_THAT(warnings(StampUnit::seconds, [](int i) { return (i % 2 ? 0 : 50'000) + i * 20'000; }),
               ElementsAre(AllOf(HasSubstr("15 of 30 frames"), HasSubstr("in order of time?"))));
 }
 

@@ -30,8 +30,8 @@ Depth noise(unsigned seed) {
 TEST(PictureCheck, SurfacesAreSensibleAndNoiseIsNot) {
   EXPECT_EQ(check_depth(scene(1), nullptr), DepthFault::none);
   EXPECT_EQ(check_depth(noise(1), nullptr), DepthFault::senseless);
-  EXPECT_LT(jump_share(scene(1)), 0.02);
-  EXPECT_GT(jump_share(noise(1)), 0.6);
+  EXPECT_LT(jump_fraction(scene(1)), 0.02);
+  EXPECT_GT(jump_fraction(noise(1)), 0.6);
 }
 
 TEST(PictureCheck, HolesAreNoJumps) {

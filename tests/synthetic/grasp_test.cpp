@@ -46,7 +46,7 @@ TEST_F(Grasp, ClosesUntilTheSkinTouchesAndNotThrough) {
 struct Contact {
   double ever = 1, held = 1;
 };
-Contact contact(const HandRig& hand, const std::string& name, const SignedDistance& thing) {
+Contact contact(const HandRig& hand, const std::string& name, const SignedDistance& object_distance) {
   const auto sequence = make_sequence(name, &hand, 1);
   const Skinner skinner(hand.mesh);
   std::vector<Eigen::Vector3f> skin;
@@ -56,9 +56,9 @@ Contact contact(const HandRig& hand, const std::string& name, const SignedDistan
   for (double time = 0; time < (*sequence)->duration(); time += 0.1) {
     const SceneState state = (*sequence)->at(time);
     skinner.deform(pose_segments(hand.profile, state.hands.front().skeleton), skin);
-    const SE3 T_thing_camera = state.T_camera_object[0].inverse();
+    const SE3 T_object_camera = state.T_camera_object[0].inverse();
     double nearest = 1;
-    for (const auto& v : skin) nearest = std::min(nearest, thing(T_thing_camera * v.cast<double>()));
+    for (const auto& v : skin) nearest = std::min(nearest, object_distance(T_object_camera * v.cast<double>()));
     result.ever = std::min(result.ever, nearest);
     if (std::abs(time - 4.0) < 0.05) result.held = nearest;
   }
@@ -66,9 +66,9 @@ Contact contact(const HandRig& hand, const std::string& name, const SignedDistan
 }
 
 TEST_F(Grasp, SequencesHoldTheirThingsAtTheSkinAndNeverReachThrough) {
-  for (const auto& [name, thing] :
+  for (const auto& [name, object_distance] :
        {std::pair{"grasp_ball", sphere_distance(0.0325)}, std::pair{"grasp_mug", cylinder_distance(0.04, 0.055)}}) {
-    const Contact c = contact(rig(), name, thing);
+    const Contact c = contact(rig(), name, object_distance);
     EXPECT_LT(c.held, 0.001) << name;
     EXPECT_GT(c.ever, -0.003) << name;
   }

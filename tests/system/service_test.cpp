@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLiveHand = "sim:fist,live=true,loop=true,width=160,height=120";
 
-/// Calls the sink directly, with given counts of the pipeline's progress (its pulse), which decide whether the watchdog
-/// is notified.
+/// Calls the sink directly, with given counts of the pipeline's progress (its heartbeat), which decide whether the
+/// watchdog is notified.
 class Watchdog : public ::testing::Test {
  protected:
   bool fed() {
@@ -42,37 +42,37 @@ class Watchdog : public ::testing::Test {
   NotifySocket socket_{"2000000"};
   ManualClock clock_;
   ServiceManager manager_{clock_};
-  PipelinePulse pulse_;
-  ServiceSink sink_{manager_, [this] { return pulse_; }, [] { return PipelineHealth{}; }, clock_};
+  PipelineHeartbeat heartbeat_;
+  ServiceSink sink_{manager_, [this] { return heartbeat_; }, [] { return PipelineHealth{}; }, clock_};
 };
 
 TEST_F(Watchdog, IsFedWhileFramesPass) {
   for (int i = 0; i < 3; ++i) {
-    pulse_ = {pulse_.answers + 1, pulse_.finished + 1, 1};
+    heartbeat_ = {heartbeat_.answers + 1, heartbeat_.finished + 1, 1};
     EXPECT_TRUE(fed());
   }
 }
 
 TEST_F(Watchdog, IsFedWhileTheSourceSaysThatThereIsNoFrame) {
   for (int i = 0; i < 3; ++i) {
-    ++pulse_.answers;
+    ++heartbeat_.answers;
     EXPECT_TRUE(fed());
   }
 }
 
 TEST_F(Watchdog, StarvesWhenTheSourceHangs) {
-  pulse_ = {7, 5, 0};
+  heartbeat_ = {7, 5, 0};
   EXPECT_TRUE(fed());
   EXPECT_FALSE(fed());
   EXPECT_FALSE(fed());
 }
 
 TEST_F(Watchdog, StarvesWhenAStageHangsThoughTheSourceAnswers) {
-  pulse_ = {7, 5, 0};
+  heartbeat_ = {7, 5, 0};
   EXPECT_TRUE(fed());
   for (int i = 0; i < 3; ++i) {
-    ++pulse_.answers;
-    pulse_.inside = 1;
+    ++heartbeat_.answers;
+    heartbeat_.inside = 1;
     EXPECT_FALSE(fed());
   }
 }
@@ -81,7 +81,7 @@ TEST_F(Watchdog, IsFedNoOftenerThanItNeeds) {
   int messages = 0;
   for (int i = 0; i < 1000; ++i) {  // 10 s at 100 Hz
     clock_.advance(10'000);
-    pulse_ = {i, i, 1};
+    heartbeat_ = {i, i, 1};
     EXPECT_TRUE(sink_.idle());
     for (std::string message = socket_.next(); !message.empty(); message = socket_.next())
       messages += message == "WATCHDOG=1";

@@ -27,7 +27,7 @@ using ::testing::Not;
 TrackerParams stubborn_tracker() {
   TrackerParams params = test::quick_tracker();
   params.loss.lost_score = 0.1;
-  params.choice.search_convincing = 0;
+  params.choice.confident_score = 0;
   SearchEffort& quick = params.initialiser.quick;
   quick.in_plane = quick.rolls = quick.pitches = quick.shapes = 1;
   return params;
@@ -63,11 +63,12 @@ class UpsideDown : public testing::Test {
 
 TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
   for (int start = 0; start < 3; ++start) {  // a count that is not reset would make the third search a quick one
-    tracker_.apply(StartAnew{});
+    tracker_.apply(ResetTracker{});
     tracker_.apply(StartAt{upright_});
-    for (int i = 1; i < (params_.doubt_every + 1) / 2; ++i) EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
+    for (int i = 1; i < (params_.ambiguous_search_every + 1) / 2; ++i)
+      EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
     EXPECT_LT(error_of_next(), 0.005) << start;
-    EXPECT_THAT(last_rules_, Contains("elsewhere")) << start;
+    EXPECT_THAT(last_rules_, Contains("different_pose")) << start;
   }
 }
 
@@ -108,7 +109,7 @@ TEST(HandTracker, ScansTheSkinOfAMeasuredHandAndForgetsItWithThePerson) {
     tracker.process(*test::stamped(*test::observe_skin(skin, pose), utime += 33'000));
     ASSERT_EQ(tracker.view().status, TrackStatus::tracking);
   }
-  tracker.apply(StartAnew{});
+  tracker.apply(ResetTracker{});
   EXPECT_FALSE(tracker.view().profile->scanned_skin);
 }
 
@@ -164,7 +165,7 @@ TEST(HandTracker, OpensTheDeviceAgainOnlyIfItsOwnParametersChange) {
   EXPECT_THAT(opened, HasSubstr("amples"));  // the log names the device, or the reason why there is none
 
   params.segment_tracker.samples += 1;
-  params.choice.doubt += 0.01;
+  params.choice.ambiguity_margin += 0.01;
   tracker.apply(UseParams{params});
   EXPECT_EQ(text.str(), opened);
   params.segment_tracker.pixel_distance_cap += 0.001;
@@ -239,7 +240,7 @@ class Return : public testing::Test {
     TrackerParams params = test::quick_tracker();
     params.loss.hold_time = 0.1;
     params.loss.forget_time = 1;
-    params.choice.search_convincing = 0.001;
+    params.choice.confident_score = 0.001;
     return params;
   }
   void SetUp() override {

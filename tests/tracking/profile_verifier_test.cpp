@@ -19,7 +19,7 @@ class ProfileVerification : public ::testing::Test {
  protected:
   static TrackerParams params() {
     TrackerParams params = test::quick_tracker();
-    params.choice.search_convincing = 0;  // no score is confident
+    params.choice.confident_score = 0;  // no score is confident
     return params;
   }
   HandObservationPtr seen() { return test::stamped(*left_hand_, utime_ += 33'000); }
@@ -101,7 +101,7 @@ TEST_F(ProfileVerification, AnotherSizeIsFoundOutHoweverLongNoHandWasThere) {
 
 TEST_F(ProfileVerification, NoneIsNeededWhereTheStartConvinces) {
   TrackerParams convinced = params();
-  convinced.choice.search_convincing = 1;
+  convinced.choice.confident_score = 1;
   ProfileVerifier check(convinced, *right_, 1, workers_, test::text_logger(said_));
   EXPECT_FALSE(check.is_other_side(*seen(), Effort::quick, 1, kGood));
   EXPECT_FALSE(check.verifying());

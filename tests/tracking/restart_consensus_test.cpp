@@ -16,12 +16,12 @@ class RestartConsensusTest : public ::testing::Test {
   }
   void add_settling(double metres, double score) {
     add(metres, score);
-    EXPECT_TRUE(found_.settled());
+    EXPECT_TRUE(found_.converged());
   }
   void add_unsettled(int count, double metres, double score) {
     for (int i = 0; i < count; ++i) {
       add(metres, score);
-      EXPECT_FALSE(found_.settled()) << i;
+      EXPECT_FALSE(found_.converged()) << i;
     }
   }
 
@@ -30,7 +30,7 @@ class RestartConsensusTest : public ::testing::Test {
   RestartConsensus found_{*profile_, 0.0015, 0.004};
 };
 
-TEST_F(RestartConsensusTest, NothingIsNotSettled) { EXPECT_FALSE(found_.settled()); }
+TEST_F(RestartConsensusTest, NothingIsNotConverged) { EXPECT_FALSE(found_.converged()); }
 
 TEST_F(RestartConsensusTest, OneThatIsGoodEnoughSettlesIt) {
   add_unsettled(1, 0, 0.0016);

@@ -110,7 +110,7 @@ TEST_F(TwoHandTrackerTest, AProfileOfTheOtherSideIsNotBentToTheHand) {
 TEST_F(TwoHandTrackerTest, AHandOfTheOtherSideIsGivenUpWhereThatTurnsOutLater) {
   // Track a right hand with its profile.
   TrackerParams params = test::quick_tracker();
-  params.choice.search_convincing = 0;  // so that every start is verified
+  params.choice.confident_score = 0;  // so that every start is verified
   std::ostringstream said;
   TwoHandTracker only_right(params, {right_}, 1, workers_, test::text_logger(said));
   HandEstimates last;
@@ -245,7 +245,7 @@ class StartOfDetectedHand : public TwoHandTrackerTest {
 struct SizeOfStart {
   double size;
   ProfileOrigin origin;
-  bool doubted;
+  bool reported;
   friend std::ostream& operator<<(std::ostream& out, const SizeOfStart& start) {
     return out << start.size << (start.origin == ProfileOrigin::mean ? "_of_a_mean_hand" : "_of_a_measured_hand");
   }
@@ -272,11 +272,11 @@ TEST_P(DetectedSizeOfStart, IsDoubtedAtOnceUnlessItIsTheProfilesOrFitted) {
     for (int frame = 0; frame < 3; ++frame) {
       const HandEstimates estimates = next(tracker, hand);
       ASSERT_EQ(estimates[0]->status, TrackStatus::tracking);
-      if (GetParam().doubted) {
+      if (GetParam().reported) {
         EXPECT_LT(estimates[0]->segments[kPalm].confidence, 0.3) << flexion;
       }
     }
-    EXPECT_EQ(out.str().find("profile") != std::string::npos, GetParam().doubted) << flexion << ": " << out.str();
+    EXPECT_EQ(out.str().find("profile") != std::string::npos, GetParam().reported) << flexion << ": " << out.str();
   }
 }
 
@@ -324,7 +324,7 @@ TEST_F(StartOfDetectedHand, IsRefusedAtOnceWhereTheNetworksAreSureOfTheOtherSide
 
 /// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
 /// model explains well.
-class DoubtfulDetection : public StartOfDetectedHand {
+class AmbiguousDetection : public StartOfDetectedHand {
  protected:
   /// The number of the first of 40 frames in which a hand is tracked; 0 if there is none.
   int first_tracked(double aside, double palm = 0.7) {
@@ -339,17 +339,17 @@ class DoubtfulDetection : public StartOfDetectedHand {
   }
 };
 
-TEST_F(DoubtfulDetection, IsAHandWhereAPoseExplainsIt) { EXPECT_EQ(first_tracked(0), 1); }
+TEST_F(AmbiguousDetection, IsAHandWhereAPoseExplainsIt) { EXPECT_EQ(first_tracked(0), 1); }
 
-TEST_F(DoubtfulDetection, IsAHandAfterSomeFramesWhereOneDoesNotDecide) {
+TEST_F(AmbiguousDetection, IsAHandAfterSomeFramesWhereOneDoesNotDecide) {
   const int first = first_tracked(0.025, 0.5);
   EXPECT_GT(first, 1);
   EXPECT_LT(first, 20);
 }
 
-TEST_F(DoubtfulDetection, IsNoneWhereThePoseThatExplainsItIsAnother) { EXPECT_EQ(first_tracked(0.045), 0); }
+TEST_F(AmbiguousDetection, IsNoneWhereThePoseThatExplainsItIsAnother) { EXPECT_EQ(first_tracked(0.045), 0); }
 
-TEST_F(DoubtfulDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, 0.3), 0); }
+TEST_F(AmbiguousDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, 0.3), 0); }
 
 }  // namespace
 }  // namespace barehand

@@ -193,7 +193,7 @@ TEST_P(FoxgloveServer, TheHandIsServedAsARobotWithItsLengths) {
   EXPECT_EQ(test::status_of(test::answer_of(port(), "/right_hand.urdf")), 404);
   const auto profile = std::make_shared<const HandProfile>(
       load_profile(std::string(BAREHAND_CONFIGS) + "/hands/adult_right.json").value());
-  server_->know(profile);
+  server_->set_profile(profile);
   const std::string answer = test::answer_of(port(), "/right_hand.urdf");
   EXPECT_EQ(test::status_of(answer), 200);
   EXPECT_THAT(answer, HasSubstr("<robot name=\"right_hand\">"));

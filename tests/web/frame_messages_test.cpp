@@ -152,7 +152,7 @@ TEST(LogIndex, ReadsMcapFilesWithTheirImages) {
   EXPECT_EQ(index->frames(), 5);
   ASSERT_EQ(index->lost().size(), 1u);
   EXPECT_EQ(index->lost()[0].first, 2);
-  EXPECT_TRUE(index->doubts().empty());
+  EXPECT_TRUE(index->warnings().empty());
 
   // A frame has the messages of the bus and its own image.
   const std::vector<ReceivedMessage> messages = index->messages(3);
@@ -196,8 +196,8 @@ TEST(LogIndex, SaysWhyThereAreNoImages) {
   ASSERT_TRUE(index) << index.error().message();
   EXPECT_EQ(index->frames(), 1);
   EXPECT_EQ(index->image(0), nullptr);
-  ASSERT_EQ(index->doubts().size(), 1u);
-  EXPECT_NE(index->doubts()[0].find("holds no depth images"), std::string::npos);
+  ASSERT_EQ(index->warnings().size(), 1u);
+  EXPECT_NE(index->warnings()[0].find("holds no depth images"), std::string::npos);
 }
 
 TEST(LogIndex, SaysWhatIsCutOff) {
@@ -207,8 +207,8 @@ TEST(LogIndex, SaysWhatIsCutOff) {
   const auto index = LogIndex::open({path});
   ASSERT_TRUE(index) << index.error().message();
   EXPECT_EQ(index->frames(), 5);
-  ASSERT_EQ(index->doubts().size(), 1u);
-  EXPECT_NE(index->doubts()[0].find(path), std::string::npos);
+  ASSERT_EQ(index->warnings().size(), 1u);
+  EXPECT_NE(index->warnings()[0].find(path), std::string::npos);
 }
 
 TEST(LogIndex, RefusesALogWithNothingToShow) {

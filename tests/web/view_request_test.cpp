@@ -6,40 +6,40 @@ namespace barehand {
 namespace {
 
 TEST(ViewRequest, SaysWhatIsWantedOfEveryFrame) {
-  const auto demand = parse_view_demand(
+  const auto request = parse_view_request(
       R"({"type": "want", "cloud": "hand", "picture": "depth", "large": true, "rate": 15.5, "window": 2})");
-  ASSERT_TRUE(demand) << demand.error().message();
-  const auto& wish = std::get<ViewWish>(*demand);
-  EXPECT_EQ(wish.cloud, ViewCloud::hand);
-  EXPECT_EQ(wish.picture, ViewPicture::depth);
-  EXPECT_TRUE(wish.large);
-  EXPECT_EQ(wish.rate, 15.5);
-  EXPECT_EQ(wish.window, 2);
+  ASSERT_TRUE(request) << request.error().message();
+  const auto& settings = std::get<ViewSettings>(*request);
+  EXPECT_EQ(settings.cloud, ViewCloud::hand);
+  EXPECT_EQ(settings.picture, ViewPicture::depth);
+  EXPECT_TRUE(settings.large);
+  EXPECT_EQ(settings.rate, 15.5);
+  EXPECT_EQ(settings.window, 2);
 }
 
 TEST(ViewRequest, WantsStatesAloneUnlessItSaysMore) {
-  const auto demand = parse_view_demand(R"({"type": "want"})");
-  ASSERT_TRUE(demand);
-  const auto& wish = std::get<ViewWish>(*demand);
-  EXPECT_EQ(wish.cloud, ViewCloud::none);
-  EXPECT_EQ(wish.picture, ViewPicture::none);
-  EXPECT_EQ(wish.window, 0);
+  const auto request = parse_view_request(R"({"type": "want"})");
+  ASSERT_TRUE(request);
+  const auto& settings = std::get<ViewSettings>(*request);
+  EXPECT_EQ(settings.cloud, ViewCloud::none);
+  EXPECT_EQ(settings.picture, ViewPicture::none);
+  EXPECT_EQ(settings.window, 0);
 }
 
 TEST(ViewRequest, CommandsThePlayer) {
-  const auto demand = parse_view_demand(R"({"type": "step", "value": -3})");
-  ASSERT_TRUE(demand);
-  const auto& command = std::get<PlayerCommand>(*demand);
+  const auto request = parse_view_request(R"({"type": "step", "value": -3})");
+  ASSERT_TRUE(request);
+  const auto& command = std::get<PlayerCommand>(*request);
   EXPECT_EQ(command.kind, PlayerCommand::Kind::step);
   EXPECT_EQ(command.value, -3);
-  EXPECT_TRUE(std::holds_alternative<ViewAcknowledge>(parse_view_demand(R"({"type": "ack"})").value()));
+  EXPECT_TRUE(std::holds_alternative<ViewAcknowledge>(parse_view_request(R"({"type": "ack"})").value()));
 }
 
 TEST(ViewRequest, StartsAndStopsARecording) {
   for (const bool on : {true, false}) {
-    const auto demand = parse_view_demand(std::string(R"({"type": "record", "on": )") + (on ? "true}" : "false}"));
-    ASSERT_TRUE(demand) << demand.error().message();
-    EXPECT_EQ(std::get<RecordCommand>(*demand).on, on);
+    const auto request = parse_view_request(std::string(R"({"type": "record", "on": )") + (on ? "true}" : "false}"));
+    ASSERT_TRUE(request) << request.error().message();
+    EXPECT_EQ(std::get<RecordCommand>(*request).on, on);
   }
 }
 
@@ -48,7 +48,7 @@ TEST(ViewRequest, ARecordingGoesWhereTheProgramSays) {
        {R"({"type": "record"})", R"({"type": "record", "on": 1})", R"({"type": "record", "on": null})",
         R"({"type": "record", "value": true})", R"({"type": "record", "on": "true"})",
         R"({"type": "record", "on": true, "folder": "/etc"})", R"({"type": "record", "on": true, "name": "../../a"})"})
-    EXPECT_FALSE(parse_view_demand(text)) << text;
+    EXPECT_FALSE(parse_view_request(text)) << text;
 }
 
 TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
@@ -58,10 +58,10 @@ TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
         R"({"type": "want", "rate": 0})", R"({"type": "want", "rate": 1e400})", R"({"type": "want", "rate": "fast"})",
         R"({"type": "want", "window": -1})", R"({"type": "want", "window": 101})",
         R"({"type": "seek", "value": 1e30})"})
-    EXPECT_FALSE(parse_view_demand(text)) << text;
+    EXPECT_FALSE(parse_view_request(text)) << text;
 }
 
-TEST(ViewRequest, SurvivesDeepNesting) { EXPECT_FALSE(parse_view_demand(std::string(60000, '['))); }
+TEST(ViewRequest, SurvivesDeepNesting) { EXPECT_FALSE(parse_view_request(std::string(60000, '['))); }
 
 }  // namespace
 }  // namespace barehand

@@ -20,7 +20,7 @@ class Echo : public WebPeer {
  public:
   explicit Echo(WebSocket socket) : socket_(socket) {}
   void start() override { socket_.send_text("hello"); }
-  bool hear(std::string_view text) override {
+  bool receive(std::string_view text) override {
     socket_.send_text(text);
     return text != "go";
   }
@@ -33,7 +33,7 @@ std::unique_ptr<WebServer> serve(int port = 0) {
   WebServer::Options options;
   options.port = port;
   options.files = {{"/index.html", {"text/html", "<p>page</p>"}}, {"/empty.js", {"text/javascript", ""}}};
-  options.invited = {"https://example.org"};
+  options.allowed_origins = {"https://example.org"};
   options.connect = [](WebSocket socket) { return std::make_unique<Echo>(socket); };
   auto server = WebServer::start(std::move(options));
   EXPECT_TRUE(server) << server.error().message();

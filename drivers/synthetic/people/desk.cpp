@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kThickness = 0.03;  // thickness of the desk's top [m]
 constexpr double kApart = 0.17;      // minimum distance between the middle of a tall object and a free line [m]
-constexpr int kTallThings = 6;       // number of tall objects to place; those too close to a free line are left out
+constexpr int kTallObjects = 6;      // number of tall objects to place; those too close to a free line are left out
 
 SE3 standing_at(const Vector3d& place, double heading) { return {exp_so3({0, 0, heading}), place}; }
 
@@ -23,7 +23,7 @@ SceneObject make_slab(const char* name, const Vector3d& half_sides, const Rgb& c
 }
 
 /// A mug, a box or a cylinder about its centre, and its height [m].
-std::pair<SceneObject, double> make_tall_thing(KeyedRandom& random) {
+std::pair<SceneObject, double> make_tall_object(KeyedRandom& random) {
   const double kind = random.uniform();
   const auto shade = static_cast<std::uint8_t>(random.uniform(40, 220));
   if (kind < 0.3) {
@@ -69,8 +69,8 @@ std::vector<PlacedObject> make_desk(double near_y, double far_y, const std::opti
                   standing_at({random.uniform(-0.35, 0.35), middle, page_height}, random.uniform(-1.5, 1.5))});
 
   // Place tall objects, which must neither touch the arm nor hide the hand.
-  for (int i = 0; i < kTallThings; ++i) {
-    auto [object, height] = make_tall_thing(random);
+  for (int i = 0; i < kTallObjects; ++i) {
+    auto [object, height] = make_tall_object(random);
     const Eigen::Vector2d place(random.uniform(-0.45, 0.45), random.uniform(near_y + 0.05, far_y - 0.05));
     const double heading = random.uniform(-3, 3);
     if (!free || is_free(*free, place))

@@ -37,13 +37,13 @@ TriangleMesh make_sole(const Foot& foot) {
 }
 
 /// Adds a foot, its toes if it is bare, and its leg, which leans back by `leg_lean` [rad].
-void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_world_foot, bool left,
+void add_foot(std::vector<PlacedObject>& objects, const Foot& foot, const SE3& T_world_foot, bool left,
               double leg_lean) {
   // Add the sole; the loft's z axis becomes -y of the foot, and its y axis -z.
   Eigen::Matrix3d R_lying;
   R_lying << -1, 0, 0, 0, 0, -1, 0, -1, 0;
   const Rgb colour = foot.bare ? kSkinColour : Rgb{48, 44, 44};
-  things.push_back({{"foot", make_sole(foot), {colour}}, T_world_foot * SE3{R_lying, Vector3d::Zero()}});
+  objects.push_back({{"foot", make_sole(foot), {colour}}, T_world_foot * SE3{R_lying, Vector3d::Zero()}});
 
   // Add the toes, from the large one on the inner side to the small one on the outer side.
   const double inside = left ? -1 : 1;
@@ -52,14 +52,14 @@ void add_foot(std::vector<PlacedObject>& things, const Foot& foot, const SE3& T_
                  reach = foot.length * (0.79 - 0.028 * i * (1 + 0.25 * i));
     const double x = inside * (0.034 - (i == 0 ? 0 : 0.005) - 0.0155 * i);
     const Vector3d root(x, -0.6 * foot.length, -0.027), tip(1.1 * x, -reach, -0.03);
-    things.push_back(
+    objects.push_back(
         {{"toe", make_limb((tip - root).norm(), radius, radius), {colour}}, T_world_foot * limb_between(root, tip)});
   }
 
   // Add the leg.
   const Vector3d knee(0, 0.42 * std::sin(leg_lean), 0.42 * std::cos(leg_lean));
-  things.push_back({{"leg", make_limb(0.42, 0.038, 0.058), {foot.bare ? kSkinColour : kClothColour}},
-                    T_world_foot * limb_between(Vector3d::Zero(), knee)});
+  objects.push_back({{"leg", make_limb(0.42, 0.038, 0.058), {foot.bare ? kSkinColour : kClothColour}},
+                     T_world_foot * limb_between(Vector3d::Zero(), knee)});
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(15, 80) * kDegree, random.uniform(0.5, 1.05));
-  s.things.push_back(make_floor(0));
-  s.things.push_back(make_wall(random.uniform(0.8, 2)));
+  s.objects.push_back(make_floor(0));
+  s.objects.push_back(make_wall(random.uniform(0.8, 2)));
 
   // Let both feet stand, or lie with the soles towards the camera.
   Foot foot{random.uniform(0.23, 0.29), random.uniform() < 0.6};
@@ -81,7 +81,7 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
     const Eigen::Matrix3d R = exp_so3({0, 0, heading + random.uniform(-0.3, 0.3)}) *
                               exp_so3({lying ? random.uniform(-1.4, -1.0) : 0.0, 0, 0});
     const Vector3d place = exp_so3({0, 0, heading}) * Vector3d(apart, random.uniform(0, 0.1), lying ? 0.06 : 0.04);
-    add_foot(s.things, foot, {R, place}, left, lying ? random.uniform(-0.1, 0.3) : random.uniform(-0.3, 0.3));
+    add_foot(s.objects, foot, {R, place}, left, lying ? random.uniform(-0.1, 0.3) : random.uniform(-0.3, 0.3));
   }
   return std::make_unique<StagedSequence>(std::move(s));
 }
@@ -92,7 +92,7 @@ std::unique_ptr<Sequence> make_faces(std::uint64_t seed) {
   StagedSequence::Setting s = handless_setting(seed, random);
   const double distance = random.uniform(0.55, 0.8);
   s.T_camera_world = camera_above_table(random.uniform(-15, 25) * kDegree, distance);
-  s.things.push_back(make_wall(random.uniform(0.6, 2)));
+  s.objects.push_back(make_wall(random.uniform(0.6, 2)));
 
   // The bodies stand side by side with hanging arms.
   const int count = 1 + static_cast<int>(random.uniform(0, 3));

@@ -79,7 +79,7 @@ std::unique_ptr<Sequence> make_person(std::uint64_t seed) {
   StagedSequence::Setting s = setting(seed);
   const double distance = random.uniform(0.5, 0.85), range = 0.11 * distance;
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, distance);
-  s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
+  s.objects.push_back(make_wall(random.uniform(1.0, 2.5)));
 
   // Place the body behind the hand, at the distance of a bent arm.
   const BodySize size = random_body(random);
@@ -107,10 +107,11 @@ std::unique_ptr<Sequence> make_desk_work(std::uint64_t seed) {
   const SE3 T_world_body = standing(size, shoulder, random.uniform(-0.3, 0.3));
 
   // Place the desk between the body and the camera.
-  s.things = make_desk(-0.45, T_world_body.t.y() - size.depth - 0.04,
-                       FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
-  s.things.push_back(make_floor(kFloor));
-  s.things.push_back(make_wall(random.uniform(1.2, 2.5)));
+  s.objects =
+      make_desk(-0.45, T_world_body.t.y() - size.depth - 0.04,
+                FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
+  s.objects.push_back(make_floor(kFloor));
+  s.objects.push_back(make_wall(random.uniform(1.2, 2.5)));
   add_person(s, size, T_world_body, centre, {-Vector3d::UnitY(), -Vector3d::UnitZ(), 0.9, {0.09, 0.07, 0.03}}, true,
              random);
   return std::make_unique<StagedSequence>(std::move(s));
@@ -131,10 +132,11 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
   const SE3 T_world_body = standing(size, shoulder, std::numbers::pi);
 
   // Place the desk in front of the body.
-  s.things = make_desk(T_world_body.t.y() + size.depth + 0.04, 0.55,
-                       FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
-  s.things.push_back(make_floor(kFloor));
-  s.things.push_back(make_wall(random.uniform(1.0, 2.0)));
+  s.objects =
+      make_desk(T_world_body.t.y() + size.depth + 0.04, 0.55,
+                FreeLines{centre.head<2>(), shoulder.head<2>(), s.T_camera_world.inverse().t.head<2>()}, random);
+  s.objects.push_back(make_floor(kFloor));
+  s.objects.push_back(make_wall(random.uniform(1.0, 2.0)));
   add_person(s, size, T_world_body, centre, {Vector3d::UnitY(), -Vector3d::UnitZ(), 0.9, {0.09, 0.07, 0.03}}, false,
              random);
   return std::make_unique<StagedSequence>(std::move(s));
@@ -144,7 +146,7 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, random.uniform(0.6, 1.1));
-  s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
+  s.objects.push_back(make_wall(random.uniform(1.0, 2.5)));
 
   // Let each arm either be visible and end in a sleeve, or rest out of sight.
   Body::Setting body{random_body(random), {}, {}, true, true};
@@ -175,9 +177,9 @@ std::unique_ptr<Sequence> make_empty_desk(std::uint64_t seed) {
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(30, 65) * kDegree, random.uniform(0.55, 0.9));
-  s.things = make_desk(-0.45, random.uniform(0.3, 0.6), {}, random);
-  s.things.push_back(make_floor(kFloor));
-  s.things.push_back(make_wall(random.uniform(1.0, 2.5)));
+  s.objects = make_desk(-0.45, random.uniform(0.3, 0.6), {}, random);
+  s.objects.push_back(make_floor(kFloor));
+  s.objects.push_back(make_wall(random.uniform(1.0, 2.5)));
   return std::make_unique<StagedSequence>(std::move(s));
 }
 

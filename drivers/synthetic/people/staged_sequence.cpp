@@ -21,7 +21,7 @@ SmoothTrack make_track(const std::vector<CameraKey>& keys) {
 }  // namespace
 
 StagedSequence::StagedSequence(Setting setting) : setting_(std::move(setting)), camera_(make_track(setting_.camera)) {
-  for (const PlacedObject& thing : setting_.things) objects_.push_back(thing.object);
+  for (const PlacedObject& placed : setting_.objects) objects_.push_back(placed.object);
   for (const Body& body : setting_.bodies)
     for (SceneObject& part : body.objects()) objects_.push_back(std::move(part));
   if (!setting_.hand.empty()) hand_.emplace(setting_.R_world_hand, setting_.hand);
@@ -38,7 +38,7 @@ SceneState StagedSequence::at(double time) const {
   // Place the objects that stand still.
   const SE3 T_camera = world_in_camera(time);
   SceneState state;
-  for (const PlacedObject& thing : setting_.things) state.T_camera_object.push_back(T_camera * thing.T_world_object);
+  for (const PlacedObject& placed : setting_.objects) state.T_camera_object.push_back(T_camera * placed.T_world_object);
 
   // Pose the hand, and find the elbow of its arm.
   std::optional<Eigen::Vector3d> wrist;

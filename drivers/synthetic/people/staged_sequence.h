@@ -32,7 +32,7 @@ class StagedSequence : public Sequence {
     std::uint64_t seed = 0;
     SE3 T_camera_world;
     std::vector<CameraKey> camera = {{}};
-    std::vector<PlacedObject> things;
+    std::vector<PlacedObject> objects;
     std::vector<Body> bodies;
     std::vector<HandKey> hand;                                   ///< keyframes in the world frame; empty: no hand
     Eigen::Matrix3d R_world_hand = Eigen::Matrix3d::Identity();  ///< base orientation of these keyframes

@@ -93,7 +93,7 @@ double kinect_axial_sigma(const KinectNoise& noise, double z) {
 
 Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& view, std::span<const Material> materials,
                                 const KinectNoise& noise, std::uint64_t seed, std::uint32_t frame) const {
-  Image<float> spoilt(view.depth.width(), view.depth.height(), 0.0f);
+  Image<float> noisy(view.depth.width(), view.depth.height(), 0.0f);
   const Patches patches(view.depth.width(), view.depth.height(), seed, frame);
   std::vector<bool> lit;
 
@@ -116,15 +116,15 @@ Image<float> DepthNoise::kinect(const Intrinsics& camera, const RenderedView& vi
       // All other pixels get lateral and axial noise.
       const float lateral = lateral_sigma(noise, view.cosine.at(u, v));
       const float z = sample(view.depth, static_cast<float>(u) + lateral * n0, static_cast<float>(v) + lateral * n1);
-      if (z > 0) spoilt.at(u, v) = z + static_cast<float>(kinect_axial_sigma(noise, z)) * n2;
+      if (z > 0) noisy.at(u, v) = z + static_cast<float>(kinect_axial_sigma(noise, z)) * n2;
     }
   }
-  return spoilt;
+  return noisy;
 }
 
 Image<float> DepthNoise::tof(const RenderedView& view, const TofNoise& noise, std::uint64_t seed,
                              std::uint32_t frame) const {
-  Image<float> spoilt(view.depth.width(), view.depth.height(), 0.0f);
+  Image<float> noisy(view.depth.width(), view.depth.height(), 0.0f);
   for (int v = 0; v < view.depth.height(); ++v)
     for (int u = 0; u < view.depth.width(); ++u) {
       float z = view.depth.at(u, v);
@@ -144,9 +144,9 @@ Image<float> DepthNoise::tof(const RenderedView& view, const TofNoise& noise, st
       const float albedo = std::max(0.05f, static_cast<float>(c.r + c.g + c.b) / 765.0f);
       const float returned = albedo * view.cosine.at(u, v) / (4 * z * z);
       if (returned < 0.004f) continue;  // too little light returns for a measurement
-      spoilt.at(u, v) = z + static_cast<float>(noise.axial) / std::sqrt(returned) * normal(bits[0]);
+      noisy.at(u, v) = z + static_cast<float>(noise.axial) / std::sqrt(returned) * normal(bits[0]);
     }
-  return spoilt;
+  return noisy;
 }
 
 }  // namespace barehand::synthetic

@@ -51,8 +51,8 @@ std::unique_ptr<Sequence> make_two_hands(std::uint64_t seed);
 /// A hand behind a plate that hides `degree` / 6 of the fingers; `degree` is 0 to 6.
 std::unique_ptr<Sequence> make_occlusion(const HandRig& rig, int degree, std::uint64_t seed);
 /// The object of a grasp sequence.
-enum class GraspedThing { mug, ball, pliers };
+enum class GraspedShape { mug, ball, pliers };
 /// A hand that grasps, lifts, turns and releases an object on a table.
-std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedThing thing, std::uint64_t seed);
+std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedShape shape, std::uint64_t seed);
 
 }  // namespace barehand::synthetic

@@ -20,25 +20,25 @@ void set_joint(FingerAngles& finger, const FingerAngles& open, const FingerAngle
 
 GraspPlanner::GraspPlanner(const HandRig& rig) : rig_(rig), skinner_(rig.mesh) {}
 
-std::array<double, kSegmentCount> GraspPlanner::clearance(const HandAngles& angles, const SE3& T_palm_thing,
-                                                          const SignedDistance& thing) const {
+std::array<double, kSegmentCount> GraspPlanner::clearance(const HandAngles& angles, const SE3& T_palm_object,
+                                                          const SignedDistance& object_distance) const {
   std::vector<Eigen::Vector3f> skin;
   skinner_.deform(pose_segments(rig_.profile, {SE3{}, angles}), skin);
-  const SE3 T_thing_palm = T_palm_thing.inverse();
+  const SE3 T_object_palm = T_palm_object.inverse();
   std::array<double, kSegmentCount> nearest;
   nearest.fill(std::numeric_limits<double>::max());
   for (std::size_t v = 0; v < skin.size(); ++v) {
     double& segment = nearest[skinner_.vertex_segments()[v]];
-    segment = std::min(segment, thing(T_thing_palm * skin[v].cast<double>()));
+    segment = std::min(segment, object_distance(T_object_palm * skin[v].cast<double>()));
   }
   return nearest;
 }
 
-SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& direction, const SignedDistance& thing,
-                                const HandAngles& angles) const {
-  SE3 T = T_palm_thing;
+SE3 GraspPlanner::place_at_palm(const SE3& T_palm_object, const Eigen::Vector3d& direction,
+                                const SignedDistance& object_distance, const HandAngles& angles) const {
+  SE3 T = T_palm_object;
   for (int i = 0; i < 60; ++i) {  // distances are never overestimated, so that no step goes beyond the contact
-    const auto gap = clearance(angles, T, thing);
+    const auto gap = clearance(angles, T, object_distance);
     const double missing = kContact - *std::min_element(gap.begin(), gap.end());
     if (std::abs(missing) < 1e-5) break;
     T.t += missing * direction;
@@ -46,11 +46,11 @@ SE3 GraspPlanner::place_at_palm(const SE3& T_palm_thing, const Eigen::Vector3d& 
   return T;
 }
 
-HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed, const SE3& T_palm_thing,
-                               const SignedDistance& thing) const {
+HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed, const SE3& T_palm_object,
+                               const SignedDistance& object_distance) const {
   HandAngles angles = open;
   std::array<int, kFingerCount> first_free{};  // of each finger; the joints before this one have stopped
-  const SE3 T_thing_palm = T_palm_thing.inverse();
+  const SE3 T_object_palm = T_palm_object.inverse();
   std::vector<Eigen::Vector3f> skin, before;
   std::vector<double> margin;  // of every vertex: it can come nearer by this before it touches; a lower bound
   for (int step = 1; step <= kSteps; ++step) {
@@ -69,7 +69,7 @@ HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed,
       int& free = first_free[finger_of(segment)];
       const int next = (segment - 1) % 3 + 1;
       if (margin[v] > 0 || free >= next) continue;
-      margin[v] = thing(T_thing_palm * skin[v].cast<double>()) - kContact;
+      margin[v] = object_distance(T_object_palm * skin[v].cast<double>()) - kContact;
       if (margin[v] < 0) free = next;
     }
     std::swap(before, skin);

@@ -1,4 +1,4 @@
-// Sequences in which a hand grasps an object (the "thing"): a mug, a ball or pliers.
+// Sequences in which a hand grasps an object: a mug, a ball or pliers.
 #include <cmath>
 
 #include "drivers/synthetic/random_keys.h"
@@ -19,9 +19,9 @@ struct GraspPlan {
   std::vector<SE3> T_world_stand;    ///< poses of the objects that it stands on
   SignedDistance distance;           ///< distance from the grasped object's surface
   HandAngles open, closed;           ///< the hand before the grasp, and closed as far as possible
-  SE3 T_palm_thing;                  ///< start of the search for the pose at which the object touches the palm
+  SE3 T_palm_object;                 ///< start of the search for the pose at which the object touches the palm
   Vector3d towards_palm_out;  ///< direction along which this search moves the object, away from the palm (palm frame)
-  SE3 T_world_thing;          ///< pose of the object at rest
+  SE3 T_world_object;         ///< pose of the object at rest
 };
 
 /// The rotation matrix with these x and y axes.
@@ -60,13 +60,13 @@ GraspPlan plan_mug() {
 
   // The handle is on the side away from the palm, a little towards the wrist.
   const Vector3d handle = (0.86 * -y_palm - 0.5 * fingers).normalized();
-  const Eigen::Matrix3d R_world_thing = axes(handle, up.cross(handle));
+  const Eigen::Matrix3d R_world_object = axes(handle, up.cross(handle));
 
   // Place the mug, and choose the shapes of the hand before and after the grasp.
   plan.objects = {{"mug", make_mug(size), {{182, 48, 40}, 0.6}}};
   plan.distance = cylinder_distance(size.radius, size.height / 2);
-  plan.T_world_thing = {R_world_thing, {0.02, 0.03, size.height / 2}};
-  plan.T_palm_thing = {R_world_palm.transpose() * R_world_thing, {-0.012, -0.12, -0.085}};
+  plan.T_world_object = {R_world_object, {0.02, 0.03, size.height / 2}};
+  plan.T_palm_object = {R_world_palm.transpose() * R_world_object, {-0.012, -0.12, -0.085}};
   plan.towards_palm_out = -Vector3d::UnitY();
   plan.open = preshape(2, 14, 14, 8);
   plan.closed = closed_shape(14);
@@ -86,12 +86,12 @@ GraspPlan plan_ball() {
   // Make the grasped object and what it rests on, and place them.
   const Eigen::Vector2d outline[] = {{1e-6, 0}, {0.022, 0}, {0.022, 0.004}, {0.007, 0.006}, {0.005, kPost}};
   plan.objects = {{"ball", make_sphere(kRadius), {{176, 190, 38}}}, {"post", make_turned(outline), {{52, 52, 58}}}};
-  plan.T_world_thing = {Eigen::Matrix3d::Identity(), {0, 0.02, kPost + kRadius - 0.001}};
+  plan.T_world_object = {Eigen::Matrix3d::Identity(), {0, 0.02, kPost + kRadius - 0.001}};
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {0, 0.02, 0}}};
 
   // Choose where the search for the contact starts, and the shapes of the hand.
   plan.distance = sphere_distance(kRadius);
-  plan.T_palm_thing = {R_world_palm.transpose(), {-0.010, -0.10, -0.090}};
+  plan.T_palm_object = {R_world_palm.transpose(), {-0.010, -0.10, -0.090}};
   plan.towards_palm_out = -Vector3d::UnitY();
   plan.open = preshape(26, 14, 18, 10);
   plan.closed = closed_shape(30);
@@ -117,22 +117,22 @@ GraspPlan plan_pliers() {
   // Make the grasped object and what it rests on, and place them.
   plan.objects = {{"pliers", make_pliers(size), {{196, 60, 32}, 0.3}},
                   {"rack", make_box({0.012, 0.02, 0.045}), {{92, 74, 56}}}};
-  plan.T_world_thing = {R_world_palm, {0.0, 0.03, kHeight}};
-  const Vector3d jaws = plan.T_world_thing * Vector3d(-0.45 * size.length, 0, 0);
+  plan.T_world_object = {R_world_palm, {0.0, 0.03, kHeight}};
+  const Vector3d jaws = plan.T_world_object * Vector3d(-0.45 * size.length, 0, 0);
   plan.T_world_stand = {{Eigen::Matrix3d::Identity(), {jaws.x(), jaws.y(), 0.045}}};
 
   // Choose where the search for the contact starts, and the shapes of the hand.
   plan.distance = union_of({tube_distance(upper, size.handle_radius), tube_distance(lower, size.handle_radius)});
-  plan.T_palm_thing = {Eigen::Matrix3d::Identity(), {0.006, -0.08, -0.082}};
+  plan.T_palm_object = {Eigen::Matrix3d::Identity(), {0.006, -0.08, -0.082}};
   plan.towards_palm_out = -Vector3d::UnitY();
   plan.open = preshape(20, 24, 26, 12);
   plan.closed = closed_shape(28);
   return plan;
 }
 
-GraspPlan plan_for(GraspedThing thing) {
-  if (thing == GraspedThing::mug) return plan_mug();
-  return thing == GraspedThing::ball ? plan_ball() : plan_pliers();
+GraspPlan plan_for(GraspedShape shape) {
+  if (shape == GraspedShape::mug) return plan_mug();
+  return shape == GraspedShape::ball ? plan_ball() : plan_pliers();
 }
 
 /// A hand that reaches for an object, grasps, lifts, turns, lowers and releases it, and withdraws. Times in seconds.
@@ -142,12 +142,12 @@ class GraspSequence : public Sequence {
       : T_camera_world_(camera_above_table(46 * kDegree, 0.60, 0.13)),
         objects_(std::move(plan.objects)),
         T_world_stand_(plan.T_world_stand),
-        T_world_thing_(plan.T_world_thing) {
+        T_world_object_(plan.T_world_object) {
     // Plan the grasp once; the contact stays the same while the object is held.
     const GraspPlanner planner(rig);
-    T_palm_thing_ = planner.place_at_palm(plan.T_palm_thing, plan.towards_palm_out, plan.distance, plan.open);
-    T_world_grasp_ = T_world_thing_ * T_palm_thing_.inverse();
-    held_ = planner.close(plan.open, plan.closed, T_palm_thing_, plan.distance);
+    T_palm_object_ = planner.place_at_palm(plan.T_palm_object, plan.towards_palm_out, plan.distance, plan.open);
+    T_world_grasp_ = T_world_object_ * T_palm_object_.inverse();
+    held_ = planner.close(plan.open, plan.closed, T_palm_object_, plan.distance);
     track_ = std::make_unique<HandTrack>(T_world_grasp_.R, keys(plan.open, seed));
     objects_.front().grasped = true;
     objects_.push_back(make_table());
@@ -166,7 +166,7 @@ class GraspSequence : public Sequence {
     // Move the object with the palm while it is held.
     SceneState state;
     state.held = time > kGrasped && time < kReleasing;
-    state.T_camera_object.push_back(T_camera_world_ * (state.held ? T_world_palm * T_palm_thing_ : T_world_thing_));
+    state.T_camera_object.push_back(T_camera_world_ * (state.held ? T_world_palm * T_palm_object_ : T_world_object_));
     for (const SE3& T : T_world_stand_) state.T_camera_object.push_back(T_camera_world_ * T);
     state.T_camera_object.push_back(T_camera_world_);  // the table
 
@@ -209,15 +209,15 @@ class GraspSequence : public Sequence {
   SE3 T_camera_world_;
   std::vector<SceneObject> objects_;
   std::vector<SE3> T_world_stand_;
-  SE3 T_world_thing_, T_palm_thing_, T_world_grasp_;
+  SE3 T_world_object_, T_palm_object_, T_world_grasp_;
   HandAngles held_;
   std::unique_ptr<HandTrack> track_;
 };
 
 }  // namespace
 
-std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedThing thing, std::uint64_t seed) {
-  return std::make_unique<GraspSequence>(rig, plan_for(thing), seed);
+std::unique_ptr<Sequence> make_grasp(const HandRig& rig, GraspedShape shape, std::uint64_t seed) {
+  return std::make_unique<GraspSequence>(rig, plan_for(shape), seed);
 }
 
 }  // namespace barehand::synthetic

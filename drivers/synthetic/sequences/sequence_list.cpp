@@ -67,9 +67,9 @@ Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const H
   if (name == "wave") return make_wave(seed);
   if (name == "returns") return make_returns(seed);
   if (name == "two_hands") return make_two_hands(seed);
-  if (name == "grasp_mug") return make_grasp(*rig, GraspedThing::mug, seed);
-  if (name == "grasp_ball") return make_grasp(*rig, GraspedThing::ball, seed);
-  if (name == "grasp_pliers") return make_grasp(*rig, GraspedThing::pliers, seed);
+  if (name == "grasp_mug") return make_grasp(*rig, GraspedShape::mug, seed);
+  if (name == "grasp_ball") return make_grasp(*rig, GraspedShape::ball, seed);
+  if (name == "grasp_pliers") return make_grasp(*rig, GraspedShape::pliers, seed);
   if (name == "grasp") return make_varied_grasp(*rig, choice, seed);
   if (name == "person") return make_person(seed);
   if (name == "desk") return make_desk_work(seed);

@@ -57,7 +57,7 @@ class MeasuringSink : public Sink {
     out.seconds = static_cast<double>(end_us_ - start_us_) * 1e-6;
     out.frames_per_second = counted / std::max(out.seconds, 1e-9);
     out.cpu_seconds_per_frame = (cpu_end_ - cpu_start_) / counted;
-    out.tracked_share = static_cast<double>(tracked_) / counted;
+    out.tracked_fraction = static_cast<double>(tracked_) / counted;
     out.resident_mb = resident_mb_;
   }
 

@@ -39,7 +39,7 @@ struct BenchResult {
   double seconds = 0;  ///< wall clock time
   double frames_per_second = 0;
   double cpu_seconds_per_frame = 0;
-  double tracked_share = 0;         ///< fraction of frames in which all hands are tracked: a lost hand costs less time
+  double tracked_fraction = 0;      ///< fraction of frames in which all hands are tracked: a lost hand costs less time
   PipelineHealth health;            ///< includes the times of stages and queues
   TimeSummary received;             ///< age of a hand's state when it is received through LCM; live runs only
   std::int64_t frame_bytes = 0;     ///< memory of the stored frames, which is part of the resident memory

@@ -27,7 +27,7 @@ Json to_json(const BenchRow& row) {
                {"seconds", rounded(r.seconds)},
                {"frames_per_second", rounded(r.frames_per_second)},
                {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
-               {"tracked_share", rounded(r.tracked_share)},
+               {"tracked_share", rounded(r.tracked_fraction)},
 
                // Write dropped frames and memory.
                {"dropped", r.health.dropped},

@@ -113,7 +113,7 @@ Result<void> measure_all(const std::vector<NamedCase>& cases, const Input& input
                          BenchReport& report, std::ostream& told) {
   for (int round = 0; round < options.repeat; ++round)  // repeats all cases in turn: other load affects all of them
     for (const NamedCase& named : cases) {
-      if (options.json.empty() && nobody_reads()) return {};
+      if (options.json.empty() && output_is_closed()) return {};
       auto row = measure(named, report.conditions, input);
       if (!row) return tl::unexpected(row.error());
       told << bench_text(*row) << std::flush;

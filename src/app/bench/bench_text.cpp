@@ -19,7 +19,7 @@ std::string bench_text(const BenchRow& row) {
   std::string text = formatted("%s, %dx%d, %d threads", row.config.c_str(), row.width, row.height, row.threads);
   if (!row.sweep.empty()) text += formatted(", %s = %g", row.sweep.c_str(), row.value);
   text += formatted(": %.1f frames/s, %.2f ms CPU per frame, tracked in %.0f %%, %lld dropped\n", r.frames_per_second,
-                    r.cpu_seconds_per_frame * 1e3, r.tracked_share * 100, static_cast<long long>(r.health.dropped));
+                    r.cpu_seconds_per_frame * 1e3, r.tracked_fraction * 100, static_cast<long long>(r.health.dropped));
 
   // Write the memory.
   text += formatted("  resident: peak %.0f MB, of which %.0f MB are the stored frames\n", r.peak_bytes / kMegabyte,

@@ -55,7 +55,7 @@ Finding check_mesh(Handedness side) {
   return {Level::ok, subject, *path, ""};
 }
 
-Finding judge(const UsbSensor& sensor) {
+Finding check_sensor(const UsbSensor& sensor) {
   if (const auto& obstacle = sensor.obstacle)
     return {Level::problem, "USB", to_text(sensor) + ": " + obstacle->what + " (" + obstacle->where + ")",
             obstacle->remedy};
@@ -177,7 +177,7 @@ std::vector<Finding> check_usb() {
   if (!sensors) return {{Level::note, "USB", sensors.error().what, sensors.error().remedy}};
   if (sensors->empty()) return {{Level::note, "USB", "no known depth sensor is plugged in", ""}};
   std::vector<Finding> findings;
-  for (const UsbSensor& sensor : *sensors) findings.push_back(judge(sensor));
+  for (const UsbSensor& sensor : *sensors) findings.push_back(check_sensor(sensor));
   return findings;
 }
 

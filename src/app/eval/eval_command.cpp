@@ -110,7 +110,7 @@ Result<void> evaluate_runs(const EvalOptions& o, const std::vector<ResultTable>&
   return {};
 }
 
-Result<void> judge_states(const EvalOptions& o, EvalReport& report) {
+Result<void> add_reliability(const EvalOptions& o, EvalReport& report) {
   std::vector<std::pair<ResultTable, StatedPoses>> sequences;
   for (std::size_t i = 0; i < o.states.size(); ++i) {
     auto truth = read_table(o.truths[i]);
@@ -119,13 +119,13 @@ Result<void> judge_states(const EvalOptions& o, EvalReport& report) {
     if (!states) return tl::unexpected(states.error());
     sequences.emplace_back(std::move(*truth), std::move(*states));
   }
-  auto reliability = judge_reliability(sequences);
+  auto reliability = evaluate_reliability(sequences);
   if (!reliability) return tl::unexpected(reliability.error());
   report.reliability = std::move(*reliability);
   return {};
 }
 
-Result<void> judge_contacts(const EvalOptions& o, EvalReport& report) {
+Result<void> add_contacts(const EvalOptions& o, EvalReport& report) {
   std::vector<ContactSequence> sequences;
   for (std::size_t i = 0; i < o.contacts.size(); ++i) {
     auto poses = read_table(o.truths[i]);
@@ -142,7 +142,7 @@ Result<void> judge_contacts(const EvalOptions& o, EvalReport& report) {
   return {};
 }
 
-Result<void> judge_grasps(const EvalOptions& o, EvalReport& report) {
+Result<void> add_grasps(const EvalOptions& o, EvalReport& report) {
   std::vector<GraspSequence> sequences;
   for (std::size_t i = 0; i < o.grasps.size(); ++i) {
     auto truth = read_grasp_truth(o.grasps[i]);
@@ -158,7 +158,7 @@ Result<void> judge_grasps(const EvalOptions& o, EvalReport& report) {
 }
 
 /// The mesh of an object lies beside the table of its poses, as the simulator writes it.
-Result<void> judge_objects(const EvalOptions& o, EvalReport& report) {
+Result<void> add_objects(const EvalOptions& o, EvalReport& report) {
   for (std::size_t i = 0; i < o.objects.size(); ++i) {
     auto truth = read_object_truth(o.objects[i]);
     if (!truth) return tl::unexpected(truth.error());
@@ -195,12 +195,12 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   EvalReport report;
   if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
   if (!o.states.empty() && !o.truths.empty())
-    if (const auto judged = judge_states(o, report); !judged) return tl::unexpected(judged.error());
+    if (const auto added = add_reliability(o, report); !added) return tl::unexpected(added.error());
   if (!o.contacts.empty())
-    if (const auto judged = judge_contacts(o, report); !judged) return tl::unexpected(judged.error());
+    if (const auto added = add_contacts(o, report); !added) return tl::unexpected(added.error());
   if (!o.grasps.empty())
-    if (const auto judged = judge_grasps(o, report); !judged) return tl::unexpected(judged.error());
-  if (const auto judged = judge_objects(o, report); !judged) return tl::unexpected(judged.error());
+    if (const auto added = add_grasps(o, report); !added) return tl::unexpected(added.error());
+  if (const auto added = add_objects(o, report); !added) return tl::unexpected(added.error());
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());

@@ -43,7 +43,7 @@ Json to_json(const EvaluatedRun& run, const std::optional<double>& hand_length) 
                {"joint_gap_mm", to_json(e.joint_gap, kMillimetre)}};
   for (int s = 0; s < kSegmentCount; ++s)
     json["segments_mm"][std::string(kSegmentNames[s])] = to_json(e.per_segment[s], kMillimetre);
-  json["phantom_frames"] = e.phantoms;
+  json["phantom_frames"] = e.false_hands;
   json["returns"] = Json::array();
   for (const Return& r : e.returns)
     json["returns"].push_back({{"frame", r.number}, {"frames_until_tracked", r.frames ? Json(*r.frames) : Json()}});
@@ -106,9 +106,9 @@ Json to_json(const ContactEvaluation& e) {
 Json to_json(const GraspCounts& c) {
   return {{"frames", c.frames},
           {"unknown", c.unknown},
-          {"right", rounded(c.share(c.right))},
-          {"right_kind", rounded(c.share(c.right_kind))},
-          {"confident_wrong", rounded(c.share(c.confident_wrong))}};
+          {"right", rounded(c.fraction(c.right))},
+          {"right_kind", rounded(c.fraction(c.right_kind))},
+          {"confident_wrong", rounded(c.fraction(c.confident_wrong))}};
 }
 
 Json to_json(const GraspEvaluation& e) {

@@ -41,8 +41,8 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
 
 /// Prints the frames in which a hand was reported although there was none, and how long it took to track a returning
 /// hand.
-void print_phantoms_and_returns(std::string& out, const Evaluation& e) {
-  if (!e.phantoms.empty()) out += "  frames with a hand although there is none: " + frame_list(e.phantoms) + "\n";
+void print_false_hands_and_returns(std::string& out, const Evaluation& e) {
+  if (!e.false_hands.empty()) out += "  frames with a hand although there is none: " + frame_list(e.false_hands) + "\n";
   if (e.returns.empty()) return;
   out += formatted("  %zu returns into view (frame: frames until tracked):", e.returns.size());
   for (const Return& r : e.returns)
@@ -62,7 +62,7 @@ void print_run(std::string& out, const EvaluatedRun& run, const std::optional<do
 
   // Print the frames that were lost.
   if (!e.lost.empty()) out += "  lost: " + frame_list(e.lost) + "\n";
-  print_phantoms_and_returns(out, e);
+  print_false_hands_and_returns(out, e);
 
   // Print the distributions of the errors.
   print_head(out, "error [mm]");
@@ -131,9 +131,9 @@ void print_contacts(std::string& out, const ContactEvaluation& e) {
 }
 
 void print_grasp_row(std::string& out, const std::string& name, const GraspCounts& c, const std::string& rest) {
-  out +=
-      formatted("  %-22s %9zu %9.1f %9.1f %9.1f %9.1f %s\n", name.c_str(), c.frames, 100 * c.share(c.right),
-                100 * c.share(c.right_kind), 100 * c.share(c.confident_wrong), 100 * c.share(c.unknown), rest.c_str());
+  out += formatted("  %-22s %9zu %9.1f %9.1f %9.1f %9.1f %s\n", name.c_str(), c.frames, 100 * c.fraction(c.right),
+                   100 * c.fraction(c.right_kind), 100 * c.fraction(c.confident_wrong), 100 * c.fraction(c.unknown),
+                   rest.c_str());
 }
 
 /// Which other class was stated most often.
@@ -143,7 +143,7 @@ std::string mistaken_for(const GraspCounts& counts, int truth) {
     if (k != truth && counts.stated[k] > (most < 0 ? 0 : counts.stated[most])) most = k;
   return most < 0
              ? ""
-             : formatted("%s %.1f", std::string(grasp_name(most)).c_str(), 100 * counts.share(counts.stated[most]));
+             : formatted("%s %.1f", std::string(grasp_name(most)).c_str(), 100 * counts.fraction(counts.stated[most]));
 }
 
 void print_grasps(std::string& out, const GraspEvaluation& e) {

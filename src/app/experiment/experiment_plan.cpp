@@ -73,12 +73,12 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
 
   // Variants that each lack one of the rules for starting a track, choosing between poses and finding a lost hand.
   variant("no_detection").detection.enabled = false;
-  without("no_doubt", [](TrackerParams& p) { p.choice.doubt = 1000; });
-  without("no_uncross", [](TrackerParams& p) { p.choice.uncross = false; });
-  without("no_neutral_pose", [](TrackerParams& p) { p.relax = false; });
+  without("no_ambiguous_search", [](TrackerParams& p) { p.choice.ambiguity_margin = 1000; });
+  without("no_uncrossing", [](TrackerParams& p) { p.choice.uncross_fingers = false; });
+  without("no_neutral_pose", [](TrackerParams& p) { p.neutral_joints = false; });
   without("one_search", [](TrackerParams& p) { p.search_attempts = 1; });
-  without("no_confirmation", [](TrackerParams& p) { p.choice.unsure = 0; });
-  without("any_returning_hand", [](TrackerParams& p) { p.choice.unlike = 0; });
+  without("no_confirmation", [](TrackerParams& p) { p.choice.confirmation_factor = 0; });
+  without("any_returning_hand", [](TrackerParams& p) { p.choice.rejection_factor = 0; });
   without("no_side_check", [](TrackerParams& p) { p.side_check = false; });
   without("no_size_check", [](TrackerParams& p) { p.size_check = false; });
 

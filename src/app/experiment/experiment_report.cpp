@@ -6,8 +6,8 @@
 
 #include "core/format.h"
 #include "evaluation/chart.h"
+#include "io/atomic_file.h"
 #include "io/hand/json_fields.h"
-#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -114,8 +114,8 @@ std::string experiment_table(const ExperimentReport& report) {
 
 Result<void> write_experiment(const ExperimentReport& report, const std::string& directory) {
   const std::string path = directory + "/" + report.name;
-  return write_whole_file(path + ".txt", experiment_table(report))
-      .and_then([&] { return write_whole_file(path + ".csv", csv_of(report)); })
+  return write_file_atomically(path + ".txt", experiment_table(report))
+      .and_then([&] { return write_file_atomically(path + ".csv", csv_of(report)); })
       .and_then([&] { return json_fields::write_json(path + ".json", json_of(report)); })
       .and_then([&] { return write_chart(chart_of(report), path + ".png"); });
 }

@@ -9,9 +9,9 @@
 #include "app/sim/render_progress.h"
 #include "app/sim/sim_run.h"
 #include "drivers/synthetic/synthetic_source.h"
+#include "io/atomic_file.h"
 #include "io/hand/hand_json.h"
 #include "io/place.h"
-#include "io/whole_file.h"
 
 namespace barehand {
 namespace {
@@ -108,7 +108,7 @@ Step ExperimentRun::take_folder() const {
 
   fs::create_directories(options_.out, error);
   if (error) return stop({"cannot be created: " + error.message(), options_.out, "check the path"}, kExitUsage);
-  if (const auto marked = write_whole_file(options_.out + kMark, "made by barehand experiment\n"); !marked)
+  if (const auto marked = write_file_atomically(options_.out + kMark, "made by barehand experiment\n"); !marked)
     return stop(marked.error(), kExitUsage);
   return {};
 }

@@ -74,11 +74,11 @@ int listen(const ListenOptions& options) {
                                std::fflush(stdout);
                                ++seen;
                              });
-  while (!stop && !nobody_reads() && !listener.broken() && (options.count == 0 || seen < options.count)) {
+  while (!stop && !output_is_closed() && !listener.broken() && (options.count == 0 || seen < options.count)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (listener.broken()) std::cerr << "barehand listen: the LCM connection broke\n";
-  if (nobody_reads()) return kExitBrokenPipe;
+  if (output_is_closed()) return kExitBrokenPipe;
   if (listener.broken()) return kExitFailure;
   return printed(interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk);
 }

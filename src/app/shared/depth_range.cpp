@@ -17,7 +17,7 @@ constexpr double kFew = 1e-3;                 // a smaller fraction of depths wi
 
 }  // namespace
 
-std::optional<std::string> DepthRange::look(const RgbdFrame& frame) {
+std::optional<std::string> DepthRange::add(const RgbdFrame& frame) {
   if (done_) return std::nullopt;
   if (frames_++ == 0) first_utime_ = frame.utime;
   unit_ = frame.depth_unit;

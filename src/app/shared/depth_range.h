@@ -22,8 +22,8 @@ class DepthRange {
   explicit DepthRange(const DepthLimits& limits) : limits_(limits) {}
 
   /// Adds a frame. Returns a warning for the user, usually none.
-  std::optional<std::string> look(const RgbdFrame& frame);
-  /// Call it when no more frames come. Returns a warning as `look` does.
+  std::optional<std::string> add(const RgbdFrame& frame);
+  /// Call it when no more frames come. Returns a warning as `add` does.
   std::optional<std::string> finish();
 
  private:

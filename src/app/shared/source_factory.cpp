@@ -1,7 +1,7 @@
 // Opens the source of frames that the user asks for with --source.
 #include "app/shared/source_factory.h"
 
-#include "app/shared/watched_source.h"
+#include "app/shared/checked_source.h"
 #include "drivers/folder/folder_source.h"
 #include "drivers/lcm/lcm_live_source.h"
 #include "drivers/lcm/lcm_log_source.h"
@@ -46,7 +46,7 @@ Result<OpenSource> open_folder(const std::string& directory, const SourceRequest
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
   open.fps = (*source)->recording().fps;
-  open.warnings = (*source)->recording().doubts;
+  open.warnings = (*source)->recording().warnings;
   if (const auto outside = outside_warning((*source)->recording())) open.warnings.push_back(*outside);
   open.source = std::move(*source);
   return open;
@@ -62,7 +62,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.frames = (*source)->remaining();
-  open.warnings = (*source)->doubts();
+  open.warnings = (*source)->warnings();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warnings.push_back(path + ": " + std::to_string(bytes) +
                             " bytes are damaged or cut off; every complete event is played");
@@ -84,7 +84,7 @@ Result<OpenSource> open_mcap(const std::string& path, const SourceRequest& reque
   OpenSource open;
   open.frames = (*source)->remaining();
   open.fps = (*source)->fps();
-  open.warnings = (*source)->doubts();
+  open.warnings = (*source)->warnings();
   open.source = std::move(*source);
   return open;
 }
@@ -169,7 +169,7 @@ Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock)
   auto open = open_kind(request, clock);
   // Check the images, except for the simulator's, which may be identical if they have no noise.
   if (open && !request.spec.starts_with("sim:"))
-    open->source = std::make_unique<WatchedSource>(std::move(open->source), request.depth, clock);
+    open->source = std::make_unique<CheckedSource>(std::move(open->source), request.depth, clock);
   return open;
 }
 

@@ -23,7 +23,7 @@ void prepare_standard_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool nobody_reads() {
+bool output_is_closed() {
   pollfd output{STDOUT_FILENO, 0, 0};  // poll() always reports POLLERR and POLLHUP, even if no events are requested
   return poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
 }
@@ -32,7 +32,7 @@ int printed(int exit_code) {
   std::cout.flush();
   std::fflush(stdout);
   if (std::cout && std::ferror(stdout) == 0) return exit_code;
-  if (nobody_reads()) return kExitBrokenPipe;
+  if (output_is_closed()) return kExitBrokenPipe;
   std::cerr << "barehand: standard output cannot be written: is the disk full?" << std::endl;
   return kExitFailure;
 }

@@ -8,7 +8,7 @@ namespace barehand {
 void prepare_standard_streams();
 
 /// Whether the reader of the standard output (the other end of a pipe, a terminal) has gone.
-bool nobody_reads();
+bool output_is_closed();
 
 /// Returns the exit code of a command that has printed something: `exit_code` if all of it was written, kExitBrokenPipe
 /// if its reader has gone, and kExitFailure, with a line on standard error, if it could not be written.

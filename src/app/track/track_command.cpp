@@ -54,7 +54,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   track
       ->add_option(
           "--object", o.objects,
-          "mesh of a thing that the hand may hold (OBJ, PLY, STL, glTF), which is then tracked, too; repeat it "
+          "mesh of an object that the hand may hold (OBJ, PLY, STL, glTF), which is then tracked, too; repeat it "
           "for several")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

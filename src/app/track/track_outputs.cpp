@@ -80,8 +80,8 @@ std::string free_name(const std::string& path, const IsTaken& is_taken) {
 
 }  // namespace
 
-Result<TrackOptions> settle_outputs(TrackOptions options, const std::string& config_path,
-                                    const TwoHandTracker::Profiles& hands, bool live) {
+Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& config_path,
+                                     const TwoHandTracker::Profiles& hands, bool live) {
   const auto room = check_room_for(hands, "--result", options.result).and_then([&] {
     return check_room_for(hands, "--save-hand", options.save_hand);
   });

@@ -20,7 +20,7 @@
 #include "app/track/track_outputs.h"
 #include "core/available_memory.h"
 #include "core/parallel/parallel.h"
-#include "hand/profile_doubts.h"
+#include "hand/profile_warnings.h"
 #include "io/data_files.h"
 #include "io/file_bytes.h"
 #include "io/hand/pose_json.h"
@@ -94,7 +94,7 @@ class TrackRun {
   }
   PipelineHealth with_view(PipelineHealth health) const;
   int conclude(const RunResult& result);
-  int judge_frames(const PipelineHealth& health);
+  int exit_code_of_frames(const PipelineHealth& health);
 
   TrackOptions options_;
   const Config& config_;
@@ -169,7 +169,7 @@ Step TrackRun::use_hands() {
   if (!hands) return usage(hands.error());
   for (const NamedHand& hand : *hands) {
     log_.logger().info("hand profile: {}", hand.name);
-    for (const std::string& doubt : profile_doubts(*hand.profile)) log_.logger().warn("{}: {}", hand.name, doubt);
+    for (const std::string& warning : profile_warnings(*hand.profile)) log_.logger().warn("{}: {}", hand.name, warning);
   }
   profiles_ = profiles_of(*hands);
   return {};
@@ -191,14 +191,15 @@ Step TrackRun::choose_start() {
 }
 
 Step TrackRun::choose_outputs() {
-  auto settled = settle_outputs(options_, find_config(options_.config).value_or(""), profiles_, input_.source->live());
-  if (!settled) return usage(settled.error());
+  auto resolved =
+      resolve_outputs(options_, find_config(options_.config).value_or(""), profiles_, input_.source->live());
+  if (!resolved) return usage(resolved.error());
   const auto tell = [&](const std::string& wanted, const std::string& chosen) {
     if (wanted != chosen) log_.logger().info("{} exists already, writing {}", wanted, chosen);
   };
-  for (const auto file : TrackOptions::kFiles) tell(options_.*file, (*settled).*file);
-  tell(options_.overlay, settled->overlay);
-  options_ = std::move(*settled);
+  for (const auto file : TrackOptions::kFiles) tell(options_.*file, (*resolved).*file);
+  tell(options_.overlay, resolved->overlay);
+  options_ = std::move(*resolved);
   return {};
 }
 
@@ -250,7 +251,7 @@ Step TrackRun::open_outputs() {
   if (!ok) return ok;
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
-        service_, [this] { return pipeline_->pulse(); }, [this] { return pipeline_->health(); }, clock_));
+        service_, [this] { return pipeline_->heartbeat(); }, [this] { return pipeline_->health(); }, clock_));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
@@ -313,7 +314,7 @@ Step TrackRun::open_view() {
     return {};
   }
   page_ = std::move(*page);
-  for (const auto& profile : profiles_) page_->server().know(profile);
+  for (const auto& profile : profiles_) page_->server().set_profile(profile);
   ViewSink::Input input{
       input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,
       config_.run.channel_prefix, page_->recorder()};
@@ -410,12 +411,12 @@ int TrackRun::conclude(const RunResult& result) {
     log_.logger().error(result.error->message());
     exit_code = kExitFailure;
   }
-  return exit_code == kExitOk ? judge_frames(result.health) : exit_code;
+  return exit_code == kExitOk ? exit_code_of_frames(result.health) : exit_code;
 }
 
 /// The exit code of a run that reached its end. Reports if most frames of a recording could not be used, and if no hand
 /// was found in any frame.
-int TrackRun::judge_frames(const PipelineHealth& health) {
+int TrackRun::exit_code_of_frames(const PipelineHealth& health) {
   const std::int64_t frames = health.captured + health.skipped, unusable = health.skipped + health.failed;
   if (!input_.source->live() && health.published == 0) {
     log_.logger().error("{}: nothing was tracked: of {} frames {} could not be read and {} failed; nothing is written",

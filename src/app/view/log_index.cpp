@@ -33,7 +33,7 @@ Result<LogIndex> LogIndex::open(const std::vector<std::string>& paths) {
 Result<void> LogIndex::add(const std::string& path) {
   auto log = MessageLog::open(path);
   if (!log) return tl::unexpected(log.error());
-  doubts_.insert(doubts_.end(), log->doubts().begin(), log->doubts().end());
+  warnings_.insert(warnings_.end(), log->warnings().begin(), log->warnings().end());
 
   // An MCAP file may have images without hands, such as a bag of ROS, or hands without images.
   std::unique_ptr<McapSource> images;
@@ -43,7 +43,7 @@ Result<void> LogIndex::add(const std::string& path) {
     if (source)
       images = std::move(*source);
     else
-      doubts_.push_back("no images are shown: " + source.error().message());
+      warnings_.push_back("no images are shown: " + source.error().message());
   }
   logs_.push_back({std::move(*log), std::move(images)});
   return {};

@@ -30,7 +30,7 @@ class LogIndex {
   /// The images of a frame where they are ROS messages of an MCAP file; null: there are none, or none that can be read.
   FramePtr image(std::int64_t frame);
   /// Sentences that say what of the logs is not shown, such as what is damaged or cut off.
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Log {
@@ -56,7 +56,7 @@ class LogIndex {
   bool has_pose(const Frame& frame);
 
   std::vector<Log> logs_;
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
   std::vector<Frame> frames_;  // in the order of time
   std::vector<LostFrames> lost_;
   bool any_states_ = false;

@@ -128,7 +128,7 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
 int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
   if (!index) return tell(index.error(), kExitUsage);
-  for (const std::string& doubt : index->doubts()) std::cerr << "barehand view: " << doubt << "\n";
+  for (const std::string& warning : index->warnings()) std::cerr << "barehand view: " << warning << "\n";
   std::string name;
   for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
   const SystemClock clock;

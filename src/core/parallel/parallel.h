@@ -37,7 +37,7 @@ class Workers {
   /// After go_live() it runs in the background with the lowest priority. Exceptions of fn are rethrown by the future's
   /// get().
   template <typename Fn>
-  auto aside(Fn fn) -> std::future<std::invoke_result_t<Fn&, Workers&>> {
+  auto run_in_background(Fn fn) -> std::future<std::invoke_result_t<Fn&, Workers&>> {
     if (live_)
       return std::async(std::launch::async, [fn = std::move(fn)]() mutable {
         give_way();
@@ -48,7 +48,7 @@ class Workers {
     done.wait();
     return done;
   }
-  /// Must be called when frames come from a live source, which long work must not delay (see aside()).
+  /// Must be called when frames come from a live source, which long work must not delay (see run_in_background()).
   void go_live() { live_ = true; }
 
  private:

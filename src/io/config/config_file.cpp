@@ -56,13 +56,27 @@ struct ConfigReader::State {
 
   std::string file;
   std::vector<Group> groups;
+  std::string former;                                ///< older name of the key that is visited next, or ""
   std::map<std::string, YAML::Node> values;          ///< scalars found so far, by "group.key"
   std::map<int, std::vector<std::string>> problems;  ///< texts by line number
 
   void problem(const YAML::Mark& mark, const std::string& text) { problems[mark.line + 1].push_back(text); }
 
-  /// The value of a key of the current group; undefined if the file does not name it.
+  /// The value of a key of the current group, under its own or its older name; undefined if the file has neither.
   YAML::Node find(const std::string& key) {
+    const std::string old = std::exchange(former, "");
+    const YAML::Node before = old.empty() ? YAML::Node(YAML::NodeType::Undefined) : entry_of(old);
+    const YAML::Node now = entry_of(key);
+    if (!before.IsDefined()) return now;
+
+    // Both names at once are an error. Messages about the value give the name that is in the file.
+    const std::string& path = groups.back().path;
+    if (now.IsDefined()) problem(before.Mark(), "'" + path + old + "' is now '" + path + key + "', give that alone");
+    groups.back().known.push_back(old);
+    return before;
+  }
+
+  YAML::Node entry_of(const std::string& key) {
     Group& group = groups.back();
     group.known.push_back(key);
     if (!group.node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
@@ -192,6 +206,8 @@ void ConfigReader::retired(const char* key, const char* now) {
   if (!same)
     state_->problem(old.Mark(), "'" + state_->groups.back().path + key + "' is now '" + now + "', give that alone");
 }
+
+void ConfigReader::formerly(const char* key) { state_->former = key; }
 
 void ConfigReader::begin_group(const char* key, const char*) {
   const YAML::Node node = state_->find(key);

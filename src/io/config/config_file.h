@@ -26,6 +26,7 @@ class ConfigReader final : public ConfigVisitor {
   void operator()(const char* key, std::vector<double>& values, double lo, double hi, const char* doc) override;
   /// Accepts the old key `key` if the file gives the same value to `now`, as older files do.
   void retired(const char* key, const char* now) override;
+  void formerly(const char* key) override;
 
   /// Call it after the last key. The error lists everything that was wrong.
   Result<void> finish();

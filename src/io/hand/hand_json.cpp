@@ -6,10 +6,10 @@
 #include <set>
 
 #include "core/format.h"
-#include "hand/profile_doubts.h"
+#include "hand/profile_warnings.h"
+#include "io/atomic_file.h"
 #include "io/hand/json_fields.h"
 #include "io/hand/skin_json.h"
-#include "io/whole_file.h"
 #include "math/angles.h"
 
 namespace barehand {
@@ -258,7 +258,7 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
 }
 
 Result<void> check_profile_path(const std::string& path) {
-  auto file = WholeFile::create(path, true);
+  auto file = AtomicFile::create(path, true);
   return file ? Result<void>() : tl::unexpected(file.error());
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/atomic_file.h"
 #include "io/file_bytes.h"
-#include "io/whole_file.h"
 
 namespace barehand::json_fields {
 
@@ -47,7 +47,7 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 
 Result<void> write_json(const std::string& path, const Json& json) {
   // A path in the text may be invalid UTF-8; its wrong bytes are replaced.
-  return write_whole_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Result<double> Object::number(const char* key, double lo, double hi) const {

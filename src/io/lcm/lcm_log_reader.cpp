@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/atomic_file.h"
 #include "io/lcm/lcm_log_writer.h"
-#include "io/whole_file.h"
 
 namespace barehand {
 namespace {

@@ -13,7 +13,7 @@
 
 namespace barehand {
 
-LcmLogWriter::LcmLogWriter(std::string path, WholeFile file, std::unique_ptr<lcm::LogFile> log)
+LcmLogWriter::LcmLogWriter(std::string path, AtomicFile file, std::unique_ptr<lcm::LogFile> log)
     : path_(std::move(path)), file_(std::move(file)), log_(std::move(log)) {}
 
 LcmLogWriter::~LcmLogWriter() {
@@ -24,7 +24,7 @@ namespace {
 
 /// Opens a log that writes to the descriptor of `whole`: LCM opens logs only by name, so the descriptor is exchanged
 /// afterwards. Returns null with errno set if it fails.
-std::unique_ptr<lcm::LogFile> open_log(const WholeFile& whole) {
+std::unique_ptr<lcm::LogFile> open_log(const AtomicFile& whole) {
   const int file = whole.open();
   if (file < 0) return nullptr;
   auto log = std::make_unique<lcm::LogFile>("/dev/null", "w");
@@ -36,7 +36,7 @@ std::unique_ptr<lcm::LogFile> open_log(const WholeFile& whole) {
 }  // namespace
 
 Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& path, bool overwrite) {
-  auto file = WholeFile::create(path, overwrite);
+  auto file = AtomicFile::create(path, overwrite);
   if (!file) return tl::unexpected(file.error());
   errno = 0;
   auto log = open_log(*file);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "io/atomic_file.h"
 #include "io/lcm/message_sink.h"
-#include "io/whole_file.h"
 
 namespace lcm {
 class LogFile;
@@ -16,7 +16,7 @@ namespace barehand {
 /// Size of an event in a log without its channel and its message [bytes].
 inline constexpr std::int64_t kEventHeader = 28;
 
-/// Writes an LCM log, which gets its name when it is finished (WholeFile); the destructor finishes a log that has
+/// Writes an LCM log, which gets its name when it is finished (AtomicFile); the destructor finishes a log that has
 /// events and removes one that has none. Every event is handed to the operating system before `send` returns, so a
 /// crash of the program loses nothing. If a write fails (disk full), the file is cut back to the last complete event
 /// and stays readable, and later events may succeed. If the reader of a named pipe has gone, events are lost until
@@ -43,12 +43,12 @@ class LcmLogWriter : public MessageSink {
   bool failed() const { return failed_; }
 
  private:
-  LcmLogWriter(std::string path, WholeFile file, std::unique_ptr<lcm::LogFile> log);
+  LcmLogWriter(std::string path, AtomicFile file, std::unique_ptr<lcm::LogFile> log);
   void start_write_back();
   tl::unexpected<Error> cut_back(int reason);
 
   std::string path_;
-  WholeFile file_;
+  AtomicFile file_;
   std::unique_ptr<lcm::LogFile> log_;  ///< the open log; null when it is finished
   std::int64_t events_ = 0;
   std::int64_t good_ = 0;          ///< size of the file up to the last complete event

@@ -8,8 +8,8 @@
 #include <map>
 #include <regex>
 
+#include "io/atomic_file.h"
 #include "io/mcap/mcap_reader.h"
-#include "io/whole_file.h"
 
 namespace barehand {
 namespace fs = std::filesystem;

@@ -29,7 +29,7 @@ struct FoundLogs {
 /// The logs that `path` stands for: the log itself; those of a folder; or, if neither exists, the parts of this name
 /// that lcm-logger or RotatingLog made. They are sorted by name, and parts by number; if lcm-logger rotates (take.0,
 /// take.1, ...), 0 is the newest. An empty log, whose writer was killed before its first event, is left out. A draft
-/// that a killed recorder left (WholeFile) counts as a log of its final name. It is left out if it is still being
+/// that a killed recorder left (AtomicFile) counts as a log of its final name. It is left out if it is still being
 /// written, or if another log has that name. Error: a folder without logs.
 Result<FoundLogs> find_logs(const std::string& path);
 

@@ -16,8 +16,8 @@ Result<MessageLog> MessageLog::open(const std::string& path) {
   auto lcm = LcmLogReader::open(path);
   if (!lcm) return tl::unexpected(lcm.error());
   if (const std::int64_t damaged = lcm->damaged_bytes(); damaged > 0)
-    log.doubts_.push_back(path + ": " + std::to_string(damaged) +
-                          " bytes are damaged or cut off; every complete event is used");
+    log.warnings_.push_back(path + ": " + std::to_string(damaged) +
+                            " bytes are damaged or cut off; every complete event is used");
   log.lcm_ = std::move(*lcm);
   return log;
 }
@@ -25,7 +25,7 @@ Result<MessageLog> MessageLog::open(const std::string& path) {
 Result<void> MessageLog::open_mcap(const std::string& path) {
   // List the LCM messages; the others are not for this log.
   const std::string type = ros::schema_name<ros::LcmMessage>();
-  const auto look = [&](const mcap::Message& message, const mcap::Channel& channel, auto bytes) {
+  const auto visit = [&](const mcap::Message& message, const mcap::Channel& channel, auto bytes) {
     if (channel.type != type || channel.encoding != "cdr") return;
     const auto lcm = ros::decode<ros::LcmMessage>(bytes);
     if (!lcm) return;
@@ -41,9 +41,9 @@ Result<void> MessageLog::open_mcap(const std::string& path) {
   };
 
   // Read the file once.
-  auto reader = mcap::McapReader::open(path, look);
+  auto reader = mcap::McapReader::open(path, visit);
   if (!reader) return tl::unexpected(reader.error());
-  doubts_ = reader->doubts();
+  warnings_ = reader->warnings();
   mcap_ = std::move(*reader);
   return {};
 }

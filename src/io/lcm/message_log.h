@@ -18,7 +18,7 @@ class MessageLog {
 
   const std::vector<LogEntry>& entries() const { return lcm_ ? lcm_->entries() : entries_; }  ///< in file order
   /// Sentences that say what was left out because it is damaged or cut off.
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   bool is_mcap() const { return mcap_.has_value(); }
 
   /// Reads the message of an entry. This fails only if the file changes or the disk breaks.
@@ -31,7 +31,7 @@ class MessageLog {
   std::optional<mcap::McapReader> mcap_;
   std::vector<LogEntry> entries_;  // of an MCAP file; LogEntry::position is the index into `messages_`
   std::vector<mcap::Message> messages_;
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace barehand

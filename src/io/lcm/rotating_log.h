@@ -32,7 +32,7 @@ Result<FileLock> lock_set(const std::string& path, std::chrono::milliseconds pat
 
 /// An endless recording: a set of LCM logs, each complete in itself. "take.lcmlog" becomes
 /// take-000001-20261122T090000Z.lcmlog and so on; the numbers continue those of existing files. A file gets its name
-/// when it is closed (WholeFile); one that a killed program left gets it when the set is continued. When the quota is
+/// when it is closed (AtomicFile); one that a killed program left gets it when the set is continued. When the quota is
 /// used up, and when the disk is full, the oldest files of the set are removed, never the one that is being written.
 /// Without a quota nothing is removed.
 class RotatingLog : public MessageSink {

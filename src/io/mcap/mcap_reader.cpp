@@ -44,11 +44,11 @@ bool is_mcap(const std::string& path) {
          std::string_view(start.data(), start.size()) == kMagic;
 }
 
-Result<McapReader> McapReader::open(const std::string& path, const Look& look) {
+Result<McapReader> McapReader::open(const std::string& path, const MessageVisitor& visit) {
   if (!is_mcap(path)) return fail("is not an MCAP file", path, "give one, an LCM log or a recording folder");
   McapReader reader(path);
   if (const auto opened = reader.open_file(); !opened) return tl::unexpected(opened.error());
-  reader.scan(look);
+  reader.scan(visit);
   return reader;
 }
 
@@ -68,9 +68,9 @@ bool McapReader::read_at(std::uint64_t at, std::uint64_t size, Bytes& out) {
          std::fread(out.data(), 1, out.size(), file_.get()) == out.size();
 }
 
-void McapReader::doubt(std::string what) { doubts_.push_back(path_ + ": " + std::move(what)); }
+void McapReader::warn(std::string what) { warnings_.push_back(path_ + ": " + std::move(what)); }
 
-void McapReader::scan(const Look& look) {
+void McapReader::scan(const MessageVisitor& visit) {
   // Go from record to record.
   std::uint64_t lost = 0;  // number of bytes that are not part of a record
   bool ended = false;
@@ -80,7 +80,7 @@ void McapReader::scan(const Look& look) {
     const bool known = read_at(at, kRecordHeader, header);
     if (known) std::memcpy(&size, &header[1], sizeof size);
     const std::uint64_t content = at + kRecordHeader;
-    if (known && size <= size_ - content && take_record(header[0], content, size, look)) {
+    if (known && size <= size_ - content && take_record(header[0], content, size, visit)) {
       ended = header[0] == static_cast<std::uint8_t>(Kind::data_end);
       at = content + size;
       continue;
@@ -94,15 +94,15 @@ void McapReader::scan(const Look& look) {
 
   // Report what was left out.
   if (lost > 0)
-    doubt(std::to_string(lost) + " bytes are damaged or cut off; every complete chunk is used");
+    warn(std::to_string(lost) + " bytes are damaged or cut off; every complete chunk is used");
   else if (!ended)
-    doubt("it was not finished, as by a recorder that was killed; every complete chunk is used");
+    warn("it was not finished, as by a recorder that was killed; every complete chunk is used");
   for (const auto& [reason, count] : left_out_)
-    doubt((count == 1 ? "a chunk is left out, " : std::to_string(count) + " chunks are left out, ") + reason);
+    warn((count == 1 ? "a chunk is left out, " : std::to_string(count) + " chunks are left out, ") + reason);
 }
 
 /// Processes a record whose content has `size` bytes and begins at `at`. Returns false if this is no MCAP record.
-bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const Look& look) {
+bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const MessageVisitor& visit) {
   const auto read = [&] {
     return read_at(at, size, record_) ? std::span<const std::uint8_t>(record_) : std::span<const std::uint8_t>();
   };
@@ -114,11 +114,11 @@ bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t 
       take_channel(read());
       return true;
     case Kind::message:
-      take_message(read(), -1, at, look);
+      take_message(read(), -1, at, visit);
       return true;
     case Kind::chunk:
       chunk_sizes_[static_cast<std::int64_t>(at)] = size;
-      take_chunk(at, look);
+      take_chunk(at, visit);
       return true;
     default:
       return kind != 0;  // attachments, indexes and kinds of later versions are skipped
@@ -147,7 +147,7 @@ void McapReader::take_channel(std::span<const std::uint8_t> record) {
 }
 
 void McapReader::take_message(std::span<const std::uint8_t> record, std::int64_t chunk, std::uint64_t at,
-                              const Look& look) {
+                              const MessageVisitor& visit) {
   FieldReader fields(record);
   Message message;
   message.channel = fields.get<std::uint16_t>();
@@ -158,10 +158,10 @@ void McapReader::take_message(std::span<const std::uint8_t> record, std::int64_t
   message.offset = at + kMessageFields;
   message.size = fields.rest().size();
   const auto channel = channels_.find(message.channel);
-  if (!fields.failed() && channel != channels_.end()) look(message, channel->second, fields.rest());
+  if (!fields.failed() && channel != channels_.end()) visit(message, channel->second, fields.rest());
 }
 
-void McapReader::take_chunk(std::uint64_t at, const Look& look) {
+void McapReader::take_chunk(std::uint64_t at, const MessageVisitor& visit) {
   if (const auto unpacked = unpack(at, chunk_sizes_[static_cast<std::int64_t>(at)]); !unpacked) {
     ++left_out_[unpacked.error().what];
     return;
@@ -176,7 +176,7 @@ void McapReader::take_chunk(std::uint64_t at, const Look& look) {
     if (all[from] == static_cast<std::uint8_t>(Kind::schema)) take_schema(record);
     if (all[from] == static_cast<std::uint8_t>(Kind::channel)) take_channel(record);
     if (all[from] == static_cast<std::uint8_t>(Kind::message))
-      take_message(record, static_cast<std::int64_t>(at), content, look);
+      take_message(record, static_cast<std::int64_t>(at), content, visit);
     from = content + size;
   }
 }

@@ -37,18 +37,18 @@ struct Message {
 bool is_mcap(const std::string& path);
 
 /// Reads the messages of an MCAP file, with or without an index, finished or not. All lengths in the file are checked;
-/// chunks that are damaged, cut off or compressed in an unknown way are left out and reported by doubts().
+/// chunks that are damaged, cut off or compressed in an unknown way are left out and reported by warnings().
 class McapReader {
  public:
   /// Called for every complete message, in the order of the file, with its data.
-  using Look = std::function<void(const Message&, const Channel&, std::span<const std::uint8_t>)>;
+  using MessageVisitor = std::function<void(const Message&, const Channel&, std::span<const std::uint8_t>)>;
 
-  /// Reads the whole file once and calls `look` for its messages. Errors: it cannot be opened, or is no MCAP file.
-  static Result<McapReader> open(const std::string& path, const Look& look);
+  /// Reads the whole file once and calls `visit` for its messages. Errors: it cannot be opened, or is no MCAP file.
+  static Result<McapReader> open(const std::string& path, const MessageVisitor& visit);
 
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
   /// Warnings for the user about chunks and messages that were left out.
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Returns the data of a message, valid until the next call. Error: the file has changed or can no longer be read.
   Result<std::span<const std::uint8_t>> read(const Message& message);
@@ -64,16 +64,17 @@ class McapReader {
 
   explicit McapReader(std::string path) : path_(std::move(path)) {}
   Result<void> open_file();
-  void scan(const Look& look);
+  void scan(const MessageVisitor& visit);
   bool read_at(std::uint64_t at, std::uint64_t size, Bytes& out);
-  bool take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const Look& look);
+  bool take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const MessageVisitor& visit);
   void take_schema(std::span<const std::uint8_t> record);
   void take_channel(std::span<const std::uint8_t> record);
-  void take_chunk(std::uint64_t at, const Look& look);
-  void take_message(std::span<const std::uint8_t> record, std::int64_t chunk, std::uint64_t at, const Look& look);
+  void take_chunk(std::uint64_t at, const MessageVisitor& visit);
+  void take_message(std::span<const std::uint8_t> record, std::int64_t chunk, std::uint64_t at,
+                    const MessageVisitor& visit);
   Result<void> unpack(std::uint64_t at, std::uint64_t size);
   std::optional<std::uint64_t> next_chunk(std::uint64_t from);
-  void doubt(std::string what);
+  void warn(std::string what);
 
   std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
@@ -81,7 +82,7 @@ class McapReader {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::map<std::string, std::int64_t> left_out_;  // number of chunks that were left out, by reason
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
   Bytes record_, chunk_;                               // the record read last, and the chunk unpacked last
   std::int64_t chunk_at_ = -1;                         // position of `chunk_` in the file; -1: none
   std::map<std::int64_t, std::uint64_t> chunk_sizes_;  // sizes of the chunk records, by position

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-McapWriter::McapWriter(std::string path, WholeFile file, int descriptor)
+McapWriter::McapWriter(std::string path, AtomicFile file, int descriptor)
     : path_(std::move(path)), file_(std::move(file)), descriptor_(descriptor) {}
 
 McapWriter::~McapWriter() {
@@ -45,7 +45,7 @@ McapWriter::~McapWriter() {
 }
 
 Result<std::unique_ptr<McapWriter>> McapWriter::create(const std::string& path, bool overwrite) {
-  auto file = WholeFile::create(path, overwrite);
+  auto file = AtomicFile::create(path, overwrite);
   if (!file) return tl::unexpected(file.error());
   const int descriptor = file->open();
   if (descriptor < 0)

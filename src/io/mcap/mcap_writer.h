@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 
 namespace barehand::mcap {
 
@@ -22,10 +22,10 @@ struct NewMessage {
 };
 
 /// Writes an MCAP file of ROS 2 messages, indexed and in chunks compressed with zstd. The file gets its name when it is
-/// finished (WholeFile); the destructor finishes a file with messages and removes one without. A chunk is handed to the
-/// operating system when it has a megabyte or lasts a second, so a crash loses only the messages after the last chunk.
-/// If a write fails (disk full), the file is truncated to its last complete chunk, and later messages may succeed. The
-/// same messages give the same bytes.
+/// finished (AtomicFile); the destructor finishes a file with messages and removes one without. A chunk is handed to
+/// the operating system when it has a megabyte or lasts a second, so a crash loses only the messages after the last
+/// chunk. If a write fails (disk full), the file is truncated to its last complete chunk, and later messages may
+/// succeed. The same messages give the same bytes.
 class McapWriter {
  public:
   /// Creates the file. Errors: it exists and `overwrite` is false, or it cannot be created.
@@ -56,7 +56,7 @@ class McapWriter {
   };
   using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< messages of each channel
 
-  McapWriter(std::string path, WholeFile file, int descriptor);
+  McapWriter(std::string path, AtomicFile file, int descriptor);
   std::uint16_t schema_of(const NewMessage& message);
   std::uint16_t channel_of(const NewMessage& message);
   void take_back(std::size_t size);
@@ -69,7 +69,7 @@ class McapWriter {
   void start_write_back();
 
   const std::string path_;
-  WholeFile file_;
+  AtomicFile file_;
   int descriptor_;                  // descriptor of the file; -1 when it is finished
   std::uint64_t good_ = 0;          // size of the file up to the last complete chunk
   std::uint32_t crc_ = 0;           // checksum of the first `good_` bytes

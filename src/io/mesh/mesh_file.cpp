@@ -30,7 +30,7 @@ constexpr std::array kUnits = {NamedUnit{LengthUnit::metre, "m", 1}, NamedUnit{L
 const NamedUnit& named(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)]; }
 
 constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a hand can hold and be tracked with [m]
-constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same of most things [m]
+constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same of most objects [m]
 constexpr double kFarthest = 10;  // from the origin of the file to the object [m]: single precision is too coarse there
 constexpr std::size_t kMostTriangles = 500'000;
 constexpr int kDeepestJson = 100;  // levels; assimp's parser calls itself for each one, until the stack is full
@@ -95,7 +95,7 @@ Result<void> check_size(const ObjectMesh& mesh, const std::string& path, LengthU
                 "move it to the origin with a modelling program");
   if (size >= kSmallest && size <= kLargest) return {};
 
-  // Look for the unit that makes it an ordinary thing.
+  // Look for the unit that makes it an ordinary object.
   for (const NamedUnit& other : kUnits) {
     const double then = size / named(unit).length * other.length;
     if (then >= kUsualSmallest && then <= kUsualLargest)

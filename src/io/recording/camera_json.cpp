@@ -121,10 +121,10 @@ void read_distortion(const Json& json, const std::string& path, CameraFile& file
   const bool more =
       values->size() > kMost && std::any_of(values->begin() + kMost, values->end(), [](double k) { return k != 0; });
   if ((!model.empty() && !is_known(model)) || more) {
-    file.doubts.push_back(path + ": gives coefficients of lens distortion " +
-                          (more ? "beyond k6" : "of the model \"" + model + "\"") +
-                          ", which are not used: positions are wrong towards the edges of the image (undistort the "
-                          "images, or give plumb_bob or rational coefficients)");
+    file.warnings.push_back(path + ": gives coefficients of lens distortion " +
+                            (more ? "beyond k6" : "of the model \"" + model + "\"") +
+                            ", which are not used: positions are wrong towards the edges of the image (undistort the "
+                            "images, or give plumb_bob or rational coefficients)");
     return;
   }
   values->resize(kMost, 0);

@@ -22,8 +22,8 @@ std::vector<StampedFile> read_colour_list(Recording& recording) {
   if (is_missing(path)) return {};
   auto files = read_stamped_list(path);
   if (!files || files->empty()) {
-    recording.doubts.push_back(files ? path + ": lists no images; depth is used without colour"
-                                     : files.error().message() + "; depth is used without colour");
+    recording.warnings.push_back(files ? path + ": lists no images; depth is used without colour"
+                                       : files.error().message() + "; depth is used without colour");
     return {};
   }
   return *std::move(files);
@@ -51,8 +51,8 @@ void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
     if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
     recording.entries.push_back(std::move(entry));
   }
-  for (const std::string& doubt : order.take_last_doubts())
-    recording.doubts.push_back(recording.directory + "/depth.txt: " + doubt);
+  for (const std::string& warning : order.take_last_warnings())
+    recording.warnings.push_back(recording.directory + "/depth.txt: " + warning);
 }
 
 /// Sets the camera of the recording. If its coefficients of distortion are plausible, the images will be undistorted.
@@ -62,15 +62,15 @@ void use_camera(CameraFile file, const std::string& path, Recording& recording) 
   recording.camera = file.camera;
   recording.depth_unit = file.depth_unit;
   recording.fps = file.fps;
-  recording.doubts = std::move(file.doubts);
+  recording.warnings = std::move(file.warnings);
   if (file.distortion == Distortion{}) return;
   auto undistortion = std::make_shared<const Undistortion>(file.camera, file.distortion);
   if (undistortion->shown() < kLeast) {
-    recording.doubts.push_back(path +
-                               ": these coefficients of lens distortion are implausible and not used (are they in "
-                               "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
+    recording.warnings.push_back(path +
+                                 ": these coefficients of lens distortion are implausible and not used (are they in "
+                                 "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
   } else if (undistortion->largest_shift() > kNoticed) {
-    recording.doubts.push_back(
+    recording.warnings.push_back(
         path + formatted(": the images are undistorted with the coefficients given, by up to %.3g pixels (if they are "
                          "rectified already, add \"rectified\": true)",
                          undistortion->largest_shift()));

@@ -30,12 +30,12 @@ struct Recording {
   double fps = 0;                                    ///< nominal frames per second; 0 = not stated
   std::vector<RecordingEntry> entries;               ///< in the order of depth.txt; the position is the frame number
   std::shared_ptr<const Undistortion> undistortion;  ///< to be applied to all images; null: none is needed
-  std::vector<std::string> doubts;                   ///< warnings to the user, in sentences
+  std::vector<std::string> warnings;                 ///< warnings to the user, in sentences
 };
 
 /// Reads camera.json, depth.txt and, if it exists, rgb.txt, and checks the first image. An error names the file and the
 /// line or key that is wrong: missing intrinsics, no frames, invalid time stamps, depth of another size. Problems with
-/// colour are only added to `doubts`.
+/// colour are only added to `warnings`.
 Result<Recording> open_recording(const std::string& directory);
 
 /// Decodes one frame; `number` is its position in `entries`. If the depth image is unreadable or of another size, the

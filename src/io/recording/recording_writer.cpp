@@ -74,11 +74,11 @@ Result<void> RecordingWriter::start(const RgbdFrame& first) {
   return append(depth_list_, "depth.txt", "# timestamp filename\n");
 }
 
-Result<void> RecordingWriter::append(std::optional<WholeFile>& list, const char* name, const std::string& line) const {
+Result<void> RecordingWriter::append(std::optional<AtomicFile>& list, const char* name, const std::string& line) const {
   // The draft is created with the first line.
   const bool first = !list;
   if (first) {
-    auto made = WholeFile::create(directory_ + "/" + name, false);
+    auto made = AtomicFile::create(directory_ + "/" + name, false);
     if (!made) return tl::unexpected(made.error());
     list.emplace(std::move(*made));
   }

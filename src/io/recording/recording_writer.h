@@ -5,13 +5,13 @@
 #include <string>
 
 #include "core/error.h"
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand {
 
 /// Writes a recording folder (docs/formats.md) that open_recording reads. It becomes a recording when it is finished;
-/// until then its lists are drafts (WholeFile). The lists are valid at every moment, since an image is written before
+/// until then its lists are drafts (AtomicFile). The lists are valid at every moment, since an image is written before
 /// the line that names it. After a full disk, writing continues with the next frame that fits. The destructor finishes
 /// a recording that has frames.
 class RecordingWriter {
@@ -39,14 +39,14 @@ class RecordingWriter {
  private:
   RecordingWriter() = default;
   Result<void> start(const RgbdFrame& first);
-  Result<void> append(std::optional<WholeFile>& list, const char* name, const std::string& line) const;
+  Result<void> append(std::optional<AtomicFile>& list, const char* name, const std::string& line) const;
 
   std::string directory_;
   Options options_;
   Intrinsics camera_;
   double depth_unit_ = 0;
-  bool made_ = false, finished_ = false;            ///< whether it created the folder, and whether finish() was called
-  std::optional<WholeFile> depth_list_, rgb_list_;  ///< created with their first line
+  bool made_ = false, finished_ = false;             ///< whether it created the folder, and whether finish() was called
+  std::optional<AtomicFile> depth_list_, rgb_list_;  ///< created with their first line
   std::int64_t count_ = 0;
 };
 

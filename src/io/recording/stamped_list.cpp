@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "io/atomic_file.h"
 #include "io/file_bytes.h"
-#include "io/whole_file.h"
 #include "sensor/frame_order.h"
 
 namespace barehand {

@@ -55,7 +55,7 @@ Result<const VideoModule*> load_video_module(const std::string& library) {
 Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
   const auto module = load_video_module();
   if (!module) return tl::unexpected(module.error());
-  auto file = WholeFile::create(path, true);
+  auto file = AtomicFile::create(path, true);
   if (!file) return tl::unexpected(file.error());
   VideoFile video(*module, path, fps, std::move(*file));
 
@@ -69,7 +69,7 @@ Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
               "check the free space; the other formats are .mp4, .mkv, .webm and .avi, or give a folder for images");
 }
 
-VideoFile::VideoFile(const VideoModule* module, std::string path, double fps, WholeFile file)
+VideoFile::VideoFile(const VideoModule* module, std::string path, double fps, AtomicFile file)
     : module_(module), path_(std::move(path)), fps_(fps), file_(std::move(file)) {}
 
 VideoFile::VideoFile(VideoFile&& other) noexcept
@@ -114,7 +114,7 @@ Result<void> VideoFile::finish() {
 
 void VideoFile::defragment() {
   if (file_.direct()) return;
-  auto ordinary = WholeFile::create(path_, true);
+  auto ordinary = AtomicFile::create(path_, true);
   VideoModule::Message ignored{};
   if (ordinary && module_->defragment(file_.draft().c_str(), ordinary->draft().c_str(), ignored))
     file_ = std::move(*ordinary);

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/video/video_module.h"
-#include "io/whole_file.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand {
@@ -21,11 +21,11 @@ const char* video_format(const std::string& path);
 /// needs, is missing.
 Result<const VideoModule*> load_video_module(const std::string& library = "");
 
-/// A video that gets its name when it is complete. Until then, and if the program is killed, it is a draft (WholeFile),
-/// which can be played up to about a second before its end.
+/// A video that gets its name when it is complete. Until then, and if the program is killed, it is a draft
+/// (AtomicFile), which can be played up to about a second before its end.
 class VideoFile {
  public:
-  /// Errors: no video module, no encoder for the format, and those of WholeFile.
+  /// Errors: no video module, no encoder for the format, and those of AtomicFile.
   static Result<VideoFile> create(const std::string& path, double fps);
   VideoFile(VideoFile&&) noexcept;
   VideoFile& operator=(VideoFile&&) = delete;
@@ -39,7 +39,7 @@ class VideoFile {
   Result<void> finish();
 
  private:
-  VideoFile(const VideoModule* module, std::string path, double fps, WholeFile file);
+  VideoFile(const VideoModule* module, std::string path, double fps, AtomicFile file);
   /// Gives the video up; every later call returns this error.
   tl::unexpected<Error> broken(const VideoModule::Message& message);
   /// Turns a fragmented mp4 into an ordinary one, which more players show. If that fails, it stays fragmented.
@@ -48,7 +48,7 @@ class VideoFile {
   const VideoModule* module_;
   std::string path_;
   double fps_;
-  WholeFile file_;
+  AtomicFile file_;
   void* video_ = nullptr;  ///< the module's handle; nullptr before the first image and after the end
   int width_ = 0, height_ = 0;
   std::optional<Error> broken_;  ///< why nothing more can be written

@@ -56,7 +56,7 @@ void FoxgloveClient::start() {
 }
 
 /// Adds and removes subscriptions. Error: there are too many.
-Result<void> FoxgloveClient::obey(const FoxgloveRequest& request) {
+Result<void> FoxgloveClient::execute(const FoxgloveRequest& request) {
   for (const auto& [id, channel] : request.subscribe) {
     if (next_.subscriptions.size() >= kMostSubscriptions) return fail("there are too many subscriptions");
     next_.subscriptions[id] = channel;
@@ -65,11 +65,11 @@ Result<void> FoxgloveClient::obey(const FoxgloveRequest& request) {
   return {};
 }
 
-bool FoxgloveClient::hear(std::string_view text) {
+bool FoxgloveClient::receive(std::string_view text) {
   const auto request = parse_foxglove_request(text);
   const std::lock_guard lock(mutex_);
-  const Result<void> obeyed = request ? obey(*request) : tl::unexpected(request.error());
-  if (!obeyed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", obeyed.error().message()}});
+  const Result<void> executed = request ? execute(*request) : tl::unexpected(request.error());
+  if (!executed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", executed.error().message()}});
 
   // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
   if (request && !request->subscribe.empty()) frames_.repeat();

@@ -31,7 +31,7 @@ class FoxgloveClient : public WebPeer {
   ~FoxgloveClient() override;
 
   void start() override;
-  bool hear(std::string_view text) override;
+  bool receive(std::string_view text) override;
   /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
   /// dropped.
   void post(ViewFramePtr frame);
@@ -46,7 +46,7 @@ class FoxgloveClient : public WebPeer {
     std::string reply;
     Subscriptions subscriptions;
   };
-  Result<void> obey(const FoxgloveRequest& request);
+  Result<void> execute(const FoxgloveRequest& request);
   void run();
   bool wait(Due& due);
   bool send(const Due& due);

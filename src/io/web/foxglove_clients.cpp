@@ -31,7 +31,7 @@ void FoxgloveClients::show(const ViewFramePtr& frame) {
   for (FoxgloveClient* client : clients_) client->post(frame);
 }
 
-void FoxgloveClients::know(std::shared_ptr<const HandProfile> profile) {
+void FoxgloveClients::set_profile(std::shared_ptr<const HandProfile> profile) {
   const std::lock_guard lock(mutex_);
   profiles_[static_cast<std::size_t>(profile->handedness)] = std::move(profile);
 }

@@ -22,7 +22,7 @@ class FoxgloveClients {
   /// Sends a frame to all viewers, and remembers the profiles of its hands.
   void show(const ViewFramePtr& frame);
   /// Remembers a profile before a frame shows it.
-  void know(std::shared_ptr<const HandProfile> profile);
+  void set_profile(std::shared_ptr<const HandProfile> profile);
   /// Adds the counts of frames of all clients since the start to `all`.
   void add_health(QueueHealth& all) const;
   /// The description of a hand as a robot, for the paths "/right_hand.urdf" and "/left_hand.urdf", made from its last

@@ -28,22 +28,22 @@ void ViewClient::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-bool ViewClient::hear(std::string_view text) {
-  const auto demand = parse_view_demand(text);
-  const Result<void> followed = demand ? follow(*demand) : tl::unexpected(demand.error());
+bool ViewClient::receive(std::string_view text) {
+  const auto request = parse_view_request(text);
+  const Result<void> followed = request ? follow(*request) : tl::unexpected(request.error());
 
   const std::lock_guard lock(mutex_);
   if (!followed) {
     reply(followed.error());
-  } else if (const auto* wish = std::get_if<ViewWish>(&*demand)) {
-    next_.wish = *wish;
+  } else if (const auto* settings = std::get_if<ViewSettings>(&*request)) {
+    next_.settings = *settings;
     asked_ = true;
     under_way_ = 0;
     next_at_us_ = 0;
 
     // Send the last frame again, so that the client gets what it has requested even if no frame follows (a paused log).
     frames_.repeat();
-  } else if (std::holds_alternative<ViewAcknowledge>(*demand) && under_way_ > 0) {
+  } else if (std::holds_alternative<ViewAcknowledge>(*request) && under_way_ > 0) {
     --under_way_;
   }
   changed_.notify_all();
@@ -51,9 +51,9 @@ bool ViewClient::hear(std::string_view text) {
 }
 
 /// Executes commands that concern the program as a whole.
-Result<void> ViewClient::follow(const ViewDemand& demand) {
-  if (const auto* command = std::get_if<RecordCommand>(&demand)) return handlers_.record(*command);
-  if (const auto* command = std::get_if<PlayerCommand>(&demand)) handlers_.play(*command);
+Result<void> ViewClient::follow(const ViewRequest& request) {
+  if (const auto* command = std::get_if<RecordCommand>(&request)) return handlers_.record(*command);
+  if (const auto* command = std::get_if<PlayerCommand>(&request)) handlers_.play(*command);
   return {};
 }
 
@@ -106,7 +106,7 @@ bool ViewClient::has_due(std::int64_t now_us) const {
 }
 
 bool ViewClient::has_due_frame(std::int64_t now_us) const {
-  const bool window_open = next_.wish.window == 0 || under_way_ < next_.wish.window;
+  const bool window_open = next_.settings.window == 0 || under_way_ < next_.settings.window;
   return frames_.waiting() && asked_ && window_open && now_us >= next_at_us_;
 }
 
@@ -124,14 +124,14 @@ bool ViewClient::wait(Due& due) {
   sending_ = true;
   due.status = std::exchange(next_.status, nullptr);
   due.reply = std::exchange(next_.reply, nullptr);
-  due.wish = next_.wish;
+  due.settings = next_.settings;
   due.frame = nullptr;
 
   // Take the frame unless too many are unacknowledged or the requested rate does not allow it yet.
   if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
     due.frame = frames_.take();
-    if (next_.wish.window > 0) ++under_way_;
-    next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.wish.rate * 0.9);
+    if (next_.settings.window > 0) ++under_way_;
+    next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.settings.rate * 0.9);
   }
   return true;
 }
@@ -139,18 +139,18 @@ bool ViewClient::wait(Due& due) {
 bool ViewClient::send(const Due& due) {
   if (due.reply && !socket_.send_text(*due.reply)) return false;
   if (due.status && !socket_.send_text(*due.status)) return false;
-  return !due.frame || send_frame(*due.frame, due.wish);
+  return !due.frame || send_frame(*due.frame, due.settings);
 }
 
-bool ViewClient::send_frame(const ViewFrame& frame, const ViewWish& wish) {
+bool ViewClient::send_frame(const ViewFrame& frame, const ViewSettings& settings) {
   bytes_.clear();
   write_new_skins(frame);
   frame.write_states(clock_.utime(), bytes_);
   const auto append = [&](std::span<const std::uint8_t> chunk) {
     bytes_.insert(bytes_.end(), chunk.begin(), chunk.end());
   };
-  append(frame.cloud(wish.cloud));
-  append(frame.picture(wish.picture, wish.large));
+  append(frame.cloud(settings.cloud));
+  append(frame.picture(settings.picture, settings.large));
   return socket_.send_binary(bytes_);
 }
 

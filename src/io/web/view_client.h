@@ -16,8 +16,8 @@ namespace barehand {
 using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 
 /// One client of the page's WebSocket. Of the frames that were not sent yet, only the newest is kept. Data are sent on
-/// the client's own thread; frames are sent only after the client has sent a wish (ViewWish). A client that reads
-/// slowly or not at all gets fewer frames and delays no one else.
+/// the client's own thread; frames are sent only after the client has sent its settings (ViewSettings). A client that
+/// reads slowly or not at all gets fewer frames and delays no one else.
 class ViewClient : public WebPeer {
  public:
   /// Called on threads of the server; `gone` is called while the client is being destroyed.
@@ -31,7 +31,7 @@ class ViewClient : public WebPeer {
   ~ViewClient() override;
 
   void start() override;
-  bool hear(std::string_view text) override;
+  bool receive(std::string_view text) override;
   /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
   /// dropped.
   void post(ViewFramePtr frame);
@@ -46,16 +46,16 @@ class ViewClient : public WebPeer {
   struct Due {
     ViewFramePtr frame;
     StatusText status, reply;
-    ViewWish wish;
+    ViewSettings settings;
   };
-  Result<void> follow(const ViewDemand& demand);
+  Result<void> follow(const ViewRequest& request);
   void reply(const Error& error);
   void run();
   bool wait(Due& due);
   bool has_due(std::int64_t now_us) const;
   bool has_due_frame(std::int64_t now_us) const;
   bool send(const Due& due);
-  bool send_frame(const ViewFrame& frame, const ViewWish& wish);
+  bool send_frame(const ViewFrame& frame, const ViewSettings& settings);
   void write_new_skins(const ViewFrame& frame);
 
   WebSocket socket_;

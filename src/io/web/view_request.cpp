@@ -27,23 +27,23 @@ Result<int> choice_of(const json& message, const char* key, std::initializer_lis
   return fail(std::string("no such ") + key, kWhere, "ask for one of " + list);
 }
 
-Result<ViewDemand> wish_of(const json& message) {
-  ViewWish wish;
+Result<ViewRequest> settings_of(const json& message) {
+  ViewSettings settings;
   const auto cloud = choice_of(message, "cloud", {"none", "hand", "scene"});
   if (!cloud) return tl::unexpected(cloud.error());
-  wish.cloud = static_cast<ViewCloud>(*cloud);
+  settings.cloud = static_cast<ViewCloud>(*cloud);
   const auto picture = choice_of(message, "picture", {"none", "colour", "depth"});
   if (!picture) return tl::unexpected(picture.error());
-  wish.picture = static_cast<ViewPicture>(*picture);
-  wish.large = message.value("large", wish.large);
-  wish.rate = message.value("rate", wish.rate);
-  if (!(wish.rate >= 0.1 && wish.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
-  wish.window = message.value("window", wish.window);
-  if (wish.window < 0 || wish.window > 100) return fail("window is out of range", kWhere, "give 0 to 100");
-  return wish;
+  settings.picture = static_cast<ViewPicture>(*picture);
+  settings.large = message.value("large", settings.large);
+  settings.rate = message.value("rate", settings.rate);
+  if (!(settings.rate >= 0.1 && settings.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
+  settings.window = message.value("window", settings.window);
+  if (settings.window < 0 || settings.window > 100) return fail("window is out of range", kWhere, "give 0 to 100");
+  return settings;
 }
 
-Result<ViewDemand> record_of(const json& message) {
+Result<ViewRequest> record_of(const json& message) {
   if (!message.contains("on") || message.size() > 2)
     return fail("a command to record holds nothing but \"on\"", kWhere, "send {\"type\": \"record\", \"on\": true}");
   return RecordCommand{message.at("on").get<bool>()};
@@ -62,9 +62,9 @@ std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
   return std::nullopt;
 }
 
-Result<ViewDemand> demand_of(const json& message) {
+Result<ViewRequest> request_of(const json& message) {
   const std::string type = message.at("type");
-  if (type == "want") return wish_of(message);
+  if (type == "want") return settings_of(message);
   if (type == "ack") return ViewAcknowledge{};
   if (type == "record") return record_of(message);
   const auto kind = player_kind(type);
@@ -76,10 +76,10 @@ Result<ViewDemand> demand_of(const json& message) {
 
 }  // namespace
 
-Result<ViewDemand> parse_view_demand(std::string_view text) {
+Result<ViewRequest> parse_view_request(std::string_view text) {
   // A client may send anything; the exceptions of nlohmann's JSON parser say what is wrong.
   try {
-    return demand_of(json::parse(text));
+    return request_of(json::parse(text));
   } catch (const json::exception& error) {
     return fail(error.what(), kWhere, "send JSON as docs/view_protocol.md says");
   }

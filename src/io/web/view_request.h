@@ -14,7 +14,7 @@ enum class ViewPicture { none, colour, depth };
 enum class ViewCloud { none, hand, scene };
 
 /// The parts that a client wants of every frame from now on.
-struct ViewWish {
+struct ViewSettings {
   ViewCloud cloud = ViewCloud::none;
   ViewPicture picture = ViewPicture::none;
   bool large = false;  ///< whether the picture is at most kLargeWidth instead of kSmallWidth wide (ViewFrame)
@@ -38,11 +38,11 @@ struct RecordCommand {
   bool on = false;
 };
 
-using ViewDemand = std::variant<ViewWish, ViewAcknowledge, PlayerCommand, RecordCommand>;
+using ViewRequest = std::variant<ViewSettings, ViewAcknowledge, PlayerCommand, RecordCommand>;
 
 /// Parses what a client sends: {"type": "want", "cloud": "hand", "picture": "colour", "rate": 30, "window": 2},
 /// {"type": "ack"}, {"type": "seek", "value": 12}, {"type": "record", "on": true} and so on. Errors: invalid JSON, an
 /// unknown type, a value out of range, further keys in a command to record.
-Result<ViewDemand> parse_view_demand(std::string_view text);
+Result<ViewRequest> parse_view_request(std::string_view text);
 
 }  // namespace barehand

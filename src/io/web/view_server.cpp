@@ -17,7 +17,7 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   WebServer::Options web;
   web.address = options.address.address;
   web.port = options.address.port;
-  web.invited = std::move(options.invited);
+  web.allowed_origins = std::move(options.allowed_origins);
   web.files = std::move(*page);
   web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
   web.protocols.assign(std::begin(kFoxgloveProtocols), std::end(kFoxgloveProtocols));

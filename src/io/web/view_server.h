@@ -21,7 +21,7 @@ class ViewServer {
  public:
   struct Options {
     WebAddress address;
-    std::vector<std::string> invited;  ///< origins of other web pages that may connect
+    std::vector<std::string> allowed_origins;  ///< origins of other web pages that may connect
     /// Called with commands of clients, on threads of the server. Empty: there is nothing to play.
     std::function<void(const PlayerCommand&)> on_command;
     /// The recorder that clients start and stop; must outlive the server. Null: nothing can be recorded.
@@ -33,7 +33,7 @@ class ViewServer {
 
   std::string url() const { return web_->url(); }
   /// Makes a hand available as a robot description before the first frame shows it.
-  void know(std::shared_ptr<const HandProfile> profile) { foxglove_.know(std::move(profile)); }
+  void set_profile(std::shared_ptr<const HandProfile> profile) { foxglove_.set_profile(std::move(profile)); }
   /// Whether a client is connected; if none is, no frame need be made for show().
   bool has_clients() const { return clients() > 0; }
   int clients() const { return clients_count_ + foxglove_.count(); }

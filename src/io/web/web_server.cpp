@@ -8,7 +8,7 @@
 #include <chrono>
 #include <future>
 
-#include "io/web/own_origin.h"
+#include "io/web/allowed_origin.h"
 
 namespace barehand {
 namespace {
@@ -37,7 +37,7 @@ Connection* connection_of(const mg_connection* connection) {
   return static_cast<Connection*>(mg_get_user_connection_data(connection));
 }
 
-/// The header that lets a page of an invited origin read the response; is_allowed() has checked the origin before.
+/// The header that lets a page of an allowed origin read the response; is_allowed() has checked the origin before.
 std::string allowance(const mg_connection* connection) {
   const std::string origin(header(connection, "Origin"));
   return origin.empty() ? "" : "Access-Control-Allow-Origin: " + origin + "\r\n";
@@ -76,7 +76,7 @@ class WebServer::Impl {
   bool is_allowed(const mg_connection* connection) const;
   bool admit(const mg_connection* connection);
   void ready(mg_connection* connection);
-  static bool hear(const mg_connection* connection, int bits, std::string_view data);
+  static bool receive(const mg_connection* connection, int bits, std::string_view data);
   void closed(const mg_connection* connection);
 
   static int on_request(mg_connection* connection, void* self) { return static_cast<Impl*>(self)->answer(connection); }
@@ -88,7 +88,7 @@ class WebServer::Impl {
   }
   static void on_ready(mg_connection* connection, void* self) { static_cast<Impl*>(self)->ready(connection); }
   static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void*) {
-    return hear(connection, bits, {data, size}) ? 1 : 0;
+    return receive(connection, bits, {data, size}) ? 1 : 0;
   }
   static void on_close(const mg_connection* connection, void* self) { static_cast<Impl*>(self)->closed(connection); }
 
@@ -159,7 +159,7 @@ void WebServer::Impl::stop() {
 
 bool WebServer::Impl::is_allowed(const mg_connection* connection) const {
   const std::string_view host = header(connection, "Host");
-  return is_own_host(host) && is_welcome(header(connection, "Origin"), host, options_.invited);
+  return is_own_host(host) && is_allowed_origin(header(connection, "Origin"), host, options_.allowed_origins);
 }
 
 void WebServer::Impl::send_error(mg_connection* connection, int status, const char* text) {
@@ -222,7 +222,7 @@ void WebServer::Impl::ready(mg_connection* connection) {
   peer.start();
 }
 
-bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::string_view data) {
+bool WebServer::Impl::receive(const mg_connection* connection, int bits, std::string_view data) {
   Connection* known = connection_of(connection);
   const int opcode = bits & 0xf;
   const bool last = (bits & 0x80) != 0;
@@ -231,7 +231,7 @@ bool WebServer::Impl::hear(const mg_connection* connection, int bits, std::strin
   if (opcode != kContinuation) known->message.clear();
   if (known->message.size() + data.size() > kLongestMessage) return false;
   known->message.append(data);
-  return !last || known->peer->hear(known->message);
+  return !last || known->peer->receive(known->message);
 }
 
 void WebServer::Impl::closed(const mg_connection* connection) {

@@ -42,7 +42,7 @@ class WebPeer {
   /// Called when the connection is established; from now on, messages may be sent.
   virtual void start() = 0;
   /// Called with a complete message of the client, on a thread of the server. Returns false to disconnect the client.
-  virtual bool hear(std::string_view text) = 0;
+  virtual bool receive(std::string_view text) = 0;
 };
 
 struct WebFile {
@@ -51,7 +51,7 @@ struct WebFile {
 };
 
 /// An HTTP and WebSocket server with its own threads. Files are served from memory, so no request accesses the disk.
-/// Requests for other hosts or from other origins are refused (own_origin.h).
+/// Requests for other hosts or from other origins are refused (allowed_origin.h).
 class WebServer {
  public:
   static constexpr int kMaxClients = 32;    ///< maximum number of WebSockets with a peer
@@ -59,10 +59,10 @@ class WebServer {
   static constexpr int kStuckSeconds = 10;  ///< a client that accepts nothing for this time is disconnected
 
   struct Options {
-    std::string address = "127.0.0.1";     ///< address of the network interface; 0.0.0.0: all interfaces
-    int port = 0;                          ///< TCP port; 0: any free port
-    std::map<std::string, WebFile> files;  ///< by path, such as "/index.html", which is also served as "/"
-    std::vector<std::string> invited;      ///< origins of other web pages that may connect
+    std::string address = "127.0.0.1";         ///< address of the network interface; 0.0.0.0: all interfaces
+    int port = 0;                              ///< TCP port; 0: any free port
+    std::map<std::string, WebFile> files;      ///< by path, such as "/index.html", which is also served as "/"
+    std::vector<std::string> allowed_origins;  ///< origins of other web pages that may connect
     std::string socket_path = "/live";
     /// Creates the peer of a client at `socket_path`; called on threads of the server.
     std::function<std::unique_ptr<WebPeer>(WebSocket)> connect;

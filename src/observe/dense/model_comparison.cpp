@@ -44,9 +44,9 @@ class Comparer {
       for (int i = 0; i < g.width; ++i) {
         const int u = i * g.stride, v = j * g.stride;
         if (rendered_.vertex.at(i, j) >= 0)
-          judge_model(i, j, u, v);
+          compare_model_pixel(i, j, u, v);
         else if (obs_.label.at(u, v) == PixelLabel::hand)
-          judge_unexplained(i, j, u, v);
+          compare_data_pixel(i, j, u, v);
       }
 
     // The score is the weighted mean of the capped distances.
@@ -72,7 +72,7 @@ class Comparer {
 
   /// Adds the correspondence of a cell that shows the model, and counts whether its segment is visible and matched. The
   /// cell is pixel (u, v) of the region of interest.
-  void judge_model(int i, int j, int u, int v) {
+  void compare_model_pixel(int i, int j, int u, int v) {
     const float z_model = rendered_.depth.at(i, j), z_data = obs_.depth.at(u, v);
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
     const PixelLabel label = obs_.label.at(u, v);
@@ -125,7 +125,7 @@ class Comparer {
 
   /// Adds a correspondence of the kind `unexplained` for a cell that shows hand data but no model, unless the cell
   /// shows the forearm. The cell is pixel (u, v) of the region of interest.
-  void judge_unexplained(int i, int j, int u, int v) {
+  void compare_data_pixel(int i, int j, int u, int v) {
     const Vector3f data = data_point(u, v);
     if (wrist_axis_.dot(data) + wrist_offset_ > kWristMargin) return;  // the forearm is not part of the model
     const std::int32_t nearest = out_.nearest_model.find(i, j);

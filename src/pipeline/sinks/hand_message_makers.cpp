@@ -23,7 +23,7 @@ FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   if (const FrameContacts* contacts = tracked.contacts.get()) {
     for (std::size_t k = 0; k < estimates.size(); ++k)
       messages_[k].contact = contact_message(*estimates[k], contacts->hands[k], contacts->objects);
-    for (const SeenObject& object : contacts->objects) objects_.push_back(object_message(*estimates[0], object));
+    for (const ObjectEstimate& object : contacts->objects) objects_.push_back(object_message(*estimates[0], object));
   }
   return {messages_, objects_};
 }

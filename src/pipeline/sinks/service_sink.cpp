@@ -10,10 +10,10 @@ constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this time without a frame, the status line reports it
 }  // namespace
 
-ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelinePulse()> pulse,
+ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelineHeartbeat()> heartbeat,
                          std::function<PipelineHealth()> health, const Clock& clock)
     : manager_(manager),
-      pulse_(std::move(pulse)),
+      heartbeat_(std::move(heartbeat)),
       health_(std::move(health)),
       clock_(clock),
       frame_us_(clock.steady_us()),
@@ -32,7 +32,7 @@ Result<void> ServiceSink::idle() {
 }
 
 void ServiceSink::feed_watchdog() {
-  const PipelinePulse now = pulse_();
+  const PipelineHeartbeat now = heartbeat_();
   const bool worked = now.inside > 0 ? now.finished > fed_at_.finished : now.answers > fed_at_.answers;
   if (!worked) return;
   fed_at_ = now;

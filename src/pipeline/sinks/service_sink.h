@@ -14,8 +14,8 @@ namespace barehand {
 class ServiceSink : public Sink {
  public:
   /// `manager` and `clock` must outlive the sink.
-  ServiceSink(ServiceManager& manager, std::function<PipelinePulse()> pulse, std::function<PipelineHealth()> health,
-              const Clock& clock);
+  ServiceSink(ServiceManager& manager, std::function<PipelineHeartbeat()> heartbeat,
+              std::function<PipelineHealth()> health, const Clock& clock);
 
   std::string name() const override { return "service"; }
   Result<void> consume(const TrackedFrame& tracked) override;
@@ -26,10 +26,10 @@ class ServiceSink : public Sink {
   void update_status();
 
   ServiceManager& manager_;
-  const std::function<PipelinePulse()> pulse_;
+  const std::function<PipelineHeartbeat()> heartbeat_;
   const std::function<PipelineHealth()> health_;
   const Clock& clock_;
-  PipelinePulse fed_at_;      // counters when the watchdog was fed last
+  PipelineHeartbeat fed_at_;  // counters when the watchdog was fed last
   HandEstimates hands_;       // estimates of the last frame
   std::int64_t frame_us_,     // time of the last frame; steady clock
       status_us_,             // time of the last status line; steady clock

@@ -4,11 +4,11 @@
 
 namespace barehand {
 
-double Choice::judged_score(const HandObservation& observation, const HandProfile& profile,
-                            const RefinedPose& refined) const {
+double Choice::score_with_detection(const HandObservation& observation, const HandProfile& profile,
+                                    const RefinedPose& refined) const {
   const bool confirmed =
       observation.detected && mean_distance(profile, refined.pose, observation.detected->joints) < params_.agreement;
-  return confirmed ? params_.confirmed * refined.score : refined.score;
+  return confirmed ? params_.detection_factor * refined.score : refined.score;
 }
 
 bool Choice::replaces(std::string_view rule, const Hypothesis& challenger, const Hypothesis& present,

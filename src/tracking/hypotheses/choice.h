@@ -14,23 +14,23 @@ namespace barehand {
 struct ChoiceParams {
   // Advantages that other poses of a frame need over the followed one.
   double sampling_advantage = 0.02;
-  bool uncross = true;
+  bool uncross_fingers = true;
   double uncross_allowance = 0.05;
   double search_advantage = 0.1;
-  double elsewhere_advantage = 0.3;
+  double different_pose_advantage = 0.3;
 
   // Absolute global scores [m].
-  double search_settled = 0.0015;
-  double search_convincing = 0.002;
+  double sufficient_score = 0.0015;
+  double confident_score = 0.002;
 
   // Multiples of the track's baseline score.
-  double doubt = 0.15;
-  double unsure = 1.25;
-  double unlike = 2;
+  double ambiguity_margin = 0.15;
+  double confirmation_factor = 1.25;
+  double rejection_factor = 2;
 
   // Agreement with the detection.
   double agreement = 0.02;
-  double confirmed = 0.5;
+  double detection_factor = 0.5;
   bool operator==(const ChoiceParams&) const = default;
 };
 
@@ -38,30 +38,39 @@ template <class V>
 void visit(V& v, ChoiceParams& p) {
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
-  v("uncross", p.uncross, "also test the followed pose with crossing fingers put side by side");
+  v.formerly("uncross");
+  v("uncross_fingers", p.uncross_fingers, "also test the followed pose with crossing fingers put side by side");
   v("uncross_allowance", p.uncross_allowance, 0.0, 1.0,
     "the pose with uncrossed fingers may have a global score that is higher by up to this fraction");
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
-  v("elsewhere_advantage", p.elsewhere_advantage, 0.0, 1.0,
+  v.formerly("elsewhere_advantage");
+  v("different_pose_advantage", p.different_pose_advantage, 0.0, 1.0,
     "a pose found by a search with the palm in another place replaces the followed one only if its score is lower by "
     "this fraction");
-  v("search_settled", p.search_settled, 0.0, 0.1,
+  v.formerly("search_settled");
+  v("sufficient_score", p.sufficient_score, 0.0, 0.1,
     "m, a found pose with a lower global score ends the search of a frame");
-  v("search_convincing", p.search_convincing, 0.0, 0.1,
+  v.formerly("search_convincing");
+  v("confident_score", p.confident_score, 0.0, 0.1,
     "m, a pose with a lower global score is confident, whatever the baseline score");
-  v("doubt", p.doubt, 0.0, 1000.0,
+  v.formerly("doubt");
+  v("ambiguity_margin", p.ambiguity_margin, 0.0, 1000.0,
     "a pose is ambiguous, and the frame is searched as well, if its score exceeds the baseline score by this fraction "
     "and it is not confident");
-  v("unsure", p.unsure, 0.0, 1000.0,
+  v.formerly("unsure");
+  v("confirmation_factor", p.confirmation_factor, 0.0, 1000.0,
     "a hand that returns with a score above this multiple of its baseline score must be confirmed by the next frame; "
     "0: never");
-  v("unlike", p.unlike, 0.0, 1000.0,
+  v.formerly("unlike");
+  v("rejection_factor", p.rejection_factor, 0.0, 1000.0,
     "a pose with a score above this multiple of the baseline score, and not confident, is not the hand that was lost; "
     "0: no limit");
   v("agreement", p.agreement, 0.0, 1.0,
     "m, a detection confirms a pose if the mean distance between its joints and the pose's is at most this");
-  v("confirmed", p.confirmed, 0.0, 1.0, "factor on the score of a pose that a detection confirms; 1: no effect");
+  v.formerly("confirmed");
+  v("detection_factor", p.detection_factor, 0.0, 1.0,
+    "factor on the score of a pose that a detection confirms; 1: no effect");
 }
 
 // Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.
@@ -86,7 +95,8 @@ class Choice {
   /// The global score [m] of a pose, reduced by the factor `confirmed` if the detected joints agree with it. Refinement
   /// and detection make different errors, so a pose on which both agree may explain the frame worse than usual, for
   /// example because the skin model does not match the hand or the sensor.
-  double judged_score(const HandObservation& observation, const HandProfile& profile, const RefinedPose& refined) const;
+  double score_with_detection(const HandObservation& observation, const HandProfile& profile,
+                              const RefinedPose& refined) const;
   /// Whether the challenger replaces `present`; records the decision. `rule`: name of the rule, a static string.
   bool replaces(std::string_view rule, const Hypothesis& challenger, const Hypothesis& present, double advantage);
   /// Records a decision that was made by other code.

@@ -42,7 +42,7 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
 
   // Refine the sampled pose if it differs from the refined prediction. It replaces the refined prediction only if its
   // score is clearly better: a good local optimum must not be replaced by a pose that is merely as good.
-  if (!sampling || !lies_elsewhere(*hand.profile, followed.refined, fused.pose)) return followed;
+  if (!sampling || !is_distinct(*hand.profile, followed.refined, fused.pose)) return followed;
   Hypothesis sampled;
   sampled.origin = Origin::sampled;
   sampled.refined =
@@ -103,7 +103,7 @@ RefinedPose Follower::refine_best_start(const HandObservation& observation, cons
 
 /// Whether a visible segment of the sampled pose is in another place than in the refined one. Otherwise refining the
 /// sampled pose would lead to the refined one again.
-bool Follower::lies_elsewhere(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const {
+bool Follower::is_distinct(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const {
   const TrackerParams& params = context_.params;
   for (int s = 0; s < kSegmentCount; ++s) {
     if (refined.visible[s] < params.seen_fraction) continue;

@@ -32,7 +32,7 @@ class Follower {
                       std::uint32_t frame);
   RefinedPose refine_best_start(const HandObservation& observation, const HandModel& hand,
                                 const Prediction& prediction);
-  bool lies_elsewhere(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const;
+  bool is_distinct(const HandProfile& profile, const RefinedPose& refined, const HandPose& sampled) const;
   double interval_factor(double dt) const;
 
   const TrackerContext& context_;

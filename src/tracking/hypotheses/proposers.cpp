@@ -23,8 +23,9 @@ constexpr double kPossibleHand = 2.5,  // below, the detection is ignored
 
 }  // namespace
 
-std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
-                                              Effort effort, int attempts, std::uint32_t frame) const {
+std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observation, const HandModel& hand,
+                                                  Track& track, Effort effort, int attempts,
+                                                  std::uint32_t frame) const {
   const TrackerParams& params = context_.params;
   if (static_cast<int>(observation.hand_pixels.size()) < params.loss.min_hand_pixels) return std::nullopt;
 
@@ -44,13 +45,13 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
   }
 
   // If the detected pose explains the frame well, no search is needed.
-  if (best && choice_.judged_score(observation, *hand.profile, best->refined) < params.loss.recovered_score)
+  if (best && choice_.score_with_detection(observation, *hand.profile, best->refined) < params.loss.recovered_score)
     return best;
 
   // Repeat the search until further attempts would not help (RestartConsensus).
-  RestartConsensus poses(*hand.profile, params.choice.search_settled, params.loss.recovered_score);
-  for (int attempt = 0; attempt < attempts && !poses.settled(); ++attempt) {
-    auto found = searched(observation, hand, track, effort, attempt, frame);
+  RestartConsensus poses(*hand.profile, params.choice.sufficient_score, params.loss.recovered_score);
+  for (int attempt = 0; attempt < attempts && !poses.converged(); ++attempt) {
+    auto found = search_once(observation, hand, track, effort, attempt, frame);
     if (!found) continue;
     const bool better = poses.add(found->refined.pose, found->score());
     if (better && (!best || found->score() < best->score())) best = std::move(found);
@@ -58,12 +59,13 @@ std::optional<Hypothesis> Proposers::anywhere(const HandObservation& observation
   return best;
 }
 
-std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, const HandModel& hand, Track& track,
-                                            const Hypothesis& followed, std::uint32_t frame) const {
+std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& observation, const HandModel& hand,
+                                                         Track& track, const Hypothesis& followed,
+                                                         std::uint32_t frame) const {
   // A tentative track gets a full search, since the quick search that found it might repeat its mistake.
   const TrackerParams& params = context_.params;
-  if (track.tentative()) return searched(observation, hand, track, Effort::full, 0, frame);
-  if (!track.exceeds_baseline(followed.score(), 1 + params.choice.doubt, params.choice)) return std::nullopt;
+  if (track.tentative()) return search_once(observation, hand, track, Effort::full, 0, frame);
+  if (!track.exceeds_baseline(followed.score(), 1 + params.choice.ambiguity_margin, params.choice)) return std::nullopt;
 
   // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
   const int frames = ++track.ambiguous_frames;
@@ -72,22 +74,22 @@ std::optional<Hypothesis> Proposers::beside(const HandObservation& observation, 
   // Without a detection, try searches in turn. If the track follows something other than the hand, it is ambiguous from
   // its start on, so one full search is made early. Later ambiguity is mostly about fingers: then the searches are
   // quick, or near the followed pose.
-  const int first = (params.doubt_every + 1) / 2;
-  if (frames == first) return searched(observation, hand, track, Effort::full, 1, frame);
-  if (frames % params.doubt_every == first % params.doubt_every)
-    return searched(observation, hand, track, Effort::quick, 0, frame);
-  if (frames % params.doubt_near_every == 0) return near(observation, hand, followed.refined.pose, frame);
+  const int first = (params.ambiguous_search_every + 1) / 2;
+  if (frames == first) return search_once(observation, hand, track, Effort::full, 1, frame);
+  if (frames % params.ambiguous_search_every == first % params.ambiguous_search_every)
+    return search_once(observation, hand, track, Effort::quick, 0, frame);
+  if (frames % params.ambiguous_near_every == 0) return search_near(observation, hand, followed.refined.pose, frame);
   return std::nullopt;
 }
 
-void Proposers::uncross(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
+void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
   const TrackerParams& params = context_.params;
-  if (!params.refinement.enabled || !params.choice.uncross) return;
+  if (!params.refinement.enabled || !params.choice.uncross_fingers) return;
   const auto apart = uncrossed(*hand.profile, followed.refined.pose, params.initialiser.widening);
   if (!apart) return;
 
   // Fingers side by side are more likely a priori, so this pose may explain the frame slightly worse.
-  auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.doubt_iterations);
+  auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.near_iterations);
   if (choice_.replaces("uncross", *best, followed, -params.choice.uncross_allowance)) followed = std::move(*best);
 }
 
@@ -98,27 +100,27 @@ std::optional<Hypothesis> Proposers::detected(const HandObservation& observation
   if (!fit) return std::nullopt;
   auto best =
       best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
-  relax(observation, hand, best);
+  set_neutral_joints(observation, hand, best);
   return best;
 }
 
-std::optional<Hypothesis> Proposers::searched(const HandObservation& observation, const HandModel& hand,
-                                              const Track& track, Effort effort, int attempt,
-                                              std::uint32_t frame) const {
-  const Hiding hiding = attempt == 0 ? Hiding::costs : Hiding::free;
+std::optional<Hypothesis> Proposers::search_once(const HandObservation& observation, const HandModel& hand,
+                                                 const Track& track, Effort effort, int attempt,
+                                                 std::uint32_t frame) const {
+  const HiddenCost hidden_cost = attempt == 0 ? HiddenCost::counted : HiddenCost::ignored;
   const std::uint64_t seed = context_.seed + frame + attempt * kAttemptSeed;
   const HandPose* const last_good = track.last_good ? &*track.last_good : nullptr;
   auto best = best_of(Origin::searched, observation, hand,
-                      hand.initialiser->propose(observation, effort, seed, context_.workers, hiding, last_good),
+                      hand.initialiser->propose(observation, effort, seed, context_.workers, hidden_cost, last_good),
                       context_.params.search_iterations);
-  relax(observation, hand, best);
+  set_neutral_joints(observation, hand, best);
   return best;
 }
 
-std::optional<Hypothesis> Proposers::near(const HandObservation& observation, const HandModel& hand,
-                                          const HandPose& followed, std::uint32_t frame) const {
+std::optional<Hypothesis> Proposers::search_near(const HandObservation& observation, const HandModel& hand,
+                                                 const HandPose& followed, std::uint32_t frame) const {
   const auto starts = hand.initialiser->propose_near(observation, followed, context_.seed + frame, context_.workers);
-  return best_of(Origin::near, observation, hand, starts, context_.params.doubt_iterations);
+  return best_of(Origin::near, observation, hand, starts, context_.params.near_iterations);
 }
 
 std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservation& observation, const HandModel& hand,
@@ -136,9 +138,9 @@ std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservatio
 }
 
 /// Sets unobserved joints to neutral angles, since a search leaves them at random ones (neutral_pose).
-void Proposers::relax(const HandObservation& observation, const HandModel& hand,
-                      std::optional<Hypothesis>& found) const {
-  if (found && context_.params.relax)
+void Proposers::set_neutral_joints(const HandObservation& observation, const HandModel& hand,
+                                   std::optional<Hypothesis>& found) const {
+  if (found && context_.params.neutral_joints)
     found->refined = neutral_pose(observation, found->refined, *hand.profile, hand.refinement, context_.params);
 }
 

@@ -22,30 +22,31 @@ class Proposers {
   /// would not help (RestartConsensus), and does not search at all if the detected hand is explained well. None: too
   /// little of a hand is visible, nothing is found, or the detection may not be a hand. `frame`, the number of the
   /// frame, keys the random numbers.
-  std::optional<Hypothesis> anywhere(const HandObservation& observation, const HandModel& hand, Track& track,
-                                     Effort effort, int attempts, std::uint32_t frame) const;
+  std::optional<Hypothesis> search_frame(const HandObservation& observation, const HandModel& hand, Track& track,
+                                         Effort effort, int attempts, std::uint32_t frame) const;
 
   /// Returns an alternative to a followed pose that is tentative or ambiguous. Ambiguous means that the pose explains
   /// the frame clearly worse than this hand is usually explained. None: the pose is neither, it is not the turn of a
   /// search in this frame, or nothing is found.
-  std::optional<Hypothesis> beside(const HandObservation& observation, const HandModel& hand, Track& track,
-                                   const Hypothesis& followed, std::uint32_t frame) const;
+  std::optional<Hypothesis> propose_alternative(const HandObservation& observation, const HandModel& hand, Track& track,
+                                                const Hypothesis& followed, std::uint32_t frame) const;
 
   /// Puts crossed fingers of the followed pose side by side if that explains the frame about as well.
-  void uncross(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
+  void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
 
  private:
   std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
   // One search of the whole observation. `attempt`: number of the search in this frame, from 0.
-  std::optional<Hypothesis> searched(const HandObservation& observation, const HandModel& hand, const Track& track,
-                                     Effort effort, int attempt, std::uint32_t frame) const;
+  std::optional<Hypothesis> search_once(const HandObservation& observation, const HandModel& hand, const Track& track,
+                                        Effort effort, int attempt, std::uint32_t frame) const;
   // A search of the finger poses; the palm of `followed` must be about right.
-  std::optional<Hypothesis> near(const HandObservation& observation, const HandModel& hand, const HandPose& followed,
-                                 std::uint32_t frame) const;
+  std::optional<Hypothesis> search_near(const HandObservation& observation, const HandModel& hand,
+                                        const HandPose& followed, std::uint32_t frame) const;
   // Refines the first `search_refined` start poses by `iterations` steps each and returns the best one.
   std::optional<Hypothesis> best_of(Origin origin, const HandObservation& observation, const HandModel& hand,
                                     const std::vector<StartCandidate>& starts, int iterations) const;
-  void relax(const HandObservation& observation, const HandModel& hand, std::optional<Hypothesis>& found) const;
+  void set_neutral_joints(const HandObservation& observation, const HandModel& hand,
+                          std::optional<Hypothesis>& found) const;
 
   const TrackerContext& context_;
   Choice& choice_;

@@ -31,7 +31,7 @@ int RestartConsensus::like_best(double distance) const {
   return static_cast<int>(std::ranges::count_if(poses_, like));
 }
 
-bool RestartConsensus::settled() const {
+bool RestartConsensus::converged() const {
   if (poses_.empty()) return false;
 
   // The best pose is good enough, or repetition has confirmed it.
@@ -39,7 +39,7 @@ bool RestartConsensus::settled() const {
 
   // Many poses were found, and either none explains the data or nearly all show the hand in the same place.
   const int count = static_cast<int>(poses_.size());
-  return count >= kMany && (best_score_ > worst_ || like_best(kAlike) >= count - 1);
+  return count >= kMany && (best_score_ > worst_ || like_best(kSamePalmDistance) >= count - 1);
 }
 
 }  // namespace barehand

@@ -7,7 +7,7 @@
 namespace barehand {
 
 /// pose_distance() [m] below which two poses differ only in their fingers; the palm is in the same place.
-inline constexpr double kAlike = 0.040;
+inline constexpr double kSamePalmDistance = 0.040;
 
 /// Collects the poses that repeated searches found in one frame and decides when to stop searching. If little of a
 /// hand is visible, very different poses may explain it fairly well, and only repetition finds the best of them.
@@ -24,7 +24,7 @@ class RestartConsensus {
   /// - the score of the best pose is below `enough`, or
   /// - the best pose was found several times, or
   /// - many poses were found, and nearly all resemble the best one or none explains the data.
-  bool settled() const;
+  bool converged() const;
 
  private:
   /// The number of poses within `distance` [m] of the best one, including itself.

@@ -1,4 +1,4 @@
-#include "io/web/own_origin.h"
+#include "io/web/allowed_origin.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -24,22 +24,22 @@ TEST(OwnHost, IsNoNameThatSomebodyElseMayOwn) {
     EXPECT_FALSE(is_own_host(host)) << host;
 }
 
-TEST(Welcome, IsThePageThatWasServedHereAndWhoSendsNoOrigin) {
-  EXPECT_TRUE(is_welcome("", "localhost:8765", {}));
-  EXPECT_TRUE(is_welcome("http://localhost:8765", "localhost:8765", {}));
-  EXPECT_TRUE(is_welcome("http://LOCALHOST:8765", "localhost:8765", {}));
+TEST(AllowedOrigin, IsThePageThatWasServedHereAndWhoSendsNoOrigin) {
+  EXPECT_TRUE(is_allowed_origin("", "localhost:8765", {}));
+  EXPECT_TRUE(is_allowed_origin("http://localhost:8765", "localhost:8765", {}));
+  EXPECT_TRUE(is_allowed_origin("http://LOCALHOST:8765", "localhost:8765", {}));
 }
 
-TEST(Welcome, IsNoOtherPage) {
+TEST(AllowedOrigin, IsNoOtherPage) {
   for (const char* origin : {"http://evil.org", "null", "file://", "http://localhost", "http://localhost:9999",
                              "https://localhost:8765", "http://localhost:8765.evil.org", "http://127.0.0.1:8765"})
-    EXPECT_FALSE(is_welcome(origin, "localhost:8765", {})) << origin;
+    EXPECT_FALSE(is_allowed_origin(origin, "localhost:8765", {})) << origin;
 }
 
-TEST(Welcome, IsWhoIsInvited) {
-  const std::vector<std::string> invited = {"https://example.org"};
-  EXPECT_TRUE(is_welcome("https://example.org", "localhost:8765", invited));
-  EXPECT_FALSE(is_welcome("https://example.org.evil.org", "localhost:8765", invited));
+TEST(AllowedOrigin, IsWhoIsInvited) {
+  const std::vector<std::string> allowed_origins = {"https://example.org"};
+  EXPECT_TRUE(is_allowed_origin("https://example.org", "localhost:8765", allowed_origins));
+  EXPECT_FALSE(is_allowed_origin("https://example.org.evil.org", "localhost:8765", allowed_origins));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "stages/known_object/seen_depth.h"
+#include "stages/known_object/observed_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,20 +30,20 @@ bool hides_itself(const KnownObject& object, const Vector3f& place, const Vector
 
 }  // namespace
 
-SeenDepth::SeenDepth(const HandObservations& observations)
+ObservedDepth::ObservedDepth(const HandObservations& observations)
     : observations_(observations), frame_(*observations.front()->frame) {
   for (const auto& observation : observations) noise_ = std::max(noise_, observation->noise);
 }
 
-bool SeenDepth::of_hand(int u, int v) const {
+bool ObservedDepth::of_hand(int u, int v) const {
   return std::any_of(observations_.begin(), observations_.end(), [&](const HandObservationPtr& seen) {
     const int x = u - seen->u0, y = v - seen->v0;
     return seen->label.contains(x, y) && seen->label.at(x, y) == PixelLabel::hand;
   });
 }
 
-void SeenDepth::points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
-                            std::vector<Vector3f>& points) const {
+void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
+                                std::vector<Vector3f>& points) const {
   // Find the part of the image that the object can be in.
   const Intrinsics& camera = frame_.camera;
   const Vector3d centre = T_camera_object * object.centre;
@@ -70,7 +70,7 @@ void SeenDepth::points_near(const KnownObject& object, const SE3& T_camera_objec
     }
 }
 
-Visibility SeenDepth::visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const {
+Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const {
   Visibility visibility;
   const Eigen::Matrix3f R = T_camera_object.R.cast<float>();
   const Vector3f t = T_camera_object.t.cast<float>(), camera_in_object = -(R.transpose() * t);

@@ -18,13 +18,15 @@ struct Visibility {
   /// The part of what is not hidden that contradicts the pose.
   double contradicted() const { return seen + through == 0 ? 1 : through / static_cast<double>(seen + through); }
   /// The same, if nothing but hands is supposed to be before the object.
-  double doubtful() const { return (through + blocked) / std::max(1.0, static_cast<double>(seen + through + blocked)); }
+  double inconsistent() const {
+    return (through + blocked) / std::max(1.0, static_cast<double>(seen + through + blocked));
+  }
 };
 
 /// The depth of one frame without its hands. The observations must be of one frame.
-class SeenDepth {
+class ObservedDepth {
  public:
-  explicit SeenDepth(const HandObservations& observations);
+  explicit ObservedDepth(const HandObservations& observations);
 
   /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most.
   void points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,

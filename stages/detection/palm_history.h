@@ -11,13 +11,13 @@ namespace barehand {
 /// Remembers where the first network found palms and how likely it was a hand that the second network found there. A
 /// place that has been unlikely for a while is examined in every second search of the whole frame only, unless its palm
 /// has changed. This depends on the frames alone, not on time.
-class KnownPlaces {
+class PalmHistory {
  public:
   /// Call once per search of the whole frame, before the other functions.
   void begin_search();
   /// Whether the place of a palm need not be examined in this search. `palm`: its centre as the first network reports
   /// it, camera frame [m]. `probability`: of a palm.
-  bool may_wait(const Eigen::Vector3d& palm, double probability);
+  bool may_skip(const Eigen::Vector3d& palm, double probability);
   /// States what was found at the place of a palm in this search; null: no hand.
   void examined(const Eigen::Vector3d& palm, double probability, const DetectedHand* found);
 
@@ -25,7 +25,7 @@ class KnownPlaces {
   struct Place {
     Eigen::Vector3d palm = Eigen::Vector3d::Zero();  // where it was when it was examined last
     double log_odds = 0;                             // of a palm, when it was examined last
-    int doubt = 0;                                   // grows with each examination that found nothing likely
+    int unlikely_count = 0;                          // grows with each examination that found nothing likely
     bool unlikely = false;                           // whether the last examination found nothing likely
     std::int64_t last_palm = 0;                      // number of the last search with a palm here
     std::int64_t last_examined = 0;                  // number of the last search in which it was examined

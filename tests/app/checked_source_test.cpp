@@ -1,4 +1,4 @@
-#include "app/shared/watched_source.h"
+#include "app/shared/checked_source.h"
 
 #include <gmock/gmock.h>
 
@@ -49,7 +49,7 @@ class Watched : public testing::Test {
   void add(std::shared_ptr<RgbdFrame> frame) { frames_.push_back(std::move(frame)); }
   /// Numbers of the frames that are delivered. The notices and the skipped frames are kept in members.
   std::vector<std::int64_t> play(bool live = false) {
-    WatchedSource source(std::make_unique<FrameList>(frames_, live), DepthLimits{0.12, 1.5}, clock_);
+    CheckedSource source(std::make_unique<FrameList>(frames_, live), DepthLimits{0.12, 1.5}, clock_);
     std::vector<std::int64_t> numbers;
     while (true) {
       const SourceEvent event = source.next(std::chrono::milliseconds(0));

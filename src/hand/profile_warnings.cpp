@@ -1,4 +1,4 @@
-#include "hand/profile_doubts.h"
+#include "hand/profile_warnings.h"
 
 #include <cmath>
 
@@ -20,12 +20,12 @@ constexpr double kRadians = 3.2 * kDegree;
 
 }  // namespace
 
-std::vector<std::string> profile_doubts(const HandProfile& profile) {
-  std::vector<std::string> doubts;
+std::vector<std::string> profile_warnings(const HandProfile& profile) {
+  std::vector<std::string> warnings;
 
   const double length = profile.hand_length();
   if (length < kSmallest || length > kLargest)
-    doubts.push_back(
+    warnings.push_back(
         formatted("the hand is %.0f mm long from wrist to fingertip, people's are from 100 to 250 mm: are its "
                   "lengths right, and in metres?",
                   1e3 * length));
@@ -42,11 +42,11 @@ std::vector<std::string> profile_doubts(const HandProfile& profile) {
     at = s;
   }
   if (at >= 0)
-    doubts.push_back(
+    warnings.push_back(
         formatted("the joint of %s lies %.1f mm from the end of the bone before it: are the numbers of "
                   "\"rest_transform\" rounded? Six decimals are exact enough",
                   kSegmentNames[at].data(), 1e3 * widest));
-  return doubts;
+  return warnings;
 }
 
 bool limits_look_like_radians(const HandProfile& profile) {

@@ -1,4 +1,4 @@
-#include "hand/profile_doubts.h"
+#include "hand/profile_warnings.h"
 
 #include <gmock/gmock.h>
 
@@ -13,25 +13,25 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(ProfileDoubts, PeoplesHandsRaiseNone) {
+TEST(ProfileWarnings, PeoplesHandsRaiseNone) {
   for (const double size : {0.6, 0.8, 1.0, 1.2})
-    EXPECT_THAT(profile_doubts(scaled(*test::adult_hand(), size)), IsEmpty()) << size;
+    EXPECT_THAT(profile_warnings(scaled(*test::adult_hand(), size)), IsEmpty()) << size;
 }
 
-TEST(ProfileDoubts, AHandOfNobodysSizeIsNamedWithItsLength) {
-  EXPECT_THAT(profile_doubts(scaled(*test::adult_hand(), 2)), ElementsAre(HasSubstr("the hand is 39")));
-  EXPECT_THAT(profile_doubts(scaled(*test::adult_hand(), 0.5)), ElementsAre(HasSubstr("the hand is 9")));
-  EXPECT_THAT(profile_doubts(scaled(*test::adult_hand(), 0.0254)), ElementsAre(HasSubstr("in metres?")));
+TEST(ProfileWarnings, AHandOfNobodysSizeIsNamedWithItsLength) {
+  EXPECT_THAT(profile_warnings(scaled(*test::adult_hand(), 2)), ElementsAre(HasSubstr("the hand is 39")));
+  EXPECT_THAT(profile_warnings(scaled(*test::adult_hand(), 0.5)), ElementsAre(HasSubstr("the hand is 9")));
+  EXPECT_THAT(profile_warnings(scaled(*test::adult_hand(), 0.0254)), ElementsAre(HasSubstr("in metres?")));
 }
 
-TEST(ProfileDoubts, JointsBesideTheirBonesAreNamed) {
+TEST(ProfileWarnings, JointsBesideTheirBonesAreNamed) {
   HandProfile profile = *test::adult_hand();
   profile.segments[segment_of(2, 1)].T_hand_segment.t.y() += 0.003;
-  EXPECT_THAT(profile_doubts(profile),
+  EXPECT_THAT(profile_warnings(profile),
               ElementsAre(AllOf(HasSubstr("middle_"), HasSubstr("3.0 mm"), HasSubstr("rounded"))));
 }
 
-TEST(ProfileDoubts, LimitsInRadiansLookLikeRadians) {
+TEST(ProfileWarnings, LimitsInRadiansLookLikeRadians) {
   HandProfile profile = *test::adult_hand();
   EXPECT_FALSE(limits_look_like_radians(profile));
   for (SegmentProfile& segment : profile.segments)

@@ -1,4 +1,4 @@
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class WholeFiles : public ::testing::Test {
+class AtomicFiles : public ::testing::Test {
  protected:
   std::vector<std::string> names() const {
     std::vector<std::string> names;
@@ -33,8 +33,8 @@ class WholeFiles : public ::testing::Test {
   const std::string path_ = folder_ / "out.csv";
 };
 
-TEST_F(WholeFiles, HasItsNameOnlyWhenItIsWhole) {
-  auto file = WholeFile::create(path_, false).value();
+TEST_F(AtomicFiles, HasItsNameOnlyWhenItIsWhole) {
+  auto file = AtomicFile::create(path_, false).value();
   write_text(file.draft(), "half");
   EXPECT_THAT(names(), ElementsAre("out.csv.unfinished"));
   ASSERT_TRUE(file.finish());
@@ -42,25 +42,25 @@ TEST_F(WholeFiles, HasItsNameOnlyWhenItIsWhole) {
   EXPECT_EQ(read_text(path_), "half");
 }
 
-TEST_F(WholeFiles, OneThatIsNotFinishedLeavesNothing) {
-  { const auto file = WholeFile::create(path_, false).value(); }
+TEST_F(AtomicFiles, OneThatIsNotFinishedLeavesNothing) {
+  { const auto file = AtomicFile::create(path_, false).value(); }
   EXPECT_THAT(names(), ElementsAre());
 }
 
-TEST_F(WholeFiles, WhatIsThereIsReplacedOnlyIfAllowed) {
+TEST_F(AtomicFiles, WhatIsThereIsReplacedOnlyIfAllowed) {
   write_text(path_, "old");
-  const auto refused = WholeFile::create(path_, false);
+  const auto refused = AtomicFile::create(path_, false);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message(), AllOf(HasSubstr(path_), HasSubstr("--overwrite")));
-  auto file = WholeFile::create(path_, true).value();
+  auto file = AtomicFile::create(path_, true).value();
   write_text(file.draft(), "new");
   EXPECT_EQ(read_text(path_), "old") << "before the new one is whole";
   ASSERT_TRUE(file.finish());
   EXPECT_EQ(read_text(path_), "new");
 }
 
-TEST_F(WholeFiles, WhatAppearsInTheMeantimeIsKeptAndSoIsTheDraft) {
-  auto file = WholeFile::create(path_, false).value();
+TEST_F(AtomicFiles, WhatAppearsInTheMeantimeIsKeptAndSoIsTheDraft) {
+  auto file = AtomicFile::create(path_, false).value();
   write_text(file.draft(), "mine");
   write_text(path_, "somebody's");
   const auto finished = file.finish();
@@ -70,21 +70,21 @@ TEST_F(WholeFiles, WhatAppearsInTheMeantimeIsKeptAndSoIsTheDraft) {
   EXPECT_EQ(read_text(path_ + ".unfinished"), "mine");
 }
 
-TEST_F(WholeFiles, DraftsOfOthersAreLeftAlone) {
+TEST_F(AtomicFiles, DraftsOfOthersAreLeftAlone) {
   write_text(path_ + ".unfinished", "of a killed program");
-  auto second = WholeFile::create(path_, false).value();
-  auto third = WholeFile::create(path_, false).value();
+  auto second = AtomicFile::create(path_, false).value();
+  auto third = AtomicFile::create(path_, false).value();
   EXPECT_THAT(names(), ElementsAre("out.csv.unfinished", "out.csv.unfinished-2", "out.csv.unfinished-3"));
   second.discard();
   third.discard();
   EXPECT_EQ(read_text(path_ + ".unfinished"), "of a killed program");
 }
 
-TEST_F(WholeFiles, ALinkStaysAndItsFileIsReplaced) {
+TEST_F(AtomicFiles, ALinkStaysAndItsFileIsReplaced) {
   fs::create_directory(folder_ / "far");
   write_text(folder_ / "far/real.csv", "old");
   fs::create_symlink("far/real.csv", path_);
-  auto file = WholeFile::create(path_, true).value();
+  auto file = AtomicFile::create(path_, true).value();
   EXPECT_EQ(file.draft(), folder_ / "far/real.csv.unfinished");
   write_text(file.draft(), "new");
   ASSERT_TRUE(file.finish());
@@ -92,22 +92,22 @@ TEST_F(WholeFiles, ALinkStaysAndItsFileIsReplaced) {
   EXPECT_EQ(read_text(folder_ / "far/real.csv"), "new");
 }
 
-TEST_F(WholeFiles, AnotherNameOfAFileKeepsItsContents) {
+TEST_F(AtomicFiles, AnotherNameOfAFileKeepsItsContents) {
   write_text(path_, "old");
   fs::create_hard_link(path_, folder_ / "precious.csv");
-  ASSERT_TRUE(write_whole_file(path_, "new"));
+  ASSERT_TRUE(write_file_atomically(path_, "new"));
   EXPECT_EQ(read_text(path_), "new");
   EXPECT_EQ(read_text(folder_ / "precious.csv"), "old");
 }
 
-TEST_F(WholeFiles, PermissionsOfAReplacedFileStay) {
+TEST_F(AtomicFiles, PermissionsOfAReplacedFileStay) {
   write_text(path_, "old");
   fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_read);
-  ASSERT_TRUE(write_whole_file(path_, "new"));
+  ASSERT_TRUE(write_file_atomically(path_, "new"));
   EXPECT_EQ(fs::status(path_).permissions(), fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_read);
 }
 
-TEST_F(WholeFiles, PipesDevicesAndDescriptorsHaveNoDraft) {
+TEST_F(AtomicFiles, PipesDevicesAndDescriptorsHaveNoDraft) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   write_text(path_, "opened by somebody");
   const int descriptor = open(path_.c_str(), O_RDWR);
@@ -116,7 +116,7 @@ TEST_F(WholeFiles, PipesDevicesAndDescriptorsHaveNoDraft) {
   for (const std::string& path :
        {std::string("/dev/null"), std::string("/dev/stdout"), folder_ / "pipe", "/dev/fd/" + std::to_string(descriptor),
         "/proc/self/fd/" + std::to_string(descriptor), folder_ / "link"}) {
-    auto file = WholeFile::create(path, false);
+    auto file = AtomicFile::create(path, false);
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(file->draft(), path);
     EXPECT_TRUE(file->finish());
@@ -125,24 +125,24 @@ TEST_F(WholeFiles, PipesDevicesAndDescriptorsHaveNoDraft) {
   EXPECT_THAT(names(), ElementsAre("link", "out.csv", "pipe"));
 }
 
-TEST_F(WholeFiles, FoldersAndProtectedFilesAreRefused) {
+TEST_F(AtomicFiles, FoldersAndProtectedFilesAreRefused) {
   write_text(path_, "old");
   fs::permissions(path_, fs::perms::owner_read | fs::perms::others_read);
   fs::permissions(folder_.path(), fs::perms::all);
   const test::OrdinaryUser user;
-  EXPECT_FALSE(WholeFile::create(folder_.path(), true));
-  EXPECT_FALSE(WholeFile::create(path_, true));
-  EXPECT_FALSE(WholeFile::create(folder_ / "none/out.csv", true));
+  EXPECT_FALSE(AtomicFile::create(folder_.path(), true));
+  EXPECT_FALSE(AtomicFile::create(path_, true));
+  EXPECT_FALSE(AtomicFile::create(folder_ / "none/out.csv", true));
   EXPECT_THAT(names(), ElementsAre("out.csv"));
 }
 
-TEST_F(WholeFiles, AFullDiskLeavesTheOldFile) {
-  const auto written = write_whole_file("/dev/full", "text");
+TEST_F(AtomicFiles, AFullDiskLeavesTheOldFile) {
+  const auto written = write_file_atomically("/dev/full", "text");
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message(), HasSubstr("No space left"));
 }
 
-TEST_F(WholeFiles, ADraftTellsItsName) {
+TEST_F(AtomicFiles, ADraftTellsItsName) {
   EXPECT_EQ(finished_name("a/take.lcmlog.unfinished"), "a/take.lcmlog");
   EXPECT_EQ(finished_name("take.lcmlog.unfinished-12"), "take.lcmlog");
   for (const char* other : {"take.lcmlog", "take.unfinished.lcmlog", "take.unfinished-", "take.unfinished-2a",
@@ -150,8 +150,8 @@ TEST_F(WholeFiles, ADraftTellsItsName) {
     EXPECT_EQ(finished_name(other), "") << other;
 }
 
-TEST_F(WholeFiles, OnlyAbandonedDraftsAreFinishedByOthers) {
-  auto file = WholeFile::create(path_, false).value();
+TEST_F(AtomicFiles, OnlyAbandonedDraftsAreFinishedByOthers) {
+  auto file = AtomicFile::create(path_, false).value();
   EXPECT_TRUE(is_being_written(file.draft()));
   EXPECT_FALSE(finish_abandoned(file.draft(), path_)) << "it is being written";
   file.discard();

@@ -1,8 +1,8 @@
 // Checks the frames of a source and reports what looks wrong in them.
-#include "app/shared/watched_source.h"
+#include "app/shared/checked_source.h"
 
 #include "core/format.h"
-#include "sensor/camera_doubts.h"
+#include "sensor/camera_warnings.h"
 #include "sensor/picture_check.h"
 
 namespace barehand {
@@ -16,22 +16,22 @@ double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
 }  // namespace
 
-WatchedSource::WatchedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock)
+CheckedSource::CheckedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock)
     : source_(std::move(source)), limits_(limits), filter_(clock, kRepeatEvery) {}
 
-SourceEvent WatchedSource::take_next() {
+SourceEvent CheckedSource::take_next() {
   SourceEvent event = std::move(to_come_.front());
   to_come_.pop_front();
   return event;
 }
 
-SourceEvent WatchedSource::next(std::chrono::milliseconds patience) {
+SourceEvent CheckedSource::next(std::chrono::milliseconds patience) {
   if (!to_come_.empty()) return take_next();
   SourceEvent event = source_->next(patience);
   if (const auto* frame = std::get_if<FramePtr>(&event)) {
-    if (!look(*frame)) return take_next();
+    if (!check_frame(*frame)) return take_next();
   } else if (std::holds_alternative<EndOfStream>(event) && range_) {
-    if (const auto doubt = range_->finish()) say("range", *doubt);
+    if (const auto warning = range_->finish()) say("range", *warning);
   }
   if (to_come_.empty()) return event;
   to_come_.push_back(std::move(event));
@@ -39,24 +39,24 @@ SourceEvent WatchedSource::next(std::chrono::milliseconds patience) {
 }
 
 /// Returns whether the frame is to be used. Messages about it are queued before it.
-bool WatchedSource::look(const FramePtr& frame) {
+bool CheckedSource::check_frame(const FramePtr& frame) {
   if (!before_ || !(before_->camera == frame->camera) || before_->depth_unit != frame->depth_unit) {
-    look_at_camera(*frame);
+    check_camera(*frame);
     range_.emplace(limits_);
   }
   if (!frame->colour_fault.empty())
     say("colour", "colour is not used: " + frame->colour_fault, "tracking continues with depth alone");
-  if (!look_at_picture(frame)) return false;
-  if (const auto doubt = range_->look(*frame)) say("range", *doubt);
+  if (!check_image(frame)) return false;
+  if (const auto warning = range_->add(*frame)) say("range", *warning);
   before_ = frame;
   return true;
 }
 
-void WatchedSource::look_at_camera(const RgbdFrame& frame) {
-  for (const std::string& doubt : camera_doubts(frame.camera)) say("camera", doubt);
+void CheckedSource::check_camera(const RgbdFrame& frame) {
+  for (const std::string& warning : camera_warnings(frame.camera)) say("camera", warning);
 }
 
-bool WatchedSource::look_at_picture(const FramePtr& frame) {
+bool CheckedSource::check_image(const FramePtr& frame) {
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
   const bool still = fault == DepthFault::repeated;
   if (live() && (still || fault == DepthFault::senseless)) {
@@ -71,12 +71,12 @@ bool WatchedSource::look_at_picture(const FramePtr& frame) {
         formatted("the depth image of frame %lld is noise: neighbouring pixels are unrelated",
                   static_cast<long long>(frame->number)),
         "is it a 16-bit image with its bytes in the right order?");
-  look_at_stillness(*frame, still);
+  check_stillness(*frame, still);
   return true;
 }
 
 /// Reports a recording whose depth image stays the same. A sensor's noise never repeats, but a rendered hand may rest.
-void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
+void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
   if (!still) {
     still_since_.reset();
     return;
@@ -93,7 +93,7 @@ void WatchedSource::look_at_stillness(const RgbdFrame& frame, bool still) {
       "the noise of a sensor never repeats: had it stopped?");
 }
 
-void WatchedSource::say(const std::string& kind, const std::string& what, const std::string& remedy) {
+void CheckedSource::say(const std::string& kind, const std::string& what, const std::string& remedy) {
   const auto suppressed = filter_.admit(kind);
   if (!suppressed.has_value()) return;
   const std::string more = *suppressed > 0 ? " (and " + std::to_string(*suppressed) + " more like this)" : "";

@@ -16,14 +16,14 @@ inline constexpr std::string_view kUnfinished = ".unfinished";
 /// link.
 /// Pipes, devices and descriptors (/dev/stdout, /dev/fd/3) have no draft: they are written to directly. A descriptor is
 /// duplicated, not opened again by its path, since its file would then be overwritten from the start.
-class WholeFile {
+class AtomicFile {
  public:
   /// Creates the empty draft. Errors: the file exists and `overwrite` is false, it is a folder or write-protected, or
   /// its folder is missing or cannot be written to.
-  static Result<WholeFile> create(const std::string& path, bool overwrite);
-  WholeFile(WholeFile&& other) noexcept { *this = std::move(other); }
-  WholeFile& operator=(WholeFile&& other) noexcept;
-  ~WholeFile() { discard(); }
+  static Result<AtomicFile> create(const std::string& path, bool overwrite);
+  AtomicFile(AtomicFile&& other) noexcept { *this = std::move(other); }
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  ~AtomicFile() { discard(); }
 
   /// Opens the draft, which becomes empty, for its only writer; a descriptor that `path` names is duplicated. Returns
   /// the new descriptor, or -1 with errno set. Waits until a named pipe has a reader.
@@ -41,7 +41,7 @@ class WholeFile {
   void discard();
 
  private:
-  WholeFile() = default;
+  AtomicFile() = default;
 
   /// The path as given, the path after all links, and the path of the draft ("" if nothing is to be finished).
   std::string path_, target_, draft_;
@@ -51,7 +51,7 @@ class WholeFile {
 };
 
 /// Writes a whole file, replacing an existing one. A full disk is an error and leaves the existing file as it was.
-Result<void> write_whole_file(const std::string& path, std::string_view bytes);
+Result<void> write_file_atomically(const std::string& path, std::string_view bytes);
 
 /// The name that a draft will get: "take.lcmlog" for take.lcmlog.unfinished and take.lcmlog.unfinished-2; "" if `path`
 /// is not the name of a draft.

@@ -12,8 +12,8 @@ namespace barehand {
 bool is_own_host(std::string_view host);
 
 /// Whether a page from `origin`, the header Origin, may use what is served as `host`. Allowed are the page that this
-/// server delivers, pages from an origin in `invited` ("https://example.org"), and an empty origin: browsers send the
-/// header, so the request does not come from a foreign page.
-bool is_welcome(std::string_view origin, std::string_view host, std::span<const std::string> invited);
+/// server delivers, pages from an origin in `allowed_origins` ("https://example.org"), and an empty origin: browsers
+/// send the header, so the request does not come from a foreign page.
+bool is_allowed_origin(std::string_view origin, std::string_view host, std::span<const std::string> allowed_origins);
 
 }  // namespace barehand

@@ -1,4 +1,4 @@
-#include "stages/detection/known_places.h"
+#include "stages/detection/palm_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,41 +10,43 @@ constexpr double kSame = 0.05;  // a palm that is farther away than this is anot
 constexpr double kClearSide =
     3;  // log odds of the side from which on it may well be a hand: of most hands they are 4 to 20
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
-constexpr int kDoubted = 6;           // doubt from which on a place may wait: most hands are tracked before
-constexpr int kMostDoubt = 12;
+constexpr int kSkipFrom = 6;          // count from which on a place may be skipped: most hands are tracked before
+constexpr int kMaxUnlikelyCount = 12;
 constexpr int kRemembered = 5;  // frames without a palm after which a place is forgotten
 
 double log_odds(double probability) { return std::log(probability / (1 - probability)); }
 
 }  // namespace
 
-void KnownPlaces::begin_search() {
+void PalmHistory::begin_search() {
   ++search_;
   std::erase_if(places_, [&](const Place& place) { return search_ - place.last_palm > kRemembered; });
 }
 
-KnownPlaces::Place* KnownPlaces::find(const Eigen::Vector3d& palm) {
+PalmHistory::Place* PalmHistory::find(const Eigen::Vector3d& palm) {
   const auto distance = [&](const Place& place) { return (place.palm - palm).norm(); };
   const auto nearest = std::ranges::min_element(places_, {}, distance);
   return nearest != places_.end() && distance(*nearest) < kSame ? &*nearest : nullptr;
 }
 
-bool KnownPlaces::may_wait(const Eigen::Vector3d& palm, double probability) {
+bool PalmHistory::may_skip(const Eigen::Vector3d& palm, double probability) {
   Place* const place = find(palm);
-  if (!place || !place->unlikely || place->doubt < kDoubted || place->last_examined != search_ - 1) return false;
+  if (!place || !place->unlikely || place->unlikely_count < kSkipFrom || place->last_examined != search_ - 1)
+    return false;
   if (std::abs(log_odds(probability) - place->log_odds) >= kSameLogOdds) return false;
   place->last_palm = search_;
   return true;
 }
 
-void KnownPlaces::examined(const Eigen::Vector3d& palm, double probability, const DetectedHand* found) {
+void PalmHistory::examined(const Eigen::Vector3d& palm, double probability, const DetectedHand* found) {
   Place* place = find(palm);
   if (!place) place = &places_.emplace_back();
   place->palm = palm;
   place->log_odds = log_odds(probability);
   place->last_palm = place->last_examined = search_;
   place->unlikely = !found || std::abs(found->right_log_odds) < kClearSide;
-  place->doubt = place->unlikely ? std::min(kMostDoubt, place->doubt + 1) : place->doubt / 2;
+  place->unlikely_count =
+      place->unlikely ? std::min(kMaxUnlikelyCount, place->unlikely_count + 1) : place->unlikely_count / 2;
 }
 
 }  // namespace barehand

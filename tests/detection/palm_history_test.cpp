@@ -1,4 +1,4 @@
-#include "stages/detection/known_places.h"
+#include "stages/detection/palm_history.h"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,14 @@ namespace barehand {
 namespace {
 
 /// A palm that is seen in one frame after the other, and what is found at its place.
-class KnownPlacesTest : public ::testing::Test {
+class PalmHistoryTest : public ::testing::Test {
  protected:
   /// A frame with one palm. Returns whether its place was examined; then a hand with this log odds of a right one was
   /// found.
   bool frame(const std::optional<double>& right_log_odds, double probability = 0.6,
              const Eigen::Vector3d& palm = {0, 0, 0.7}) {
     places_.begin_search();
-    if (places_.may_wait(palm, probability)) return false;
+    if (places_.may_skip(palm, probability)) return false;
     DetectedHand hand;
     hand.centre = palm;
     hand.right_log_odds = right_log_odds.value_or(0);
@@ -29,23 +29,23 @@ class KnownPlacesTest : public ::testing::Test {
     return examined;
   }
 
-  KnownPlaces places_;
+  PalmHistory places_;
 };
 
-TEST_F(KnownPlacesTest, WhatHasAClearSideIsExaminedInEveryFrame) { EXPECT_EQ(frames(10, -4), "1111111111"); }
+TEST_F(PalmHistoryTest, WhatHasAClearSideIsExaminedInEveryFrame) { EXPECT_EQ(frames(10, -4), "1111111111"); }
 
-TEST_F(KnownPlacesTest, WhatIsNoHandOrHasNoClearSideForLongIsExaminedInEverySecondFrame) {
+TEST_F(PalmHistoryTest, WhatIsNoHandOrHasNoClearSideForLongIsExaminedInEverySecondFrame) {
   EXPECT_EQ(frames(11, std::nullopt), "11111101010");
   places_ = {};
   EXPECT_EQ(frames(11, 0.5), "11111101010");
 }
 
-TEST_F(KnownPlacesTest, AClearSideEndsTheWaiting) {
+TEST_F(PalmHistoryTest, AClearSideEndsTheWaiting) {
   EXPECT_EQ(frames(7, 0.5), "1111110");
   EXPECT_EQ(frames(4, 4), "1111");
 }
 
-TEST_F(KnownPlacesTest, APalmThatChangesOrMovesDoesNotWait) {
+TEST_F(PalmHistoryTest, APalmThatChangesOrMovesDoesNotWait) {
   frames(6, 0.5);
   EXPECT_TRUE(frame(0.5, 0.75));
   EXPECT_FALSE(frame(0.5, 0.75));
@@ -53,7 +53,7 @@ TEST_F(KnownPlacesTest, APalmThatChangesOrMovesDoesNotWait) {
   EXPECT_TRUE(frame(0.5, 0.75, {0.06, 0, 0.7}));
 }
 
-TEST_F(KnownPlacesTest, ThePlaceThatAPalmLeftIsForgotten) {
+TEST_F(PalmHistoryTest, ThePlaceThatAPalmLeftIsForgotten) {
   frames(6, 0.5);
   for (int i = 0; i < 6; ++i) places_.begin_search();
   EXPECT_EQ(frames(7, 0.5), "1111110");

@@ -8,17 +8,17 @@ namespace barehand {
 
 /// What the rays of a frame say about places in space. Up to the surface that a ray met, space is empty; behind it, and
 /// where nothing was measured, there may be anything.
-class SeenSpace {
+class ObservedSpace {
  public:
-  enum class Place { unknown, empty, surface };
+  enum class Occupancy { unknown, empty, surface };
 
   /// Looks at the regions of interest of all hands of a frame.
-  void see(const HandObservations& observations);
+  void observe(const HandObservations& observations);
   /// What is seen at a place (camera frame [m]). A surface is as thick as the sensor's error.
-  Place at(const Eigen::Vector3f& p) const;
+  Occupancy at(const Eigen::Vector3f& p) const;
   /// Whether nothing was measured in the direction of a place, nor around it, although it is in view.
   bool blank(const Eigen::Vector3f& p) const;
-  bool empty(const Eigen::Vector3f& p) const { return at(p) == Place::empty; }
+  bool empty(const Eigen::Vector3f& p) const { return at(p) == Occupancy::empty; }
 
  private:
   struct View {

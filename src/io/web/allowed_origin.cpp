@@ -1,5 +1,5 @@
 // Decides whether a request comes from the program's own page, to refuse those of other web sites.
-#include "io/web/own_origin.h"
+#include "io/web/allowed_origin.h"
 
 #include <arpa/inet.h>
 #include <unistd.h>
@@ -45,9 +45,9 @@ bool is_own_host(std::string_view host) {
   return !machine.empty() && (name == machine || name == machine + ".local");
 }
 
-bool is_welcome(std::string_view origin, std::string_view host, std::span<const std::string> invited) {
+bool is_allowed_origin(std::string_view origin, std::string_view host, std::span<const std::string> allowed_origins) {
   if (origin.empty() || lower(origin) == "http://" + lower(host)) return true;
-  return std::ranges::find(invited, origin) != invited.end();
+  return std::ranges::find(allowed_origins, origin) != allowed_origins.end();
 }
 
 }  // namespace barehand

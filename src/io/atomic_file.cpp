@@ -1,5 +1,5 @@
 // Writes a file as a draft that gets its name when it is complete.
-#include "io/whole_file.h"
+#include "io/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -60,8 +60,8 @@ int write_all(int file, std::string_view bytes) {
 
 }  // namespace
 
-Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
-  WholeFile file;
+Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite) {
+  AtomicFile file;
   const Target target = target_of(path);
   file.path_ = path;
   file.target_ = target.path;
@@ -104,7 +104,7 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite) {
   return cannot_write(EEXIST, path, "too many files end in " + std::string(kUnfinished) + ": remove them");
 }
 
-WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   if (this == &other) return *this;
   discard();
   path_ = std::move(other.path_);
@@ -117,12 +117,12 @@ WholeFile& WholeFile::operator=(WholeFile&& other) noexcept {
   return *this;
 }
 
-int WholeFile::open() const {
+int AtomicFile::open() const {
   if (descriptor_ >= 0) return fcntl(descriptor_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   return ::open(draft_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
 }
 
-Result<void> WholeFile::finish() {
+Result<void> AtomicFile::finish() {
   const std::string draft = std::exchange(draft_, {});
   const int lock = std::exchange(lock_, -1);
   if (direct_ || draft.empty()) return {};
@@ -145,19 +145,19 @@ Result<void> WholeFile::finish() {
   return {};
 }
 
-std::string WholeFile::keep() {
+std::string AtomicFile::keep() {
   if (lock_ >= 0) close(std::exchange(lock_, -1));
   return std::exchange(draft_, {});
 }
 
-void WholeFile::discard() {
+void AtomicFile::discard() {
   if (!direct_ && !draft_.empty()) (void)unlink(draft_.c_str());
   draft_.clear();
   if (lock_ >= 0) close(std::exchange(lock_, -1));
 }
 
-Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
-  auto whole = WholeFile::create(path, true);
+Result<void> write_file_atomically(const std::string& path, std::string_view bytes) {
+  auto whole = AtomicFile::create(path, true);
   if (!whole) return tl::unexpected(whole.error());
 
   const int file = whole->open();

@@ -1,4 +1,4 @@
-#include "stages/contact/seen_space.h"
+#include "stages/contact/observed_space.h"
 
 namespace barehand {
 namespace {
@@ -9,7 +9,7 @@ constexpr int kAround = 2;  // pixels to each side of one without depth that mus
 
 }  // namespace
 
-void SeenSpace::see(const HandObservations& observations) {
+void ObservedSpace::observe(const HandObservations& observations) {
   views_.clear();
   for (const HandObservationPtr& observation : observations) {
     if (!observation->hand_present || observation->depth.empty()) continue;
@@ -20,21 +20,21 @@ void SeenSpace::see(const HandObservations& observations) {
   }
 }
 
-SeenSpace::Place SeenSpace::at(const Eigen::Vector3f& p) const {
-  if (p.z() <= 0) return Place::unknown;
+ObservedSpace::Occupancy ObservedSpace::at(const Eigen::Vector3f& p) const {
+  if (p.z() <= 0) return Occupancy::unknown;
   for (const View& view : views_) {
     const int u = static_cast<int>(view.fx * p.x() / p.z() + view.cx + 0.5f),
               v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
     const Image<float>& depth = view.observation->depth;
     if (!depth.contains(u, v) || depth.at(u, v) <= 0) continue;
     const float behind = depth.at(u, v) - p.z();
-    if (behind > view.margin) return Place::empty;
-    if (behind > -view.margin) return Place::surface;
+    if (behind > view.margin) return Occupancy::empty;
+    if (behind > -view.margin) return Occupancy::surface;
   }
-  return Place::unknown;
+  return Occupancy::unknown;
 }
 
-bool SeenSpace::blank(const Eigen::Vector3f& p) const {
+bool ObservedSpace::blank(const Eigen::Vector3f& p) const {
   if (p.z() <= 0) return false;
   bool in_view = false;
   for (const View& view : views_) {

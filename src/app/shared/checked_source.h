@@ -14,10 +14,10 @@ namespace barehand {
 /// Passes on the frames of another source and reports what looks wrong in them: colour that was left out, intrinsics
 /// that no camera has, depth out of range, an image that does not change, noise. Frames of a live source whose image
 /// does not change or is noise are skipped. Those of a recording are kept, since they may be rendered.
-class WatchedSource : public FrameSource {
+class CheckedSource : public FrameSource {
  public:
   /// `clock` must outlive the source.
-  WatchedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock);
+  CheckedSource(std::unique_ptr<FrameSource> source, const DepthLimits& limits, const Clock& clock);
 
   SourceEvent next(std::chrono::milliseconds patience) override;
   bool live() const override { return source_->live(); }
@@ -25,10 +25,10 @@ class WatchedSource : public FrameSource {
   std::vector<QueueHealth> queues() const override { return source_->queues(); }
 
  private:
-  bool look(const FramePtr& frame);
-  void look_at_camera(const RgbdFrame& frame);
-  bool look_at_picture(const FramePtr& frame);
-  void look_at_stillness(const RgbdFrame& frame, bool still);
+  bool check_frame(const FramePtr& frame);
+  void check_camera(const RgbdFrame& frame);
+  bool check_image(const FramePtr& frame);
+  void check_stillness(const RgbdFrame& frame, bool still);
   void say(const std::string& kind, const std::string& what, const std::string& remedy = "");
   SourceEvent take_next();
 

@@ -1,4 +1,4 @@
-#include "sensor/camera_doubts.h"
+#include "sensor/camera_warnings.h"
 
 #include <array>
 #include <cmath>
@@ -50,22 +50,22 @@ std::optional<Size> size_for(const Intrinsics& camera) {
 
 }  // namespace
 
-std::vector<std::string> camera_doubts(const Intrinsics& camera) {
-  std::vector<std::string> doubts;
+std::vector<std::string> camera_warnings(const Intrinsics& camera) {
+  std::vector<std::string> warnings;
 
   // Check the field of view.
   const double wide = field_of_view(camera.fx, camera.width), high = field_of_view(camera.fy, camera.height);
   for (const auto& [name, focal, size, angle] :
        {std::tuple("fx", camera.fx, camera.width, wide), std::tuple("fy", camera.fy, camera.height, high)}) {
     if (angle >= kNarrowest && angle <= kWidest) continue;
-    doubts.push_back(
+    warnings.push_back(
         formatted("%s = %.6g is a field of view of %.3g degrees over %d pixels: is it in pixels, and of "
                   "this image size?",
                   name, focal, angle, size));
     break;  // one warning is enough, since the other focal length is most likely wrong in the same way
   }
   if (std::max(camera.fx, camera.fy) > kOblong * std::min(camera.fx, camera.fy))
-    doubts.push_back(
+    warnings.push_back(
         formatted("fx = %.6g and fy = %.6g differ by more than a quarter: is one of them of another image "
                   "size?",
                   camera.fx, camera.fy));
@@ -78,12 +78,12 @@ std::vector<std::string> camera_doubts(const Intrinsics& camera) {
         : std::abs(camera.cx) <= 1 && std::abs(camera.cy) <= 1
             ? "these look like fractions of the image size, but must be in pixels"
             : "are the intrinsics of this camera and image size?";
-    doubts.push_back(
+    warnings.push_back(
         formatted("the principal point (cx, cy) = (%.6g, %.6g) is far from the middle of the %dx%d image: ", camera.cx,
                   camera.cy, camera.width, camera.height) +
         cause);
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace barehand
