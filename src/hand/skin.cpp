@@ -128,7 +128,7 @@ Skin make_blended_skin(const HandProfile& profile, double cell, const std::stop_
     }
   }
   const Vector3d margin = Vector3d::Constant(0.045);
-  const TriangleMesh mesh = extract_surface(distance, lower - margin, upper + margin, cell);
+  const TriangleMesh mesh = extract_surface(distance, lower - margin, upper + margin, cell, stop);
 
   // Bind every vertex to its segments.
   Skin skin;

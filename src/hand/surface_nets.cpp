@@ -16,10 +16,10 @@ constexpr double kStep = 1e-4;  // step of the finite differences [m]
 /// Signed distances at the nodes of a regular grid.
 class Grid {
  public:
-  Grid(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell)
+  Grid(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell, const std::stop_token& stop)
       : lower_(lower), cell_(cell), nodes_(((upper - lower) / cell).array().ceil().cast<int>() + 1) {
     value_.resize(nodes_.cast<std::size_t>().prod());
-    for (int z = 0; z < nodes_.z(); ++z)
+    for (int z = 0; z < nodes_.z() && !stop.stop_requested(); ++z)
       for (int y = 0; y < nodes_.y(); ++y)
         for (int x = 0; x < nodes_.x(); ++x) value_[index({x, y, z})] = distance(position({x, y, z}));
   }
@@ -83,15 +83,16 @@ Vector3d surface_normal(const Distance& distance, const Vector3d& p) {
   return norm > 1e-12 ? Vector3d(g / norm) : Vector3d::UnitY();
 }
 
-TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell) {
-  const Grid grid(distance, lower, upper, cell);
+TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell,
+                             const std::stop_token& stop) {
+  const Grid grid(distance, lower, upper, cell, stop);
   const Vector3i cells = grid.nodes().array() - 1;
   TriangleMesh mesh;
 
   // Every cell that the surface crosses gets one vertex.
   std::vector<int> vertex_of(grid.size(), -1);
   const auto for_each_cell = [&](auto&& visit) {
-    for (int z = 0; z < cells.z(); ++z)
+    for (int z = 0; z < cells.z() && !stop.stop_requested(); ++z)
       for (int y = 0; y < cells.y(); ++y)
         for (int x = 0; x < cells.x(); ++x) visit(Vector3i(x, y, z));
   };
