@@ -64,7 +64,7 @@ bool ObjectTracker::seen_empty(std::int32_t object, const Eigen::Vector3f& p) co
 }
 
 /// Gives every component to the model on which most of it lies. What continues out of view, as a table does, is never
-/// given to the model of what stands on it.
+/// given to the model of what stands on it; specks at its border may be.
 void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
                                  const std::vector<SurfacePoint>& points) {
   // Count the points of each component on each model.
@@ -83,7 +83,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   // What stands on a table that it is connected with is still there.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
-    if (links_.open(static_cast<std::int32_t>(i))) {
+    if (links_.open(static_cast<std::int32_t>(i)) && count_[i] >= kSpeck) {
       for (std::size_t t = 0; t < tracks_.size(); ++t) {
         ObjectTrack& track = tracks_[t];
         if (near_[t * components + i] >= kSpeck && track.model.contradiction(track.predicted, {}, space) < kGone)
