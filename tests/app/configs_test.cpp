@@ -41,6 +41,17 @@ TEST(DefaultConfig, IsWhatTheCodeSays) {
   EXPECT_EQ(config_values(*config), config_values(Config{}));
 }
 
+/// Whoever chooses between the shipped files reads them all.
+TEST(ShippedConfigs, AreShortTogether) {
+  std::ptrdiff_t lines = 0;
+  for (const char* name : {"paper.yaml", "default.yaml", "accurate.yaml"}) {
+    std::ifstream file(std::string(BAREHAND_CONFIGS) + "/" + name);
+    lines += std::count(std::istreambuf_iterator<char>(file), {}, '\n');
+  }
+  EXPECT_GT(lines, 50);
+  EXPECT_LE(lines, 250);
+}
+
 /// Users who open the default configuration read all of its keys, so these must stay few.
 TEST(DefaultConfig, ShowsFewKeys) {
   const std::string text = print_config(Config{}, ConfigKeys::user);

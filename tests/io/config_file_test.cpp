@@ -134,7 +134,7 @@ TEST_F(ConfigFile, UserKeysArePrintedAndWhatElseWasChanged) {
             "# hierarchy levels [1 .. 100]\nlevels: 10\n\n# the inner group\ninner:\n"
             "  # m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.01\n");
   EXPECT_EQ(print_config(config, ConfigKeys::changed),
-            "# the inner group\ninner:\n  # m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.01\n");
+            "inner:\n  # m, accuracy of the depth [1e-04 .. 0.1]\n  sigma_obs: 0.01\n");
   EXPECT_EQ(load(print_config(config, ConfigKeys::user))->inner.sigma_obs, 0.01);
 }
 

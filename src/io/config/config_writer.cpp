@@ -19,7 +19,7 @@ void ConfigWriter::entry(const std::string& key, const std::string& value, const
     Group& group = groups_[depth];
     if (group.written) continue;
     if (depth == 0 && !text_.empty()) text_ += "\n";
-    line(depth, "# " + group.doc);
+    if (keys_ != ConfigKeys::changed) line(depth, "# " + group.doc);
     line(depth, group.key + ":");
     group.written = true;
   }

@@ -8,7 +8,7 @@
 namespace barehand {
 
 /// Which keys are written: all; those for users and others that differ from the defaults; or only those that differ
-/// from the defaults. Reading any of these files gives the same configuration.
+/// from the defaults, without comments on their groups. Reading any of these files gives the same configuration.
 enum class ConfigKeys { all, user, changed };
 
 /// Writes a parameter struct as YAML that ConfigReader accepts, with the meaning and range of each key in a comment
