@@ -8,11 +8,6 @@
 #include "tracking/hypotheses/restart_consensus.h"
 
 namespace barehand {
-namespace {
-
-constexpr double kMicro = 1e-6;
-
-}  // namespace
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
                          Workers& workers, std::shared_ptr<spdlog::logger> log, HandIds ids)
@@ -96,7 +91,7 @@ TrackEvidence HandTracker::begin_frame(const HandObservation& observation) {
   const std::int64_t utime = observation.frame->utime;
   TrackEvidence evidence;
   // A recording played backwards has decreasing time stamps, so take the absolute difference.
-  evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * kMicro : 0.0;
+  evidence.dt = last_utime_ ? std::abs(utime - last_utime_) * 1e-6 : 0.0;  // in seconds
   evidence.hand_pixels = observation.hand_present ? static_cast<int>(observation.hand_pixels.size()) : 0;
   evidence.noise = observation.noise;
   evidence.hand_length = person_.profile().hand_length();
