@@ -8,6 +8,8 @@ bool matches_glob(std::string_view glob, std::string_view name) {
   auto star = std::string_view::npos;  // position of the last '*' in the glob
   // Where in `name` the part of the glob after that '*' is being matched.
   std::size_t tried = 0;
+
+  // Match one character after the other; after a mismatch, let the last '*' cover one character more.
   while (in_name < name.size()) {
     if (at < glob.size() && glob[at] == '*') {
       star = at++;
@@ -21,6 +23,8 @@ bool matches_glob(std::string_view glob, std::string_view name) {
       return false;
     }
   }
+
+  // The name is used up, so only stars may be left of the pattern.
   return glob.find_first_not_of('*', at) == std::string_view::npos;
 }
 

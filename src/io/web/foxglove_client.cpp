@@ -112,10 +112,13 @@ bool FoxgloveClient::wait(Due& due) {
 }
 
 bool FoxgloveClient::send(const Due& due) {
+  // Answer the client, then see whether a frame is due.
   if (!due.reply.empty() && !socket_.send_text(due.reply)) return false;
   if (!due.frame) return true;
   const auto time = ros::time_of(due.frame->content().utime);
   if (!time) return true;
+
+  // Tell the client of topics that are new.
   const ros::Scene scene = scene_of(due.frame->content());
   const std::vector<ros::Topic> topics = ros::topics_of(scene);
   if (!advertise(topics)) return false;

@@ -139,6 +139,8 @@ Result<int> WebServer::Impl::start() {
     mg_set_websocket_handler_with_subprotocols(context_, "/", &protocols_, on_connect_protocol, on_ready, on_data,
                                                on_close, this);
   }
+
+  // Ask for the port that is really in use.
   mg_server_port ports[1] = {};
   return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
 }
