@@ -9,7 +9,7 @@ bool matches_glob(std::string_view glob, std::string_view name) {
   // Where in `name` the part of the glob after that '*' is being matched.
   std::size_t tried = 0;
 
-  // Match one character after the other; after a mismatch, let the last '*' cover one character more.
+  // Match one character of the name after the other.
   while (in_name < name.size()) {
     if (at < glob.size() && glob[at] == '*') {
       star = at++;
@@ -17,6 +17,7 @@ bool matches_glob(std::string_view glob, std::string_view name) {
     } else if (at < glob.size() && (glob[at] == '?' || glob[at] == name[in_name])) {
       ++at, ++in_name;
     } else if (star != std::string_view::npos) {
+      // Let the last '*' cover one character more, and match the rest again.
       at = star + 1;
       in_name = ++tried;
     } else {

@@ -55,6 +55,7 @@ std::string shell_word(std::string_view text) {
     else if (controls)
       result.append(c == '\'' || c == '\\' ? 1 : 0, '\\').append(1, c);
     else if (c == '\'')
+      // End the quotation, add the apostrophe with a backslash, and begin a new quotation.
       result += "'\\''";
     else
       result += c;

@@ -74,6 +74,8 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
     const auto& [name, x, y] = chart.series[s];
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!std::isfinite(y[i])) continue;
+
+      // Connect the point with the one before it, if that one has a value.
       const cv::Scalar colour = ChartCanvas::series_colour(s);
       if (i > 0 && std::isfinite(y[i - 1]))
         canvas.line(canvas.at(x[i - 1], y[i - 1]), canvas.at(x[i], y[i]), colour, 2);

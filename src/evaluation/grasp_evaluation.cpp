@@ -74,6 +74,8 @@ Result<GraspTruth> read_grasp_truth(const std::string& path) {
   for (int number = 2; std::getline(file, line); ++number) {
     if (line.empty()) continue;
     const auto fields = split_fields(line);
+
+    // Read the time of the row, and its class or "none".
     std::int64_t utime = 0;
     const bool two = fields.size() == 2 && parse_number(fields[0], utime);
     const auto type = two ? grasp_type_from_name(fields[1]) : std::nullopt;

@@ -33,6 +33,8 @@ void visit(V& v, RunParams& p) {
   v.user("frame_channel", p.frame_channel,
          "LCM channels with frames (a pattern with * and ?); empty: live the first channel matching *RGBD_FRAME that "
          "brings a frame, in a log the only channel with frames");
+
+  // These settings say how far messages travel, and whether commands from the network are executed.
   v.user("lcm_ttl", p.lcm_ttl, 0, 255,
          "how far messages travel: 0 this machine, 1 the local network, more through routers; a ttl in the LCM URL "
          "takes precedence");

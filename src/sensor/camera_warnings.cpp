@@ -82,6 +82,8 @@ std::vector<std::string> camera_warnings(const Intrinsics& camera) {
         : std::abs(camera.cx) <= 1 && std::abs(camera.cy) <= 1
             ? "these look like fractions of the image size, but must be in pixels"
             : "are the intrinsics of this camera and image size?";
+
+    // Warn of it, together with the cause.
     warnings.push_back(
         formatted("the principal point (cx, cy) = (%.6g, %.6g) is far from the middle of the %dx%d image: ", camera.cx,
                   camera.cy, camera.width, camera.height) +

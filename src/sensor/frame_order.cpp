@@ -43,7 +43,7 @@ std::string too_late(double stamp, StampUnit unit) {
   // 1972 to about 3000).
   constexpr double kNow = 1.7e9, kFactor = 20;
 
-  // Try the units that are common for time stamps.
+  // A guess is a unit of time, and how many of it are in one second.
   struct Guess {
     const char* name;
     double per_second;

@@ -262,6 +262,8 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
                   "a scanned skin belongs to one person, a mean hand to nobody: remove one");
     auto skin = skin_from_json(json.at("skin"), path + ": skin");
     if (!skin) return tl::unexpected(skin.error());
+
+    // Compute the normals, which the file does not hold.
     compute_normals(profile, *skin);
     profile.scanned_skin = std::make_shared<const Skin>(*std::move(skin));
   }

@@ -119,6 +119,8 @@ bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t 
     case Kind::channel:
       take_channel(read());
       return true;
+
+    // A message may also stand outside of any chunk.
     case Kind::message:
       take_message(read(), -1, at, visit);
       return true;
@@ -205,11 +207,11 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   const std::string compression = fields.get_text();
   const auto packed = fields.get_bytes(fields.get<std::uint64_t>());
 
-  // Refuse a chunk that is damaged or too large for the memory.
+  // Refuse a chunk that is damaged or would unpack to more than the limit.
   if (fields.failed()) return fail("damaged");
   if (unpacked_size > kMostUnpacked) return fail("which would take more than 256 MiB");
 
-  // Unpack the records, and check them against their checksum.
+  // Unpack the records.
   if (compression == "zstd") {
     if (auto good = unpack_zstd(packed, unpacked_size, chunk_); !good) return good;
   } else if (compression.empty()) {
@@ -217,6 +219,8 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   } else {
     return fail(unknown_compression(compression));
   }
+
+  // Check the records against their checksum, which is optional.
   if (crc != 0 && crc != crc32_z(0, chunk_.data(), chunk_.size())) return fail("damaged");
   chunk_at_ = static_cast<std::int64_t>(at);
   return {};

@@ -81,6 +81,7 @@ void use_camera(CameraFile file, const std::string& path, Recording& recording) 
                                  ": these coefficients of lens distortion are implausible and not used (are they in "
                                  "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
   } else if (undistortion->largest_shift() > kNoticed) {
+    // Report the correction, since images that are rectified already would be distorted by it.
     recording.warnings.push_back(
         path + formatted(": the images are undistorted with the coefficients given, by up to %.3g pixels (if they are "
                          "rectified already, add \"rectified\": true)",

@@ -241,14 +241,14 @@ LcmMessage lcm_message(const object_state_t& object) {
 }
 
 DiagnosticStatus diagnostic(const health_t& health) {
-  // Warn if any frame was dropped, failed or was skipped.
+  // Warn if frames were dropped, failed or were skipped.
   DiagnosticStatus message;
   message.level = health.dropped + health.failed + health.skipped > 0 ? DiagnosticStatus::kWarn : DiagnosticStatus::kOk;
   message.name = "barehand: pipeline";
   message.message = std::to_string(health.published) + " frames published";
   message.hardware_id = health.source;
 
-  // Add the counts, the latency and the losses of each queue.
+  // Add the counts of frames and the latency.
   message.values = {value("captured", health.captured),
                     value("published", health.published),
                     value("dropped", health.dropped),
@@ -256,6 +256,8 @@ DiagnosticStatus diagnostic(const health_t& health) {
                     value("skipped", health.skipped),
                     value("latency p50 [s]", health.latency_p50),
                     value("latency p99 [s]", health.latency_p99)};
+
+  // Add the losses of each queue.
   for (const queue_health_t& queue : health.queues)
     message.values.push_back(value("queue " + queue.name + " dropped", queue.dropped));
   return message;

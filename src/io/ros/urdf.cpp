@@ -100,6 +100,8 @@ std::string urdf(const HandProfile& profile) {
       flexion.parent = between;
       flexion.place = origin(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
     }
+
+    // The hinge of flexion moves the segment itself.
     text += joint(flexion);
   }
   return text + "</robot>\n";

@@ -127,6 +127,8 @@ bool FoxgloveClient::send(const Due& due) {
   for (const ros::Topic& topic : topics) {
     const std::uint32_t channel = channels_.at(topic.name);
     ros::Bytes message;
+
+    // Send the message under the number of each subscription to the topic.
     for (const auto& [subscription, wanted] : due.subscriptions) {
       if (wanted != channel) continue;
       if (message.empty()) message = topic.encode().value_or(ros::Bytes());

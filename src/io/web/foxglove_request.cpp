@@ -47,7 +47,7 @@ Result<FoxgloveRequest> parse_foxglove_request(std::string_view text) {
       request.unsubscribe.push_back(*id);
     }
   } else {
-    // Refuse all operations that would change something.
+    // Refuse every other operation.
     return fail("the operation " + op + " is not offered: topics can only be read");
   }
   return request;

@@ -38,7 +38,7 @@ Result<ViewRequest> settings_of(const json& message) {
   if (!picture) return tl::unexpected(picture.error());
   settings.picture = static_cast<ViewPicture>(*picture);
 
-  // Read how large and how often.
+  // Read the size and the rate of what is sent.
   settings.large = message.value("large", settings.large);
   settings.rate = message.value("rate", settings.rate);
   if (!(settings.rate >= 0.1 && settings.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");

@@ -22,7 +22,7 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   web.allowed_origins = std::move(options.allowed_origins);
   web.files = std::move(*page);
 
-  // Direct new connections to the live page's protocol, or to Foxglove's.
+  // Accept clients of the live page and of Foxglove; the latter may also ask for a URDF.
   web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
   web.protocols.assign(std::begin(kFoxgloveProtocols), std::end(kFoxgloveProtocols));
   web.connect_protocol = [self = server.get()](WebSocket socket) { return self->foxglove_.connect(socket); };

@@ -25,7 +25,7 @@ std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
   out.put(static_cast<std::uint32_t>(skin.vertices.size()));
   out.put(static_cast<std::uint32_t>(skin.triangles.size()));
 
-  // Write where the vertices are in their two segments, and how they follow them.
+  // Write the positions, the normals and the skinning weights of the vertices.
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.in_a);
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.a == v.b ? v.in_a : v.in_b);
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.normal_in_a);
