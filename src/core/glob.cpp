@@ -8,6 +8,8 @@ bool matches_glob(std::string_view glob, std::string_view name) {
   auto star = std::string_view::npos;  // position of the last '*' in the glob
   // Where in `name` the part of the glob after that '*' is being matched.
   std::size_t tried = 0;
+
+  // Match one character of the name after the other.
   while (in_name < name.size()) {
     if (at < glob.size() && glob[at] == '*') {
       star = at++;
@@ -15,12 +17,15 @@ bool matches_glob(std::string_view glob, std::string_view name) {
     } else if (at < glob.size() && (glob[at] == '?' || glob[at] == name[in_name])) {
       ++at, ++in_name;
     } else if (star != std::string_view::npos) {
+      // Let the last '*' cover one character more, and match the rest again.
       at = star + 1;
       in_name = ++tried;
     } else {
       return false;
     }
   }
+
+  // The name is used up, so only stars may be left of the pattern.
   return glob.find_first_not_of('*', at) == std::string_view::npos;
 }
 

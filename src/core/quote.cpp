@@ -43,14 +43,19 @@ std::string in_quotes(std::string_view text) {
 std::string shell_word(std::string_view text) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./:=,+@%";
   if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) return std::string(text);
+
+  // Choose the quotation with escapes if the text holds control characters.
   const bool controls = std::any_of(text.begin(), text.end(), is_control);
   std::string result = controls ? "$'" : "'";
+
+  // Escape what would end the quotation or would not be visible.
   for (const char c : text) {
     if (is_control(c))
       result += formatted("\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
     else if (controls)
       result.append(c == '\'' || c == '\\' ? 1 : 0, '\\').append(1, c);
     else if (c == '\'')
+      // End the quotation, add the apostrophe with a backslash, and begin a new quotation.
       result += "'\\''";
     else
       result += c;

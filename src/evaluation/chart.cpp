@@ -41,12 +41,16 @@ Result<void> write_chart(const BoxChart& chart, const std::string& png_path) {
   const auto categories = static_cast<double>(chart.categories.size());
   ChartCanvas canvas(chart.text, -0.6, categories - 0.4, top, chart.categories);
   const double room = kGroupWidth / static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));
+
+  // Draw a box for every series in every category in which it has values.
   for (std::size_t s = 0; s < chart.series.size(); ++s)
     for (std::size_t c = 0; c < chart.series[s].boxes.size(); ++c) {
       const Distribution& box = chart.series[s].boxes[c];
       const double x = static_cast<double>(c) - kGroupWidth / 2 + (static_cast<double>(s) + 0.5) * room;
       if (box.count > 0) draw_box(canvas, x, 0.4 * room, box, ChartCanvas::series_colour(s));
     }
+
+  // Name the series only if there are several to tell apart.
   if (chart.series.size() > 1) canvas.legend(names_of(chart.series));
   return canvas.write(png_path);
 }
@@ -61,6 +65,7 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
       if (std::isfinite(series.y[i])) top = std::max(top, series.y[i]);
     }
 
+  // Show an empty range of x as 0 to 1.
   if (x_lo > x_hi) x_lo = 0, x_hi = 1;
 
   // Draw line by line; a point without neighbours becomes a dot.
@@ -69,6 +74,8 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
     const auto& [name, x, y] = chart.series[s];
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!std::isfinite(y[i])) continue;
+
+      // Connect the point with the one before it, if that one has a value.
       const cv::Scalar colour = ChartCanvas::series_colour(s);
       if (i > 0 && std::isfinite(y[i - 1]))
         canvas.line(canvas.at(x[i - 1], y[i - 1]), canvas.at(x[i], y[i]), colour, 2);
@@ -76,6 +83,8 @@ Result<void> write_chart(const LineChart& chart, const std::string& png_path) {
         canvas.dot(canvas.at(x[i], y[i]), colour);
     }
   }
+
+  // Name the series only if there are several to tell apart.
   if (chart.series.size() > 1) canvas.legend(names_of(chart.series));
   return canvas.write(png_path);
 }

@@ -25,6 +25,7 @@ void count(TouchCounts& counts, const StatedContact& stated, bool touches) {
 }  // namespace
 
 Result<ContactTruth> read_contact_truth(const std::string& path) {
+  // Read the file, and check that it is a table of contacts.
   auto content = read_text(path);
   if (!content) return tl::unexpected(content.error());
   std::istringstream file(std::move(*content));
@@ -40,6 +41,8 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
     const auto fields = split_fields(line);
     std::int64_t utime = 0;
     TrueContact contact;
+
+    // Check that the row names a segment and that its numbers are plausible.
     const auto segment = fields.size() >= 6 ? segment_from_name(fields[1]) : std::nullopt;
     bool good = segment && parse_number(fields[0], utime) && parse_number(fields[2], contact.distance) &&
                 std::abs(contact.distance) <= kFarthest;
@@ -60,6 +63,8 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
 Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& sequences) {
   ContactEvaluation out;
   std::array<ReliabilityBin, kBins> bins{};
+
+  // Visit the frames that both the truth and the statements have.
   for (const auto& [poses, truth, stated] : sequences)
     for (const TableFrame& frame : poses.frames) {
       const auto utime = static_cast<std::int64_t>(std::llround(frame.timestamp * 1e6));
@@ -99,6 +104,8 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
   // It is an error if there was nothing to compare.
   if (out.frames == 0)
     return fail("have no frame in common with the truth", "the contacts", "give the truth of the same recording");
+
+  // Summarise the bins of the reliability diagram that are not empty.
   for (const ReliabilityBin& bin : bins)
     if (bin.count > 0) out.probabilities.push_back({bin.count, bin.stated / bin.count, bin.actual / bin.count});
   return out;

@@ -102,6 +102,8 @@ std::vector<Return> find_returns(const std::vector<const TableFrame*>& truths, c
       away = false;
       waiting = true;
     }
+
+    // Store how many frames the hand took to be found again.
     if (!waiting || frame.lost()) continue;
     returns.back().frames = static_cast<int>((frame.number - returns.back().number) / step);
     waiting = false;
@@ -136,6 +138,8 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
     const TableFrame& frame = *frame_of_truth;
     // A frame without rows in the result stays untracked.
     FrameErrors errors{frame.number, frame.timestamp, false, {}, 0, 0};
+
+    // Compare the poses if the result has the frame, which must then have the time stamp of the truth.
     if (const auto found = results.find(frame.number); found != results.end()) {
       if (std::abs(found->second->timestamp - frame.timestamp) > 0.001)
         return fail("frame " + std::to_string(frame.number) + " has other time stamps in truth and result", {},
@@ -146,6 +150,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
       ++evaluation.untracked;
     }
 
+    // Store the errors, also those of a lost frame.
     if (errors.lost()) evaluation.lost.push_back(frame.number);
     evaluation.frames.push_back(errors);
   }

@@ -21,6 +21,8 @@ bool parse_label(const std::string& text, FingertipLabel& label, bool& visible) 
   const auto finger = std::find(kFingerNames.begin(), kFingerNames.end(), field[1]);
   if (finger == kFingerNames.end()) return false;
   label.finger = static_cast<int>(finger - kFingerNames.begin());
+
+  // Reject numbers that are malformed or outside any image.
   int shown = 0;
   const bool good = parse_number(field[0], label.frame) && parse_number(field[2], label.pixel.x()) &&
                     parse_number(field[3], label.pixel.y()) && parse_number(field[4], shown);

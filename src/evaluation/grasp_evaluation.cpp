@@ -42,6 +42,7 @@ void count_changes(const GraspSequence& sequence, GraspEvaluation& out) {
   std::int64_t last_utime = 0;
   int last_truth = 0;
   for (const auto& [utime, truth] : sequence.truth) {
+    // Add up the time of the grasp, and forget the class stated for an earlier one.
     const bool lasts = truth != 0 && truth == last_truth;
     if (lasts) out.held_seconds += 1e-6 * static_cast<double>(utime - last_utime);
     if (!lasts) last.reset();
@@ -59,6 +60,7 @@ void count_changes(const GraspSequence& sequence, GraspEvaluation& out) {
 }  // namespace
 
 Result<GraspTruth> read_grasp_truth(const std::string& path) {
+  // Read the file, and check that it is a table of grasps.
   auto content = read_text(path);
   if (!content) return tl::unexpected(content.error());
   std::istringstream file(std::move(*content));
@@ -67,10 +69,13 @@ Result<GraspTruth> read_grasp_truth(const std::string& path) {
   if (line != "utime,grasp")
     return fail("line 1 is not the header of a table of grasps", path, "it must be \"utime,grasp\"");
 
+  // Read line by line; 0 stands for no grasp.
   GraspTruth truth;
   for (int number = 2; std::getline(file, line); ++number) {
     if (line.empty()) continue;
     const auto fields = split_fields(line);
+
+    // Read the time of the row, and its class or "none".
     std::int64_t utime = 0;
     const bool two = fields.size() == 2 && parse_number(fields[0], utime);
     const auto type = two ? grasp_type_from_name(fields[1]) : std::nullopt;
@@ -85,11 +90,15 @@ Result<GraspTruth> read_grasp_truth(const std::string& path) {
 Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequences) {
   GraspEvaluation out;
   std::array<ReliabilityBin, kBins> bins{};
+
+  // Visit the frames of the truth, and count those that are stated too.
   for (const GraspSequence& sequence : sequences) {
     std::size_t common = 0;
     for (const auto& [utime, truth] : sequence.truth) {
       const auto found = sequence.stated.find(utime);
       common += found != sequence.stated.end();
+
+      // Count the frame by its class, but leave out frames without a grasp that are close to one.
       if (truth == 0 && near_a_grasp(sequence.truth, utime)) continue;
       const StatedGrasp stated = found == sequence.stated.end() ? StatedGrasp() : found->second;
       count(out.classes[static_cast<std::size_t>(truth)], truth, stated);
@@ -103,10 +112,14 @@ Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequen
       bin.stated += stated.probability;
       bin.actual += stated.grasp == truth;
     }
+
+    // Reject a sequence that shares no frame with its truth.
     if (common == 0)
       return fail("have no frame in common with the truth", "the grasps", "give the truth of the same recording");
     count_changes(sequence, out);
   }
+
+  // Summarise the bins of the reliability diagram that are not empty.
   for (const ReliabilityBin& bin : bins)
     if (bin.count > 0)
       out.probabilities.push_back(

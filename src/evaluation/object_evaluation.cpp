@@ -10,6 +10,7 @@
 namespace barehand {
 
 Result<ObjectTruthTable> read_object_truth(const std::string& path) {
+  // Read the file, and check that it is a table of object poses.
   auto content = read_text(path);
   if (!content) return tl::unexpected(content.error());
   std::istringstream file(std::move(*content));
@@ -26,6 +27,8 @@ Result<ObjectTruthTable> read_object_truth(const std::string& path) {
     const auto fields = split_fields(line);
     std::int64_t utime = 0;
     std::array<double, 7> value{};
+
+    // Check that the row holds finite numbers and a unit quaternion.
     bool good = fields.size() >= 10 && parse_number(fields[0], utime);
     for (std::size_t i = 0; good && i < value.size(); ++i)
       good = parse_number(fields[3 + i], value[i]) && std::isfinite(value[i]);
@@ -51,6 +54,8 @@ Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const Ob
   out.name = truth.name;
   const std::vector<SurfaceSample> samples = sample_surface(mesh);
   const MeshDistance surface(mesh.vertices, mesh.triangles);
+
+  // Visit the frames of the truth; those without a stated pose are lost only after the first stated one.
   std::vector<double> position, rotation, apart;
   for (const auto& [utime, T_true] : truth.poses) {
     ++out.frames;
@@ -65,15 +70,21 @@ Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const Ob
     const SE3& T = found->second;
     position.push_back((T.t - T_true.t).norm());
     rotation.push_back(log_so3(T.R * T_true.R.transpose()).norm());
+
+    // Average the distance of the surface as stated from the true one.
     const SE3 T_true_stated = T_true.inverse() * T;
     double sum = 0;
     for (const SurfaceSample& sample : samples)
       sum += surface.nearest(T_true_stated * sample.p.cast<double>()).distance;
     apart.push_back(sum / static_cast<double>(samples.size()));
   }
+
+  // It is an error if there was nothing to compare.
   if (out.stated == 0)
     return fail("no pose of object 1 is stated in a frame of the truth", truth.name,
                 "track the same recording with --object and this object's mesh");
+
+  // Summarise the errors.
   out.position = summarise(std::move(position));
   out.rotation = summarise(std::move(rotation));
   out.surface = summarise(std::move(apart));

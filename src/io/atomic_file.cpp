@@ -61,6 +61,7 @@ int write_all(int file, std::string_view bytes) {
 }  // namespace
 
 Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite) {
+  // Find out where the path leads: to a file, or to something that is written directly.
   AtomicFile file;
   const Target target = target_of(path);
   file.path_ = path;
@@ -78,6 +79,8 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite) {
     } else if (faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0) {
       return cannot_write(errno, path, "check its permissions");
     }
+
+    // There is no draft: the target itself is written.
     file.draft_ = path;
     return file;
   }
@@ -97,6 +100,8 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite) {
     file.lock_ = ::open(draft.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file.lock_ < 0 && errno == EEXIST) continue;
     if (file.lock_ < 0) return cannot_write(errno, path);
+
+    // Lock the draft, so that no other program takes it for one that was left behind.
     file.draft_ = draft;
     (void)flock(file.lock_, LOCK_EX | LOCK_NB);
     return file;

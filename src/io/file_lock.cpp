@@ -48,6 +48,7 @@ bool knows_no_locks(int error) { return error == ENOLCK || error == EOPNOTSUPP |
 
 Result<FileLock> FileLock::take(const std::string& path, std::chrono::milliseconds patience) {
   for (const auto end = SteadyClock::now() + patience;;) {
+    // Open the file of the lock; a full disk must not keep the program from running.
     const int descriptor = open_file(path);
     if (descriptor < 0 && (errno == ENOSPC || errno == EDQUOT)) return FileLock(path, -1);
     if (descriptor < 0)
@@ -60,11 +61,15 @@ Result<FileLock> FileLock::take(const std::string& path, std::chrono::millisecon
         lock.path_.clear();  // the file that has this name now belongs to another process
         continue;
       }
+
+      // Write down who holds the lock, for the message to those who wait.
       const std::string text = this_process();
       // If there is no room for the name, the lock is held nevertheless.
       if (ftruncate(descriptor, 0) == 0) std::ignore = pwrite(descriptor, text.data(), text.size(), 0);
       return lock;
     }
+
+    // Try again later unless the file system has no locks or the time is over.
     const int reason = errno;
     lock.path_.clear();
     if (knows_no_locks(reason)) return FileLock(path, -1);

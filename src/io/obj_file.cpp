@@ -18,6 +18,7 @@ Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
   std::map<std::array<long long, 3>, std::size_t> known;
   std::vector<std::size_t> number;  // of every vertex in the file, from 1
   for (const Eigen::Vector3f& v : vertices) {
+    // Vertices at the same place share one line of the file.
     const std::array<long long, 3> steps = {std::llround(v.x() / kStep), std::llround(v.y() / kStep),
                                             std::llround(v.z() / kStep)};
     const auto [place, is_new] = known.emplace(steps, known.size() + 1);
@@ -31,6 +32,8 @@ Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const ObjGroup& group : groups)
       if (group.first == i) text += formatted("g %s\n", group.name.c_str());
+
+    // Leave out triangles that have collapsed to a line or a point.
     const auto& t = triangles[i];
     const std::size_t a = number[t[0]], b = number[t[1]], c = number[t[2]];
     if (a != b && b != c && c != a) text += formatted("f %zu %zu %zu\n", a, b, c);

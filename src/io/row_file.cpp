@@ -41,16 +41,20 @@ bool RowFile::append(std::string_view text) {
 }
 
 Result<void> RowFile::write(std::string_view rows) {
+  // Refuse what cannot be written.
   if (!file_) return fail("the table is finished, nothing more is written", path_);
   if (torn_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   if (!has_room(fileno(file_.get()), header_.size() + rows.size()))
     return fail("the reader of this pipe is behind", path_, "rows are left out until it has read more");
+
+  // Write the rows, after the header if the reader of a pipe is new.
   if (unread_ ? append(header_ + std::string(rows)) : append(rows)) {
     unread_ = false;
     has_rows_ = true;
     return {};
   }
 
+  // A pipe without a reader gets the header again later.
   const int reason = errno;
   std::FILE* file = file_.get();
   std::clearerr(file);

@@ -30,12 +30,15 @@ struct Config {
 };
 template <class V>
 void visit(V& v, Config& c) {
+  // The settings of the run come first, then those of the stages in the order in which a frame passes them.
   v("run", c.run, "settings of the run as a whole");
   v("detection", c.detection, "detection of hands by neural networks");
   v("preprocess", c.preprocess, "from frames to observations of a hand");
   v("tracker", c.tracker, "from observations to hand poses");
   v("contact", c.contact, "what the hands touch");
   v("grasp", c.grasp, "how the hands grasp");
+
+  // These settings are for the output, the surroundings and the cameras.
   v("publish", c.publish, "from estimates to LCM messages");
   v("world", c.world, "the room in which the camera stands, for the live page");
   v("foreign_camera", c.foreign_camera, "intrinsics for kinect.frame_msg_t and bot_core.images_t, which carry none");

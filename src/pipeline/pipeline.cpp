@@ -230,6 +230,8 @@ void Pipeline::deliver(Item item) {
     StageMonitor& monitor = *sink_monitors_[i];
     const int missed = monitor.failures_in_a_row();
     const auto consumed = monitor.run(&Sink::consume, stages_.sinks[i], item.data);
+
+    // Report that a sink works again after failures.
     if (consumed) {
       if (missed > 0) log_.logger().info("{} works again; it missed {} frames", monitor.name(), missed);
       continue;

@@ -38,16 +38,21 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
                               const std::optional<HandPose>& initial, CommandedTracker::Inbox inbox, Workers& workers,
                               RepeatLog& log, PendingParams* pending, const std::vector<KnownObjectPtr>& objects,
                               ObjectWatcher watch_objects) {
+  // Make the stages; they are shared, since the functions below keep them alive.
   const int hands = static_cast<int>(profiles.size());
   auto preprocessor =
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
   const auto only = hands == 1 ? std::optional(profiles[0]->handedness) : std::nullopt;
   auto detection = std::make_shared<DetectionStage>(config.detection, path_in_configs(config.detection.networks),
                                                     config.preprocess.use_colour, workers, log.shared_logger(), only);
+
+  // Make the tracker, which starts at the given pose if there is one.
   auto tracker =
       std::make_shared<CommandedTracker>(config.tracker, profiles, static_cast<std::uint64_t>(config.run.seed), workers,
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
+
+  // Contacts are found if they are requested or if there are known objects to track.
   TrackStages stages;
   if (config.contact.enabled || !objects.empty())
     stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects)](
@@ -56,9 +61,13 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       if (watch) watch(contact->objects());
       return contacts;
     };
+
+  // Grasps are classified if their classifier can be loaded.
   if (config.grasp.enabled)
     if (const auto grasp = make_grasp_stage(config.grasp, log))
       stages.grasp = std::bind_front(&GraspStage::process, grasp);
+
+  // Preprocessing follows detection, and takes over parameters that have changed.
   stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
     if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);

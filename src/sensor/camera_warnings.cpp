@@ -64,6 +64,8 @@ std::vector<std::string> camera_warnings(const Intrinsics& camera) {
                   name, focal, angle, size));
     break;  // one warning is enough, since the other focal length is most likely wrong in the same way
   }
+
+  // Check that the pixels are roughly square.
   if (std::max(camera.fx, camera.fy) > kOblong * std::min(camera.fx, camera.fy))
     warnings.push_back(
         formatted("fx = %.6g and fy = %.6g differ by more than a quarter: is one of them of another image "
@@ -73,11 +75,15 @@ std::vector<std::string> camera_warnings(const Intrinsics& camera) {
   // Check the principal point.
   if (off_centre(camera.cx, camera.width) > kFarOff || off_centre(camera.cy, camera.height) > kFarOff) {
     const auto size = size_for(camera);
+
+    // Guess the cause from the numbers.
     const std::string cause =
         size ? formatted("these look like the intrinsics of a %dx%d image", size->width, size->height)
         : std::abs(camera.cx) <= 1 && std::abs(camera.cy) <= 1
             ? "these look like fractions of the image size, but must be in pixels"
             : "are the intrinsics of this camera and image size?";
+
+    // Warn of it, together with the cause.
     warnings.push_back(
         formatted("the principal point (cx, cy) = (%.6g, %.6g) is far from the middle of the %dx%d image: ", camera.cx,
                   camera.cy, camera.width, camera.height) +

@@ -42,11 +42,15 @@ std::string too_late(double stamp, StampUnit unit) {
   // A typical time of today [s since the epoch]; a plausible time is at most this factor smaller or larger (the years
   // 1972 to about 3000).
   constexpr double kNow = 1.7e9, kFactor = 20;
+
+  // A guess is a unit of time, and how many of it are in one second.
   struct Guess {
     const char* name;
     double per_second;
   };
   const double unit_per_second = unit == StampUnit::seconds ? 1 : 1e6;
+
+  // Choose the first unit with which the time would be plausible.
   for (const Guess& guess : {Guess{"milliseconds", 1e3}, Guess{"microseconds", 1e6}, Guess{"nanoseconds", 1e9}}) {
     const double since_epoch = std::abs(stamp) / guess.per_second;
     if (guess.per_second > unit_per_second && since_epoch > kNow / kFactor && since_epoch < kNow * kFactor)
@@ -57,12 +61,15 @@ std::string too_late(double stamp, StampUnit unit) {
 }
 
 Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number) {
+  // Reject a time that is out of range.
   ++frames_;
   if (utime > kLatestUtime || utime < -kLatestUtime) {
     const auto stamp = static_cast<double>(utime);
     return fail(formatted("its time is %.6g", unit_ == StampUnit::seconds ? 1e-6 * stamp : stamp), "",
                 too_late(unit_ == StampUnit::seconds ? 1e-6 * stamp : stamp, unit_));
   }
+
+  // A time that is not later is an error, unless it is so much earlier that the source has started again.
   if (begun_ && utime <= last_utime_) {
     if (last_utime_ - utime < kRestart) {
       ++unused_;
@@ -70,9 +77,12 @@ Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number)
     }
     check_restart(utime, number);
   } else if (begun_ && !steps_checked_) {
+    // Collect the first intervals, from which a wrong unit can be recognised.
     steps_.push_back(utime - last_utime_);
     if (steps_.size() >= kSteps) check_steps();
   }
+
+  // Shift the number if the source counts from its start again, and store the frame as the last one.
   number = going_on(number);
   begun_ = true;
   last_utime_ = utime;
@@ -114,6 +124,7 @@ void FrameOrder::check_steps() {
   if (whole && least == most && typical == one) {
     like = "frame numbers: divide them by the frame rate";
   } else if (typical > kLongest) {
+    // Find out by which power of 1000 the interval is too long.
     const int thousands = typical < 1e3 * kLongest ? 1 : typical < 1e6 * kLongest ? 2 : 3;
     constexpr std::array<const char*, 5> kUnits = {"", "milliseconds", "microseconds", "nanoseconds", ""};
     const int index = (unit_ == StampUnit::seconds ? 0 : 2) + thousands;
@@ -123,6 +134,8 @@ void FrameOrder::check_steps() {
     like = unit_ == StampUnit::microseconds && typical > kShortest / 1e3 ? "milliseconds: multiply them by 1000"
                                                                          : "another unit";
   }
+
+  // Warn, but use the stamps as they stand.
   if (like.empty()) return;
   warnings_.push_back(
       formatted("%s, and the frames are %.6g s apart: these look like ", in_unit(unit_).c_str(), 1e-6 * typical) +

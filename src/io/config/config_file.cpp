@@ -126,12 +126,16 @@ Result<ConfigReader> ConfigReader::open(const std::string& path) {
   state->file = path;
   const auto text = read_text(path);
   if (!text) return tl::unexpected(text.error());
+
+  // Parse the text, and name the line of the first mistake.
   YAML::Node root;
   try {
     root = YAML::Load(*text);
   } catch (const YAML::ParserException& e) {
     return fail("not valid YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "correct the line");
   }
+
+  // Begin with the group that holds all keys.
   if (!root.IsMap()) return fail("no keys in the configuration", path, "--print-config writes one");
   state->groups.push_back({root, "", {}});
   return ConfigReader(std::move(state));

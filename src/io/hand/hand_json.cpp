@@ -80,11 +80,15 @@ Result<JointDof> parse_dof(const Json& json, const std::string& where) {
   const auto name = object.text("name");
   if (!name) return tl::unexpected(name.error());
   object.where += ": dof " + *name;
+
+  // Read the axis and the limits.
   const auto axis = object.numbers("axis", 3, -1.01, 1.01);
   if (!axis) return tl::unexpected(axis.error());
   const auto limits = object.numbers("limits_deg", 2, -180, 180);
   if (!limits) return tl::unexpected(limits.error());
   JointDof dof{*name, {(*axis)[0], (*axis)[1], (*axis)[2]}, (*limits)[0] * kDegree, (*limits)[1] * kDegree};
+
+  // Reject an axis or limits that no joint of a hand has.
   if (std::abs(dof.axis.norm() - 1) > 0.01) return fail("\"axis\" is not a unit vector", object.where, "normalise it");
   if (std::abs(dof.axis.z()) > 0.5)
     return fail("\"axis\" points along the bone", object.where, "joints flex about x and abduct about y only");
@@ -130,12 +134,16 @@ Result<void> parse_skin(const Object& object, SegmentProfile& segment) {
 
 Result<SegmentProfile> parse_segment(const Object& object) {
   SegmentProfile segment;
+
+  // Read the rest pose and the length of the bone.
   const auto rest = object.transform("rest_transform");
   if (!rest) return tl::unexpected(rest.error());
   segment.T_hand_segment = *rest;
   const auto length = object.number("length", 0.001, kLongest);
   if (!length) return tl::unexpected(length.error());
   segment.length = *length;
+
+  // Read the distal end, which must agree with the length and the frame of the segment.
   const auto distal = object.numbers("distal_local", 3, -kLongest, kLongest);
   if (!distal) return tl::unexpected(distal.error());
   segment.distal = {(*distal)[0], (*distal)[1], (*distal)[2]};
@@ -143,6 +151,8 @@ Result<SegmentProfile> parse_segment(const Object& object) {
     return fail("\"length\" contradicts \"distal_local\"", object.where, "length is the distance to the distal end");
   if (segment.distal.z() > -0.5 * segment.length)
     return fail("\"distal_local\" does not lie along -z", object.where, "the bone runs along -z of its segment frame");
+
+  // Read the shape of the skin and the degrees of freedom of the joint.
   const auto skin = parse_skin(object, segment);
   if (!skin) return tl::unexpected(skin.error());
   const auto dofs = parse_dofs(object, segment);
@@ -180,11 +190,14 @@ Json to_json(const std::array<double, 2>& pair) { return {rounded(pair[0]), roun
 Json to_json(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
 
 Json to_json(const SegmentProfile& segment, int s) {
+  // Collect the degrees of freedom of the joint, with limits in degrees.
   Json dofs = Json::array();
   for (const JointDof& dof : segment.dofs)
     dofs.push_back({{"name", dof.name},
                     {"axis", to_json(dof.axis)},
                     {"limits_deg", {rounded(dof.lower / kDegree), rounded(dof.upper / kDegree)}}});
+
+  // List the properties of the segment; lengths are in metres.
   return {{"name", kSegmentNames[s]},
           {"parent", s == kPalm ? Json() : Json(kSegmentNames[parent_of(s)])},
           {"rest_transform", json_fields::to_json(segment.T_hand_segment)},
@@ -200,8 +213,11 @@ Json to_json(const SegmentProfile& segment, int s) {
 }
 
 Result<HandProfile> profile_from(const Json& json, const std::string& path) {
+  // Check the structure of the file.
   if (!json.is_object() || !json.contains("segments") || !json.at("segments").is_array())
     return fail("\"segments\" is missing or not a list", path, "see docs/formats.md");
+
+  // Read what is known of the hand as a whole.
   HandProfile profile;
   const auto side = parse_handedness({json, path});
   if (!side) return tl::unexpected(side.error());
@@ -210,12 +226,15 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   if (!origin) return tl::unexpected(origin.error());
   profile.origin = *origin;
 
+  // Read the segments, which may stand in any order.
   ParentNames parents;
   for (const Json& entry : json.at("segments")) {
     if (!entry.is_object()) return fail("\"segments\" holds " + entry.dump(), path, "it must hold objects");
     const auto index = parse_index({entry, path}, parents);
     if (!index) return tl::unexpected(index.error());
     const Object object{entry, path + ": segment " + std::string(kSegmentNames[*index])};
+
+    // Read the parent and the segment, and store them under the index.
     const auto parent = parent_name(object);
     if (!parent) return tl::unexpected(parent.error());
     const auto segment = parse_segment(object);
@@ -223,20 +242,28 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
     parents[std::string(kSegmentNames[*index])] = *parent;
     profile.segments[*index] = *segment;
   }
+
+  // Check that every segment is given, and that parents and joints fit together.
   for (std::string_view name : kSegmentNames)
     if (!parents.contains(std::string(name)))
       return fail("segment " + std::string(name) + " is missing", path, "a hand has 16 segments, see docs/formats.md");
   const auto tree = check_parents(parents, path).and_then([&] { return check_joints(profile, path); });
   if (!tree) return tl::unexpected(tree.error());
+
+  // Reject limits that were not converted to degrees.
   if (limits_look_like_radians(profile))
     return fail("\"limits_deg\": most joints may bend by less than 3.2 degrees, which look like radians", path,
                 "multiply them by 180 / pi");
+
+  // Read the scanned skin, if there is one.
   if (json.contains("skin")) {
     if (profile.origin == ProfileOrigin::mean)
       return fail("\"skin\" stands beside \"mean_hand\"", path,
                   "a scanned skin belongs to one person, a mean hand to nobody: remove one");
     auto skin = skin_from_json(json.at("skin"), path + ": skin");
     if (!skin) return tl::unexpected(skin.error());
+
+    // Compute the normals, which the file does not hold.
     compute_normals(profile, *skin);
     profile.scanned_skin = std::make_shared<const Skin>(*std::move(skin));
   }

@@ -104,6 +104,8 @@ Result<SE3> Object::transform(const char* key) const {
   // Reject a matrix that is not a rigid motion.
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   const double skew = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();
+
+  // A nearly orthonormal matrix is most likely a rotation with too few decimals.
   if (R.determinant() > 0 && skew >= 1e-3 && skew < 0.1)
     return bad(*this, key, "does not hold an exact rotation: perhaps its numbers are rounded",
                wanted + ", with 4 decimals or more"s);

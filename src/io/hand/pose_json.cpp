@@ -49,6 +49,8 @@ Result<HandPose> load_pose(const std::string& path, const HandProfile& profile) 
   for (int s = 0; s < kSegmentCount; ++s) {
     const std::string name(kSegmentNames[s]);
     const Object object{segments.contains(name) ? segments.at(name) : none, path + ": segment " + name};
+
+    // Take the pose as given, or compute it from the joint angles.
     const bool given = s == kPalm || object.has("T_camera_segment");
     const auto T = given ? object.transform("T_camera_segment")
                          : posed_by_angles(object, pose[parent_of(s)] * profile.rest_relative(s));

@@ -35,14 +35,19 @@ struct ParsedLine {
 bool within(double value, double largest) { return std::abs(value) <= largest; }
 
 std::optional<ParsedLine> parse_line(std::string_view text) {
+  // Read the number and the time of the frame, which must be plausible.
   const auto fields = split_fields(text);
   ParsedLine line;
   if (fields.size() != kColumns || !parse_number(fields[0], line.number) || !parse_number(fields[1], line.timestamp))
     return {};
   if (line.number < -kLargestNumber || line.number > kLargestNumber || !within(line.timestamp, kLargestTime)) return {};
+
+  // Read the segment by its name.
   const auto segment = segment_from_name(fields[2]);
   if (!segment) return {};
   line.segment = *segment;
+
+  // Read the positions of both ends and the visible fraction.
   std::array<double, 7> numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if (!parse_number(fields[3 + i], numbers[i]) || !within(numbers[i], kFarthest)) return {};
@@ -104,6 +109,7 @@ TableFrame table_frame(const HandEstimate& estimate) {
 }
 
 Result<ResultTable> read_table(const std::string& path) {
+  // Read the file, and check that it is a truth or result table.
   auto content = read_text(path);
   if (!content) return tl::unexpected(content.error());
   std::istringstream file(std::move(*content));
@@ -112,10 +118,14 @@ Result<ResultTable> read_table(const std::string& path) {
   if (text != kHeader)
     return fail("line 1 is not the header of a truth or result table", path,
                 "it must be \"" + std::string(kHeader) + "\"");
+
+  // Read line by line.
   TableBuilder builder;
   for (int number = 2; std::getline(file, text); ++number) {
     const bool ended = !file.eof();  // whether the line ends with a line feed; a last line without one was cut short
     if (text.empty()) continue;
+
+    // Add the line to its frame; a malformed last line was cut short and is left out.
     const auto line = parse_line(text);
     if (!line && !ended) return builder.finish(true);
     const std::string complaint = line ? builder.add(*line) : "is \"" + text + "\"";

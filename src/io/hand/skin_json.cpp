@@ -72,14 +72,19 @@ Result<void> check_list(const Json& json, const char* key, const std::string& wh
 }  // namespace
 
 Result<Skin> skin_from_json(const Json& json, const std::string& where) {
+  // Check that both lists are there.
   for (const char* key : {"vertices", "triangles"})
     if (const auto list = check_list(json, key, where); !list) return tl::unexpected(list.error());
+
+  // Read the vertices.
   Skin skin;
   const Json &vertices = json.at("vertices"), &triangles = json.at("triangles");
   skin.vertices.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (!read_vertex(vertices[i], skin.vertices[i]))
       return bad(where, "vertices", i, "a place on one or two neighbouring segments");
+
+  // Read the triangles, which refer to the vertices by their numbers.
   skin.triangles.resize(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (!read_triangle(triangles[i], vertices.size(), skin.triangles[i]))

@@ -49,6 +49,8 @@ Result<std::unique_ptr<LcmBus>> LcmBus::open(const std::string& url, int ttl) {
   if (lcm->good() && (!is_udp(effective) || lcm->getFileno() >= 0)) {
     return std::unique_ptr<LcmBus>(new LcmBus(effective, std::move(lcm)));
   }
+
+  // Explain the failure: a network often lacks a multicast route, and other URLs are often misspelt.
   if (is_udp(effective)) {
     return fail("cannot connect to LCM", effective,
                 "if there is no multicast route, add one: sudo ip link set lo up; "

@@ -33,6 +33,8 @@ class Scanner {
   /// Fills `entries` and returns the number of bytes that belong to none of them.
   std::int64_t scan(std::vector<LogEntry>& entries) {
     std::int64_t damaged = 0;
+
+    // Go from event to event, or from damage to the next event.
     for (std::int64_t at = 0; at < size_;) {
       auto entry = event_at(at);
       std::int64_t next = entry ? end_of(*entry) : next_sync(at + 1);
@@ -42,6 +44,8 @@ class Scanner {
           next = *within;
         }
       }
+
+      // Keep the event, or count the bytes that belong to none.
       if (entry)
         entries.push_back(std::move(*entry));
       else
@@ -72,16 +76,23 @@ class Scanner {
   }
 
   std::optional<LogEntry> event_at(std::int64_t at) {
+    // Read the header, which begins with the sync word.
     std::array<std::uint8_t, kEventHeader> header{};
     if (size_ - at < kEventHeader || !read(at, header.data(), header.size())) return std::nullopt;
     if (!std::equal(kSync.begin(), kSync.end(), header.begin())) return std::nullopt;
+
+    // Take the time and the sizes from the header.
     const auto channel_size = static_cast<std::size_t>(big_endian(&header[20], 4));
     LogEntry entry;
     entry.position = at;
     entry.timestamp = big_endian(&header[12], 8);
     entry.size = static_cast<std::int32_t>(big_endian(&header[24], 4));
+
+    // Reject sizes that are implausible or exceed the file.
     if (channel_size < 1 || channel_size > kLongestChannel || entry.size < 0) return std::nullopt;
     if (size_ - at < kEventHeader + static_cast<std::int64_t>(channel_size) + entry.size) return std::nullopt;
+
+    // Read the name of the channel and the beginning of the message.
     entry.channel.resize(channel_size);
     if (!read(at + kEventHeader, entry.channel.data(), entry.channel.size())) return std::nullopt;
     std::array<std::uint8_t, LogEntry::kStart> start{};

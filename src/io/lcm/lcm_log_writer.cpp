@@ -53,6 +53,7 @@ Result<void> LcmLogWriter::finish() {
 }
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
+  // Refuse what cannot be written.
   if (!log_) return fail("the log is finished, nothing more is written", path_);
   if (failed_) return fail("an earlier write failed and could not be undone, nothing more is written", path_);
   if (channel.empty() || channel.size() > kLongestChannel)
@@ -60,6 +61,7 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   if (!has_room(fileno(log_->getFilePtr()), kEventHeader + channel.size() + message.size()))
     return fail("the reader of this pipe is behind", path_, "events are left out until it has read more");
 
+  // Write the event through LCM's own class; an incomplete one is removed again.
   lcm::LogEvent event;
   event.eventnum = 0;  // LogFile sets the event's number
   event.timestamp = utime;
@@ -68,6 +70,8 @@ Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std:
   event.data = const_cast<std::uint8_t*>(message.data());
   errno = 0;
   if (log_->writeEvent(&event) != 0 || std::fflush(log_->getFilePtr()) != 0) return cut_back(errno);
+
+  // Count what is now safely in the log.
   disk_full_ = false;
   good_ += kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
   ++events_;

@@ -43,6 +43,7 @@ fs::path final_name(const fs::path& path) {
 
 /// Sorts paths into the order in which the logs were written.
 std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
+  // Group the paths into sets, each with its numbered parts.
   std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> sets;
   std::map<std::string, bool> rotated;
   for (const fs::path& path : paths) {
@@ -50,6 +51,8 @@ std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
     sets[name.base].emplace_back(name.part, path.string());
     rotated[name.base] |= name.rotated;
   }
+
+  // List each set from its oldest part on; rotated logs have the highest number on the oldest part.
   std::vector<std::string> files;
   for (auto& [base, parts] : sets) {
     std::sort(parts.begin(), parts.end());
@@ -122,6 +125,7 @@ std::optional<std::int64_t> number_in_set(const fs::path& log, const fs::path& s
 }
 
 Result<FoundLogs> find_logs(const std::string& path) {
+  // List all logs of a folder.
   std::error_code error;
   if (fs::is_directory(path, error)) {
     auto logs = logs_in(path, [](const fs::path& file) {
@@ -131,7 +135,11 @@ Result<FoundLogs> find_logs(const std::string& path) {
       return fail("the folder holds no LCM logs", path, "a recording folder is played as folder:DIR");
     return logs;
   }
+
+  // Take a single log as it is.
   if (fs::exists(path, error)) return FoundLogs{{path}, {}};
+
+  // Otherwise the path names a set of logs, whose parts lie beside it.
   const fs::path set(path);
   auto logs = logs_in(set.has_parent_path() ? set.parent_path() : fs::path("."), [&](const fs::path& file) {
     const LogName name = parse(file.filename().string());

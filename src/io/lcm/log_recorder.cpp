@@ -29,6 +29,7 @@ Result<void> LogRecorder::start(int user) {
   if (recording_) return {};
   if (thread_.joinable()) thread_.join();  // the thread of the previous recording
 
+  // Open a new log, and show the reason if that fails.
   auto log = open_new();
   if (!log) {
     const std::string note = "Nothing is recorded: " + log.error().message();
@@ -40,6 +41,7 @@ Result<void> LogRecorder::start(int user) {
   }
   log_->info("recording to {}/{}, started from the live page", options_.folder, state().file);
 
+  // Start the thread that writes, with a queue that drops the oldest messages if the disk is too slow.
   const std::lock_guard lock(mutex_);
   queue_ = std::make_unique<Queue>("record", options_.capacity, Overflow::drop_oldest);
   started_us_ = clock_.steady_us();

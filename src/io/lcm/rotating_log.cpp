@@ -45,15 +45,20 @@ RotatingLog::RotatingLog(fs::path path, LogRotation rotation, const Clock& clock
 
 Result<std::unique_ptr<RotatingLog>> RotatingLog::create(const std::string& path, LogRotation rotation,
                                                          const Clock& clock) {
+  // Choose a size for the files that suits the quota, or check the one given.
   if (rotation.quota > 0 && rotation.max_bytes == 0) rotation.max_bytes = std::max<std::int64_t>(1, rotation.quota / 8);
   if (rotation.quota > 0 && rotation.quota < 2 * rotation.max_bytes)
     return fail("the quota is smaller than two files of the maximum size", path,
                 "increase the quota or make the files smaller");
+
+  // Create the folder of the logs.
   const fs::path folder = folder_of(path);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     return fail("cannot be created: " + error.message(), folder.string(), "check the path and its permissions");
+
+  // Take over what an earlier run left behind.
   std::unique_ptr<RotatingLog> log(new RotatingLog(path, rotation, clock));
   log->finish_abandoned_files();
   log->find_files();
@@ -83,16 +88,23 @@ void RotatingLog::find_files() {
 }
 
 Result<void> RotatingLog::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {
+  // Make room for the message: close a full file, and remove the oldest files beyond the quota.
   const auto bytes = kEventHeader + static_cast<std::int64_t>(channel.size() + message.size());
   if (log_ && is_full(bytes))
     if (const auto closed = close(); !closed) return closed;
   while (rotation_.quota > 0 && used() + bytes > rotation_.quota && remove_oldest()) {
   }
+
+  // Open the next file if none is open.
   if (!log_)
     if (const auto opened = open_next(); !opened) return opened;
+
+  // Write the message; on a full disk, old files give way to it.
   auto sent = log_->send(channel, message, utime);
   while (!sent && log_->disk_full() && rotation_.quota > 0 && remove_oldest())
     sent = log_->send(channel, message, utime);
+
+  // Give up a file that can no longer be written, so that the next message opens another.
   files_.back().bytes = log_->bytes();
   if (log_->failed()) (void)close();
   return sent;

@@ -75,11 +75,14 @@ void McapReader::scan(const MessageVisitor& visit) {
   std::uint64_t lost = 0;  // number of bytes that are not part of a record
   bool ended = false;
   for (std::uint64_t at = kMagic.size(); at < size_ && !ended;) {
+    // Read the kind and the size of the record.
     Bytes header;
     std::uint64_t size = 0;
     const bool known = read_at(at, kRecordHeader, header);
     if (known) std::memcpy(&size, &header[1], sizeof size);
     const std::uint64_t content = at + kRecordHeader;
+
+    // Process the record if it is complete and valid.
     if (known && size <= size_ - content && take_record(header[0], content, size, visit)) {
       ended = header[0] == static_cast<std::uint8_t>(Kind::data_end);
       at = content + size;
@@ -103,9 +106,12 @@ void McapReader::scan(const MessageVisitor& visit) {
 
 /// Processes a record whose content has `size` bytes and begins at `at`. Returns false if this is no MCAP record.
 bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const MessageVisitor& visit) {
+  // Read the content only where it is needed: other kinds may be large.
   const auto read = [&] {
     return read_at(at, size, record_) ? std::span<const std::uint8_t>(record_) : std::span<const std::uint8_t>();
   };
+
+  // Process the record by its kind.
   switch (static_cast<Kind>(kind)) {
     case Kind::schema:
       take_schema(read());
@@ -113,6 +119,8 @@ bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t 
     case Kind::channel:
       take_channel(read());
       return true;
+
+    // A message may also stand outside of any chunk.
     case Kind::message:
       take_message(read(), -1, at, visit);
       return true;
@@ -162,16 +170,21 @@ void McapReader::take_message(std::span<const std::uint8_t> record, std::int64_t
 }
 
 void McapReader::take_chunk(std::uint64_t at, const MessageVisitor& visit) {
+  // Unpack the chunk, or count it as left out with the reason.
   if (const auto unpacked = unpack(at, chunk_sizes_[static_cast<std::int64_t>(at)]); !unpacked) {
     ++left_out_[unpacked.error().what];
     return;
   }
   const std::span<const std::uint8_t> all(chunk_);
+
+  // Go from record to record, as in the file itself.
   for (std::uint64_t from = 0; all.size() - from >= kRecordHeader;) {
     std::uint64_t size = 0;
     std::memcpy(&size, &all[from + 1], sizeof size);
     const std::uint64_t content = from + kRecordHeader;
     if (size > all.size() - content) return;
+
+    // Process the record by its kind; indexes do not occur in a chunk.
     const auto record = all.subspan(content, size);
     if (all[from] == static_cast<std::uint8_t>(Kind::schema)) take_schema(record);
     if (all[from] == static_cast<std::uint8_t>(Kind::channel)) take_channel(record);
@@ -184,6 +197,8 @@ void McapReader::take_chunk(std::uint64_t at, const MessageVisitor& visit) {
 /// Reads and unpacks a chunk into `chunk_`. The error is a phrase for the user, for which equal chunks are counted.
 Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   chunk_at_ = -1;
+
+  // Read the fields of the chunk.
   if (!read_at(at, size, record_)) return fail("unreadable");
   FieldReader fields(record_);
   (void)fields.get_bytes(16);  // first and last time
@@ -191,9 +206,12 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   const auto crc = fields.get<std::uint32_t>();
   const std::string compression = fields.get_text();
   const auto packed = fields.get_bytes(fields.get<std::uint64_t>());
+
+  // Refuse a chunk that is damaged or would unpack to more than the limit.
   if (fields.failed()) return fail("damaged");
   if (unpacked_size > kMostUnpacked) return fail("which would take more than 256 MiB");
 
+  // Unpack the records.
   if (compression == "zstd") {
     if (auto good = unpack_zstd(packed, unpacked_size, chunk_); !good) return good;
   } else if (compression.empty()) {
@@ -201,6 +219,8 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
   } else {
     return fail(unknown_compression(compression));
   }
+
+  // Check the records against their checksum, which is optional.
   if (crc != 0 && crc != crc32_z(0, chunk_.data(), chunk_.size())) return fail("damaged");
   chunk_at_ = static_cast<std::int64_t>(at);
   return {};
@@ -209,14 +229,21 @@ Result<void> McapReader::unpack(std::uint64_t at, std::uint64_t size) {
 /// Finds the next position from `from` on at which a chunk compressed with zstd seems to begin, by its compression
 /// field.
 std::optional<std::uint64_t> McapReader::next_chunk(std::uint64_t from) {
+  // The compression field is a length and a name, and stands at a fixed place in a chunk.
   constexpr std::string_view kSign("\4\0\0\0zstd", 8);
   constexpr std::uint64_t kBefore = kRecordHeader + 8 + 8 + 8 + 4;  // bytes before kSign in a chunk record
+
+  // Read the file in blocks that overlap, so that no sign is missed at a boundary.
   Bytes block;
   for (std::uint64_t at = from + kBefore; at < size_; at += (1 << 16) - (kSign.size() - 1)) {
     if (!read_at(at, std::min<std::uint64_t>(1 << 16, size_ - at), block)) break;
+
+    // Search the block for the sign.
     for (auto found = block.begin();; ++found) {
       found = std::search(found, block.end(), kSign.begin(), kSign.end());
       if (found == block.end()) break;
+
+      // Check that a chunk record of plausible size begins before the sign.
       const std::uint64_t start = at + static_cast<std::uint64_t>(found - block.begin()) - kBefore;
       Bytes header;
       if (!read_at(start, kRecordHeader, header) || header[0] != static_cast<std::uint8_t>(Kind::chunk)) continue;

@@ -84,6 +84,8 @@ std::uint16_t McapWriter::channel_of(const NewMessage& message) {
   writer.begin(Kind::channel);
   writer.put(known->second);
   writer.put(schema);
+
+  // Add the topic, the encoding of its messages and its metadata.
   writer.put_text(message.topic);
   writer.put_text("cdr");
   writer.put_map(message.metadata);
@@ -102,6 +104,8 @@ Result<void> McapWriter::write(std::span<const NewMessage> messages, std::uint64
   for (const NewMessage& message : messages) {
     const std::uint16_t channel = channel_of(message);
     index_[channel].push_back({time, records_.size()});
+
+    // Write the message as a record of the chunk.
     RecordWriter writer(records_);
     writer.begin(Kind::message);
     writer.put(channel);
@@ -136,12 +140,15 @@ McapWriter::Span McapWriter::span_of(const Index& index) {
 }
 
 McapWriter::Bytes McapWriter::chunk_record(Span span) const {
+  // Compress the records of the chunk.
   const Bytes packed = compressed(records_);
   Bytes bytes;
   RecordWriter writer(bytes);
   writer.begin(Kind::chunk);
   writer.put(span.first);
   writer.put(span.last);
+
+  // Add the size and the checksum of the records, then the compressed records.
   writer.put<std::uint64_t>(records_.size());
   writer.put(crc_of(0, records_));
   writer.put_text(kZstd);
@@ -169,6 +176,8 @@ Result<void> McapWriter::write_chunk() {
   const std::uint64_t start = good_ + bytes.size();
   const Bytes chunk = chunk_record(span);
   writer.put_bytes(chunk);
+
+  // Write an index for each channel, and note where it begins.
   const std::uint64_t index_start = good_ + bytes.size();
   std::map<std::uint16_t, std::uint64_t> index_offsets;
   for (const auto& [channel, stamps] : index_) {
@@ -179,6 +188,8 @@ Result<void> McapWriter::write_chunk() {
     for (const Stamp& stamp : stamps) writer.put(stamp);
     writer.end();
   }
+
+  // Append everything at once, so that a failed write can be undone as a whole.
   const std::uint64_t index_size = good_ + bytes.size() - index_start;
   if (auto appended = append(bytes); !appended) return appended;
 
@@ -189,6 +200,8 @@ Result<void> McapWriter::write_chunk() {
   index.put(span.first);
   index.put(span.last);
   index.put(start);
+
+  // Add the sizes of the chunk and the places of its message indexes.
   index.put<std::uint64_t>(chunk.size());
   index.put_map(index_offsets);
   index.put(index_size);
@@ -210,8 +223,11 @@ Result<void> McapWriter::write_chunk() {
 }
 
 McapWriter::Bytes McapWriter::statistics() const {
+  // Count the messages of each channel, whose numbers start at 1.
   std::map<std::uint16_t, std::uint64_t> counts;
   for (std::size_t i = 0; i < channels_.size(); ++i) counts[static_cast<std::uint16_t>(i + 1)] = channels_[i].messages;
+
+  // Write the numbers of messages and other records, in the order of the format.
   Bytes bytes;
   RecordWriter writer(bytes);
   writer.begin(Kind::statistics);
@@ -221,6 +237,8 @@ McapWriter::Bytes McapWriter::statistics() const {
   writer.put<std::uint32_t>(0);  // number of attachments
   writer.put<std::uint32_t>(0);  // number of metadata records
   writer.put(static_cast<std::uint32_t>(chunk_indexes_.size()));
+
+  // Add the period of the recording, and the number of messages in each channel.
   writer.put(span_.first);
   writer.put(span_.last);
   writer.put_map(counts);
@@ -230,6 +248,7 @@ McapWriter::Bytes McapWriter::statistics() const {
 
 /// What follows the last chunk: the summary, the offsets of its groups of records, and the footer.
 McapWriter::Bytes McapWriter::ending() const {
+  // Mark the end of the data, with its checksum.
   Bytes bytes;
   RecordWriter writer(bytes);
   writer.begin(Kind::data_end);
@@ -239,6 +258,8 @@ McapWriter::Bytes McapWriter::ending() const {
   // Write the summary: the records in groups of one kind, then the offset of each group.
   const std::size_t summary = bytes.size();
   Bytes offsets;
+
+  // Write a group, and note its place for the list of offsets.
   const auto group = [&](Kind kind, const auto& put_records) {
     const std::size_t start = bytes.size();
     put_records();
@@ -249,6 +270,8 @@ McapWriter::Bytes McapWriter::ending() const {
     offset.put<std::uint64_t>(bytes.size() - start);
     offset.end();
   };
+
+  // Write the groups, with the schemas first, since the channels refer to them.
   group(Kind::schema, [&] {
     for (const Bytes& schema : schemas_) writer.put_bytes(schema);
   });
@@ -259,6 +282,8 @@ McapWriter::Bytes McapWriter::ending() const {
   group(Kind::chunk_index, [&] {
     for (const Bytes& index : chunk_indexes_) writer.put_bytes(index);
   });
+
+  // Write the list of offsets behind the groups.
   const std::size_t offsets_start = bytes.size();
   writer.put_bytes(offsets);
 
@@ -280,6 +305,8 @@ Result<void> McapWriter::finish() {
   // Write the index; readers can do without it if this fails.
   if (!failed_ && good_ > 0)
     if (auto ended = append(ending()); !ended && result) result = ended;
+
+  // Close the file, and give it its final name unless it is empty.
   close(std::exchange(descriptor_, -1));
   if (good_ == 0) {  // nothing was written, so no file must get the name
     file_.discard();
@@ -292,6 +319,8 @@ Result<void> McapWriter::finish() {
 Result<void> McapWriter::append(const Bytes& bytes) {
   constexpr std::chrono::milliseconds kPatience{100};  // longest wait for the reader of a pipe (pipe_room.h)
   const auto end_of_patience = std::chrono::steady_clock::now() + kPatience;
+
+  // Write all bytes, and wait a little for the reader of a pipe.
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
@@ -300,6 +329,8 @@ Result<void> McapWriter::append(const Bytes& bytes) {
     if (written < 0) break;
     done += static_cast<std::size_t>(written);
   }
+
+  // Count what is now safely in the file.
   if (done == bytes.size()) {
     good_ += bytes.size();
     crc_ = crc_of(crc_, bytes);
@@ -307,6 +338,7 @@ Result<void> McapWriter::append(const Bytes& bytes) {
     return {};
   }
 
+  // Cut the file back to the end of the last complete chunk, if that is possible.
   const int reason = errno;
   const auto end = static_cast<off_t>(good_);
   failed_ = file_.direct() || ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) != end;

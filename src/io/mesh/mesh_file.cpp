@@ -88,6 +88,8 @@ Result<void> check_size(const ObjectMesh& mesh, const std::string& path, LengthU
       lower = lower.cwiseMin(mesh.vertices[v]);
       upper = upper.cwiseMax(mesh.vertices[v]);
     }
+
+  // An object of a plausible size must also be near the origin of its file.
   const double size = (upper - lower).cast<double>().maxCoeff();
   const double away = (0.5f * (lower + upper)).cast<double>().norm();
   if (size >= kSmallest && size <= kLargest && away > kFarthest)
@@ -123,6 +125,7 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
   if (!std::ifstream(path)) return fail("cannot be read", path, "check its permissions");
   if (std::filesystem::file_size(path, error) == 0) return fail("is empty", path, "export the object's mesh again");
 
+  // Reject files in which assimp would search without end or recurse too deeply.
   if (is_ply_without_end_of_header(path))
     return fail("is a PLY file whose header has no end", path, "export the object's mesh again");
   if (gltf_depth(path) > kDeepestJson)
@@ -139,6 +142,8 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
   if (!scene)
     return fail(std::string("cannot be read as a mesh: ") + importer.GetErrorString(), path,
                 "give an OBJ, PLY, STL or glTF file");
+
+  // Join the meshes of the scene, in metres.
   LoadedMesh loaded;
   ObjectMesh& mesh = loaded.mesh;
   mesh.name = std::filesystem::path(path).stem().string();
@@ -154,6 +159,7 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
     if (!v.allFinite()) return fail("holds a vertex that is not finite", path, "export the object's mesh again");
   if (auto good = check_size(mesh, path, unit); !good) return tl::unexpected(good.error());
 
+  // Make the mesh the closed surface of a solid.
   auto repair = repair_mesh(mesh, path);
   if (!repair) return tl::unexpected(repair.error());
   loaded.repair = *repair;

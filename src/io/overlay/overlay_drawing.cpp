@@ -123,6 +123,8 @@ Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands
     cv::Mat part = view(sheet)(cv::Rect(picture == &colour ? 0 : camera.width, 0, camera.width, camera.height));
     cv::resize(view(*picture), part, part.size(), 0, 0, cv::INTER_NEAREST);
     paint_skin(skin, part);
+
+    // Draw the bones over the skin, and the names in the colour picture only.
     for (const DrawnHand& hand : hands) {
       if (!hand.estimate.has_pose()) continue;
       BoneDrawing(part, camera, scale, hand.estimate).draw();
@@ -130,6 +132,7 @@ Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands
     }
   }
 
+  // Write the caption below both halves.
   const Caption caption = caption_of(frame, hands);
   cv::putText(view(sheet), caption.text, {8, camera.height + 19}, cv::FONT_HERSHEY_SIMPLEX, 0.5, caption.colour, 1,
               cv::LINE_AA);

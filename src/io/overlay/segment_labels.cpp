@@ -80,6 +80,8 @@ void draw_segment_names(const HandEstimate& estimate, const Intrinsics& camera, 
                    [](const Label& a, const Label& b) { return a.segment.x < b.segment.x; });
   const auto middle = labels.begin() + static_cast<std::ptrdiff_t>(labels.size() / 2);
   const int left_edge = labels.front().segment.x - kGap, right_edge = labels.back().segment.x + kGap;
+
+  // Spread the labels over the height of the picture, and draw them.
   std::vector<Label> on_left(labels.begin(), middle), on_right(middle, labels.end());
   spread(on_left, picture.rows);
   spread(on_right, picture.rows);

@@ -56,6 +56,7 @@ std::vector<Paint> vertex_paints(const HandEstimate& estimate, const Skin& skin,
 
 /// Adds the skin of one hand to the pixels in which it is in front of the skin added before.
 void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& rendered, SkinLayer& layer) {
+  // Colour the vertices, and start with an empty rectangle, which grows with each pixel of skin.
   const std::vector<Paint> paints = vertex_paints(hand.estimate, hand.skin, rendered);
   int left = rendered.grid.width, right = 0, top = rendered.grid.height, bottom = 0;
   for (int v = 0; v < rendered.grid.height; ++v) {
@@ -75,6 +76,8 @@ void add_hand(const DrawnHand& hand, std::uint8_t number, const RenderedHand& re
       top = std::min(top, v), bottom = std::max(bottom, v + 1);
     }
   }
+
+  // Add the rectangle to the part of the picture that has skin.
   if (left < right) layer.part |= cv::Rect(left, top, right - left, bottom - top);
 }
 

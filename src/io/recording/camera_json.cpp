@@ -26,6 +26,8 @@ Result<void> read_numbers(const json_fields::Object& object, CameraFile& file) {
   Intrinsics& camera = file.camera;
   const auto put = [](auto& target) { return [&target](auto value) { target = value; }; };
   double units = 0;
+
+  // Read field by field, until the first error.
   return whole_number(object, "width")
       .map(put(camera.width))
       .and_then([&] { return whole_number(object, "height").map(put(camera.height)); })
@@ -35,6 +37,8 @@ Result<void> read_numbers(const json_fields::Object& object, CameraFile& file) {
       .and_then([&] { return object.number("cy", -kLargestFocal, kLargestFocal).map(put(camera.cy)); })
       .and_then([&] { return object.number("depth_units_per_metre", 1, 1e7).map(put(units)); })
       .and_then([&] { return object.number_or("fps", 0, 0, 10000).map(put(file.fps)); })
+
+      // Check the size of the image as a whole.
       .and_then([&]() -> Result<void> {
         file.depth_unit = 1 / units;
         if (plausible(camera)) return {};
@@ -110,6 +114,8 @@ const Json& part_with_distortion(const Json& json) {
 
 void read_distortion(const Json& json, const std::string& path, CameraFile& file) {
   constexpr std::size_t kMost = 8;  // further coefficients are for thin prisms and tilted sensors
+
+  // Find the coefficients; if all are 0 or the images are rectified, there is nothing to correct.
   const Json& part = part_with_distortion(json);
   auto values = listed(part);
   if (!values || values->empty()) values = named(part);
@@ -118,6 +124,8 @@ void read_distortion(const Json& json, const std::string& path, CameraFile& file
 
   const std::string model = model_of(part).empty() ? model_of(json) : model_of(part);
   if (model == "none") return;
+
+  // Warn of coefficients that cannot be used.
   const bool more =
       values->size() > kMost && std::any_of(values->begin() + kMost, values->end(), [](double k) { return k != 0; });
   if ((!model.empty() && !is_known(model)) || more) {
@@ -127,6 +135,8 @@ void read_distortion(const Json& json, const std::string& path, CameraFile& file
                             "images, or give plumb_bob or rational coefficients)");
     return;
   }
+
+  // Coefficients that are not given are 0.
   values->resize(kMost, 0);
   const auto& k = *values;
   file.distortion = {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]};

@@ -53,6 +53,8 @@ bool guarded(ErrorManager& errors, Step&& step) {
 /// an end marker and fill the rest of the image with grey.
 jpeg_source_mgr memory_source(std::span<const std::uint8_t> bytes) {
   jpeg_source_mgr source{};
+
+  // Give all bytes at once, so a request for more means that the file ends early.
   source.next_input_byte = bytes.data();
   source.bytes_in_buffer = bytes.size();
   source.init_source = [](j_decompress_ptr) {};
@@ -61,12 +63,16 @@ jpeg_source_mgr memory_source(std::span<const std::uint8_t> bytes) {
     codec->err->error_exit(reinterpret_cast<j_common_ptr>(codec));
     return FALSE;
   };
+
+  // Skip data that is not needed, but not beyond the end.
   source.skip_input_data = [](j_decompress_ptr codec, long count) {
     if (count <= 0) return;
     if (static_cast<std::size_t>(count) > codec->src->bytes_in_buffer) codec->src->fill_input_buffer(codec);
     codec->src->next_input_byte += count;
     codec->src->bytes_in_buffer -= static_cast<std::size_t>(count);
   };
+
+  // Use the default of libjpeg for restart markers; at the end, there is nothing to do.
   source.resync_to_restart = jpeg_resync_to_restart;
   source.term_source = [](j_decompress_ptr) {};
   return source;
@@ -104,12 +110,15 @@ class Reader {
 
   Result<void> read(Image<Rgb>& image) {
     const auto read_rows = [&] {
+      // Let libjpeg convert all colours but those of print, which it leaves in CMYK.
       const bool cmyk = codec_.num_components == kCmykChannels;
       codec_.out_color_space = cmyk ? JCS_CMYK : JCS_RGB;
       jpeg_start_decompress(&codec_);
       const JSAMPARRAY inks = cmyk ? codec_.mem->alloc_sarray(reinterpret_cast<j_common_ptr>(&codec_), JPOOL_IMAGE,
                                                               codec_.output_width * kCmykChannels, 1)
                                    : nullptr;
+
+      // Read the image row by row.
       for (int v = 0; v < image.height(); ++v) {
         auto* row = reinterpret_cast<JSAMPROW>(image.row(v));
         jpeg_read_scanlines(&codec_, cmyk ? inks : &row, 1);
@@ -154,6 +163,7 @@ class Writer {
 
   Result<std::vector<std::uint8_t>> write(const Image<Rgb>& image, int quality) {
     const auto write_all = [&] {
+      // Describe the image, and choose the quality.
       jpeg_create_compress(&codec_);
       codec_.dest = &destination_;
       codec_.image_width = static_cast<JDIMENSION>(image.width());
@@ -162,6 +172,8 @@ class Writer {
       codec_.in_color_space = JCS_RGB;
       jpeg_set_defaults(&codec_);
       jpeg_set_quality(&codec_, quality, TRUE);
+
+      // Compress the image row by row.
       jpeg_start_compress(&codec_, TRUE);
       for (int v = 0; v < image.height(); ++v) {
         auto* row = reinterpret_cast<JSAMPROW>(const_cast<Rgb*>(image.row(v)));
@@ -169,6 +181,8 @@ class Writer {
       }
       jpeg_finish_compress(&codec_);
     };
+
+    // Encode with the errors of libjpeg caught, then shorten the buffer to the bytes that were written.
     if (!guarded(errors_, write_all))
       return fail(std::string("cannot be encoded as a JPEG: ") + errors_.message.data());
     bytes_.resize(bytes_.size() - destination_.free_in_buffer);
@@ -180,17 +194,23 @@ class Writer {
   static void grow(j_compress_ptr codec) {
     auto& bytes = static_cast<Writer*>(codec->client_data)->bytes_;
     const std::size_t used = bytes.size();
+
+    // Enlarge the buffer, and note if there is not enough memory.
     bool grown = true;
     try {
       bytes.resize(2 * used + 65536);
     } catch (const std::bad_alloc&) {  // exceptions must not pass through libjpeg, nor longjmp leave this handler
       grown = false;
     }
+
+    // Report the lack of memory in the way of libjpeg.
     if (!grown) {
       codec->err->msg_code = JERR_OUT_OF_MEMORY;
       codec->err->msg_parm.i[0] = 0;
       codec->err->error_exit(reinterpret_cast<j_common_ptr>(codec));
     }
+
+    // Let libjpeg continue behind the bytes that are in use.
     codec->dest->next_output_byte = bytes.data() + used;
     codec->dest->free_in_buffer = bytes.size() - used;
   }

@@ -122,15 +122,20 @@ class PngWriter {
     if (image.empty()) return fail("an empty image cannot be encoded");
     if (!info_) return fail("libpng cannot be started");
     const auto write_all = [&] {
+      // Write the header of the image.
       png_set_compression_level(png_, level);
       png_set_compression_strategy(png_, 0);  // the default strategy of zlib
       png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), bits,
                    colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       png_write_info(png_, info_);
+
+      // Write the rows; PNG stores numbers in big-endian order.
       if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
       for (int v = 0; v < image.height(); ++v) png_write_row(png_, reinterpret_cast<png_const_bytep>(image.row(v)));
       png_write_end(png_, info_);
     };
+
+    // Report the message of libpng if it fails.
     if (!guarded(png_, write_all)) return fail(std::string("cannot be encoded as a PNG: ") + message_.data());
     return std::move(bytes_);
   }

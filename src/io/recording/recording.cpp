@@ -37,20 +37,27 @@ std::vector<std::int64_t> times_of(const std::vector<StampedFile>& files) {
 
 /// Lists the frames of depth.txt with their colour images, and marks the frames that their time stamps rule out.
 void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
+  // Assign a colour image to each depth image.
   const std::vector<StampedFile> colour = read_colour_list(recording);
   const ColourPairs pairs = pair_colour(times_of(depth), times_of(colour));
   FrameOrder order(StampUnit::seconds);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const StampedFile& file = depth[i];
+
+    // Make the entry of the frame, which says why it has no colour if the recording has some.
     RecordingEntry entry{file.utime, file.file, {}, {}, {}};
     if (pairs.colour[i]) entry.colour_file = colour[*pairs.colour[i]].file;
     if (entry.colour_file.empty() && !colour.empty())
       entry.colour_fault =
           formatted("rgb.txt lists none within %.3f s of it", 1e-6 * static_cast<double>(pairs.window));
+
+    // Mark the frame as unusable if its time stamp cannot be right.
     const auto number = static_cast<std::int64_t>(recording.entries.size());
     if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
     recording.entries.push_back(std::move(entry));
   }
+
+  // Pass on what is suspicious about the time stamps as a whole.
   for (const std::string& warning : order.take_last_warnings())
     recording.warnings.push_back(recording.directory + "/depth.txt: " + warning);
 }
@@ -59,17 +66,22 @@ void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
 void use_camera(CameraFile file, const std::string& path, Recording& recording) {
   constexpr double kNoticed = 0.5;  // smallest shift that is corrected [px]
   constexpr double kLeast = 0.5;    // smallest fraction of the image that must stay visible
+
+  // Take over what the file says.
   recording.camera = file.camera;
   recording.depth_unit = file.depth_unit;
   recording.fps = file.fps;
   recording.warnings = std::move(file.warnings);
   if (file.distortion == Distortion{}) return;
+
+  // Undistort the images if the shift is noticeable and the coefficients are plausible.
   auto undistortion = std::make_shared<const Undistortion>(file.camera, file.distortion);
   if (undistortion->shown() < kLeast) {
     recording.warnings.push_back(path +
                                  ": these coefficients of lens distortion are implausible and not used (are they in "
                                  "the order k1, k2, p1, p2, k3, k4, k5, k6?)");
   } else if (undistortion->largest_shift() > kNoticed) {
+    // Report the correction, since images that are rectified already would be distorted by it.
     recording.warnings.push_back(
         path + formatted(": the images are undistorted with the coefficients given, by up to %.3g pixels (if they are "
                          "rectified already, add \"rectified\": true)",
@@ -99,9 +111,12 @@ Result<Image<Rgb>> read_frame_colour(const Recording& recording, const std::stri
 }  // namespace
 
 Result<Recording> open_recording(const std::string& directory) {
+  // Check that there is a folder.
   std::error_code error;
   if (!fs::is_directory(directory, error))
     return fail("is not a folder" + (error ? ": " + error.message() : ""), directory, "give a recording folder");
+
+  // Read the camera.
   Recording recording;
   recording.directory = directory;
   const std::string camera_path = directory + "/camera.json";
@@ -109,6 +124,7 @@ Result<Recording> open_recording(const std::string& directory) {
   if (!camera) return tl::unexpected(camera.error());
   use_camera(*std::move(camera), camera_path, recording);
 
+  // Read the list of frames, and check that the first image suits the camera.
   const std::string list = directory + "/depth.txt";
   const auto depth = read_stamped_list(list);
   if (!depth) return tl::unexpected(depth.error());
@@ -119,16 +135,21 @@ Result<Recording> open_recording(const std::string& directory) {
 }
 
 Result<FramePtr> read_frame(const Recording& recording, std::int64_t number) {
+  // Take over what the list and the camera say of the frame.
   const RecordingEntry& entry = recording.entries.at(static_cast<std::size_t>(number));
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = entry.utime;
   frame->number = number;
   frame->camera = recording.camera;
   frame->depth_unit = recording.depth_unit;
+
+  // Read the depth, which must have the size of the camera's images.
   auto depth = read_depth_png(entry.depth_file);
   if (!depth) return tl::unexpected(depth.error());
   const auto depth_size = check_size(depth->width(), depth->height(), recording.camera, entry.depth_file);
   if (!depth_size) return tl::unexpected(depth_size.error());
+
+  // Undistort the depth if the lens requires it.
   const Undistortion* lens = recording.undistortion.get();
   frame->depth = lens ? lens->apply(*depth) : std::move(*depth);
 

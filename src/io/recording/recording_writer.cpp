@@ -40,11 +40,14 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& directory, Op
     if (fs::exists(directory + "/" + name, error))
       return fail(std::string("already holds a recording: there is ") + name, directory,
                   "choose another folder or remove it first: recordings in folders are never replaced");
+
+  // Refuse a folder with images that a list no longer names.
   for (const char* name : {"depth", "rgb"})
     if (const std::string images = directory + "/" + name;
         fs::is_directory(images, error) && !fs::is_empty(images, error))
       return fail("already holds images", images, "choose another folder or remove them first");
 
+  // Create the folder, and note whether it was new, so that an empty recording leaves nothing behind.
   RecordingWriter writer;
   writer.directory_ = directory;
   writer.options_ = std::move(options);
@@ -99,6 +102,8 @@ Result<void> RecordingWriter::append(std::optional<AtomicFile>& list, const char
 
 Result<void> RecordingWriter::finish() {
   if (std::exchange(finished_, true)) return {};
+
+  // Remove the traces of a recording without frames.
   std::error_code ignored;
   if (count_ == 0) {
     depth_list_.reset();
@@ -115,21 +120,27 @@ Result<void> RecordingWriter::finish() {
     (void)syncfs(folder);
     close(folder);
   }
+
+  // Finish the list of depth last, since its name marks the recording as complete.
   const auto colour = rgb_list_ ? rgb_list_->finish() : Result<void>();
   const auto depth = depth_list_->finish();
   return colour ? depth : colour;
 }
 
 Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
+  // Check that the frame fits the recording, which starts with the first one.
   if (finished_) return fail("the recording is finished, nothing more is written", directory_);
   if (!depth_list_)
     if (const auto started = start(frame); !started) return tl::unexpected(started.error());
   if (!(frame.camera == camera_) || frame.depth_unit != depth_unit_)
     return fail("the camera changed at frame " + std::to_string(count_), directory_, "a recording has one camera");
 
+  // Write the depth image.
   const std::string depth_file = image_name("depth", count_, "png");
   if (const auto written = write_depth_png(directory_ + "/" + depth_file, frame.depth); !written)
     return tl::unexpected(written.error());
+
+  // Write the colour image, if there is one, and its line of the list.
   if (!frame.colour.empty()) {
     const std::string colour_file = image_name("rgb", count_, options_.colour_ending);
     std::error_code ignored;  // a folder that cannot be created is reported when the image is written
@@ -139,6 +150,8 @@ Result<std::int64_t> RecordingWriter::write(const RgbdFrame& frame) {
     });
     if (!written) return tl::unexpected(written.error());
   }
+
+  // List the depth image last, so that a listed frame is complete.
   const auto appended = append(depth_list_, "depth.txt", stamp_text(frame.utime) + " " + depth_file + "\n");
   if (!appended) return tl::unexpected(appended.error());
   return count_++;

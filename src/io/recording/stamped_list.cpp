@@ -46,6 +46,8 @@ bool has_digit(std::string_view word) {
 /// The path of the file that the text after a time stamp names; none if it names none.
 std::optional<std::string> file_in(std::string_view rest, const fs::path& folder) {
   const auto path_of = [&](std::string_view name) { return (folder / name).string(); };
+
+  // A name in quotation marks is taken literally.
   if (rest.starts_with('"')) {
     const auto quote = rest.find('"', 1);
     if (quote == std::string_view::npos || quote == 1) return std::nullopt;
@@ -56,6 +58,8 @@ std::optional<std::string> file_in(std::string_view rest, const fs::path& folder
   // List the possible names, the most literal first, and take the first one that exists. A single name need not exist.
   std::vector<std::string> names{std::string(trimmed(without_comment(rest)))};
   if (names[0].empty()) return std::nullopt;
+
+  // Also try the name with the separators of Windows replaced, and each name up to its first space.
   if (names[0].find('\\') != std::string::npos) {
     names.push_back(names[0]);
     std::replace(names[1].begin(), names[1].end(), '\\', '/');
@@ -63,6 +67,8 @@ std::optional<std::string> file_in(std::string_view rest, const fs::path& folder
   for (std::size_t i = 0, whole = names.size(); i < whole; ++i)
     if (const auto space = names[i].find_first_of(kSpaces); space != std::string::npos)
       names.push_back(names[i].substr(0, space));
+
+  // Choose among several possible names by what exists.
   if (names.size() > 1)
     for (const std::string& name : names)
       if (std::error_code ignored; fs::exists(folder / name, ignored)) return path_of(name);
@@ -72,17 +78,21 @@ std::optional<std::string> file_in(std::string_view rest, const fs::path& folder
 }  // namespace
 
 Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
+  // Read the list, or explain that the recording was not finished.
   auto text = read_text(path);
   if (!text && !is_missing(path + std::string(kUnfinished)))
     return fail("is missing: the recording was not finished", path,
                 "rename " + path + std::string(kUnfinished) + " to play it as far as it got");
   if (!text) return tl::unexpected(text.error());
+
+  // Read line by line; names are relative to the folder of the list.
   const fs::path folder = fs::path(path).parent_path();
   std::istringstream lines(std::move(*text));
   std::vector<StampedFile> files;
   bool first = true;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
+    // Skip comments, and a first line that is a header.
     const std::string_view content = trimmed(line);
     if (content.empty() || content[0] == '#') continue;
     const std::string_view word = content.substr(0, content.find_first_of(kSpaces));
@@ -92,6 +102,8 @@ Result<std::vector<StampedFile>> read_stamped_list(const std::string& path) {
     if (seconds && std::abs(*seconds) * 1e6 > static_cast<double>(kLatestUtime))
       return fail("line " + std::to_string(number) + " has the time stamp " + std::string(word), path,
                   too_late(*seconds, StampUnit::seconds));
+
+    // Read the name of the file.
     const auto file = seconds ? file_in(trimmed(content.substr(word.size())), folder) : std::nullopt;
     if (!file)
       return fail("line " + std::to_string(number) + " is \"" + line + "\"", path,

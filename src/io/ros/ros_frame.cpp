@@ -71,6 +71,8 @@ PointCloud2 point_cloud(const RgbdFrame& frame, int most) {
   const bool coloured = !frame.colour.empty();
   PointCloud2 cloud;
   cloud.header = header_of(frame);
+
+  // Describe the fields of a point: its position, and its colour if the frame has some.
   for (const char* name : {"x", "y", "z", "rgb"})
     if (coloured || std::strcmp(name, "rgb") != 0)
       cloud.point_fields.push_back({name, 4 * static_cast<std::uint32_t>(cloud.point_fields.size())});
@@ -80,6 +82,7 @@ PointCloud2 point_cloud(const RgbdFrame& frame, int most) {
   const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(frame.depth.size()) / most))));
   for (int v = step / 2; v < frame.depth.height(); v += step)
     for (int u = step / 2; u < frame.depth.width(); u += step) {
+      // Compute the point, and append its fields as bytes.
       const std::uint16_t count = frame.depth.at(u, v);
       if (count == 0) continue;
       const Eigen::Vector3f p = frame.camera.unproject(u, v, count * frame.depth_unit).cast<float>();
@@ -87,6 +90,8 @@ PointCloud2 point_cloud(const RgbdFrame& frame, int most) {
       const auto* first = reinterpret_cast<const std::uint8_t*>(values);
       cloud.data.insert(cloud.data.end(), first, first + cloud.point_step);
     }
+
+  // Set the size of the cloud, which is a single row of points.
   cloud.width = static_cast<std::uint32_t>(cloud.data.size()) / cloud.point_step;
   cloud.row_step = static_cast<std::uint32_t>(cloud.data.size());
   return cloud;

@@ -152,15 +152,21 @@ void add_transform(const object_state_t& object, TFMessage& message) {
 
 MarkerArray contact_markers(const HandState& hand) {
   constexpr double kSize = 0.008;  // diameter of a sphere [m]
+
+  // First remove the spheres of the previous frame.
   Drawing drawing(hand);
   drawing.add("contacts", Marker::kSphere, kPalm).action = Marker::kDeleteAll;
   const auto& contact = *hand.contact;
+
+  // Draw a sphere for each segment that touches.
   for (const auto* list : {contact.object, contact.own, contact.other_hand})
     for (int s = 0; s < kSegmentCount; ++s) {
       if (list[s].state != contact_state_t::TOUCHING) continue;
       Marker& sphere = drawing.add("contacts", Marker::kSphere, s);
       sphere.pose.position = point(Eigen::Vector3d(list[s].point));
       sphere.scale = {kSize, kSize, kSize};
+
+      // Objects are orange, hands are blue, and inferred contacts are faint.
       const float alpha = list[s].inferred ? 0.4F : 1.0F;
       sphere.color = list == contact.object ? ColorRGBA{1, 0.5F, 0, alpha} : ColorRGBA{0.2F, 0.4F, 1, alpha};
     }
@@ -191,6 +197,7 @@ void add_grasp(const grasp_state_t& grasp, std::vector<KeyValue>& values) {
 }
 
 DiagnosticStatus diagnostic(const HandState& hand) {
+  // Summarise the state of the track.
   const auto status = static_cast<TrackStatus>(hand.state.status);
   DiagnosticStatus message;
   message.level = status == TrackStatus::tracking  ? DiagnosticStatus::kOk
@@ -203,9 +210,13 @@ DiagnosticStatus diagnostic(const HandState& hand) {
   // Add the numbers; those of the pose only if there is one.
   message.values = {value("hand_id", std::int64_t{hand.state.hand_id}), value("frame_number", hand.state.frame_number)};
   if (!hand.state.has_pose) return message;
+
+  // Add how well the pose agrees with the data.
   message.values.push_back(value("score [m]", hand.state.score));
   message.values.push_back(value("joint_gap [m]", hand.state.joint_gap));
   if (hand.grasp) add_grasp(*hand.grasp, message.values);
+
+  // Add the confidence of each segment.
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const segment_state_t& segment = hand.state.segments[s];
     const std::string name(kSegmentNames[s]);
@@ -230,11 +241,14 @@ LcmMessage lcm_message(const object_state_t& object) {
 }
 
 DiagnosticStatus diagnostic(const health_t& health) {
+  // Warn if frames were dropped, failed or were skipped.
   DiagnosticStatus message;
   message.level = health.dropped + health.failed + health.skipped > 0 ? DiagnosticStatus::kWarn : DiagnosticStatus::kOk;
   message.name = "barehand: pipeline";
   message.message = std::to_string(health.published) + " frames published";
   message.hardware_id = health.source;
+
+  // Add the counts of frames and the latency.
   message.values = {value("captured", health.captured),
                     value("published", health.published),
                     value("dropped", health.dropped),
@@ -242,6 +256,8 @@ DiagnosticStatus diagnostic(const health_t& health) {
                     value("skipped", health.skipped),
                     value("latency p50 [s]", health.latency_p50),
                     value("latency p99 [s]", health.latency_p99)};
+
+  // Add the losses of each queue.
   for (const queue_health_t& queue : health.queues)
     message.values.push_back(value("queue " + queue.name + " dropped", queue.dropped));
   return message;

@@ -30,17 +30,24 @@ std::string camera_namespace(const std::string& sensor) {
 }
 
 void add_frame(const Scene& scene, std::vector<Topic>& topics) {
+  // Name the topics after the sensor, so that those of several sensors differ.
   const RgbdFrame* frame = scene.frame.get();
   const std::string space = camera_namespace(frame->sensor);
   std::vector<Topic> added;
+
+  // Add the camera and the depth, with what a replay needs beyond the ROS types.
   added.push_back(topic<CameraInfo>(space + "/camera_info", [frame] { return camera_info(*frame); }));
   added.push_back(topic<Image>(space + "/depth", [frame] { return depth_image(*frame); }));
   added.back().metadata[kDepthUnit] = formatted("%.17g", frame->depth_unit);
   if (scene.fps > 0) added.back().metadata[kFps] = formatted("%.17g", scene.fps);
+
+  // Add the colour and the point cloud, if there are any.
   if (!frame->colour.empty())
     added.push_back(topic<CompressedImage>(
         space + "/colour", [frame, quality = scene.jpeg_quality] { return colour_image(*frame, quality); }));
   if (scene.cloud) added.push_back(topic<PointCloud2>(space + "/points", [frame] { return point_cloud(*frame); }));
+
+  // Mark all of them with the name of the sensor, if it has one.
   for (Topic& one : added) {
     if (!frame->sensor.empty()) one.metadata[kSensor] = frame->sensor;
     topics.push_back(std::move(one));
@@ -79,11 +86,16 @@ DiagnosticArray diagnostics_of(const Scene& scene) {
 }  // namespace
 
 std::vector<Topic> topics_of(const Scene& scene) {
+  // Add the images and the camera, if there is a frame.
   std::vector<Topic> topics;
   if (scene.frame) add_frame(scene, topics);
+
+  // Add the transforms if any are known.
   const auto has_pose = [](const HandState& hand) { return hand.state.has_pose; };
   if (scene.T_world_camera || std::any_of(scene.hands.begin(), scene.hands.end(), has_pose))
     topics.push_back(topic<TFMessage>("/tf", [&scene] { return transforms_of(scene); }));
+
+  // Add what is known of each hand.
   for (const HandState& hand : scene.hands) {
     const std::string space = "/" + side_of(hand.state) + "_hand";
     if (hand.state.has_pose)
@@ -92,6 +104,8 @@ std::vector<Topic> topics_of(const Scene& scene) {
     if (hand.contact)
       topics.push_back(topic<MarkerArray>(space + "/contacts", [&hand] { return contact_markers(hand); }));
   }
+
+  // Add the diagnostics, of hands and of the pipeline.
   if (!scene.hands.empty() || scene.health)
     topics.push_back(topic<DiagnosticArray>("/diagnostics", [&scene] { return diagnostics_of(scene); }));
   return topics;

@@ -65,12 +65,14 @@ bool has_abduction(int segment) { return (segment - 1) % 3 == 0 || segment == se
 }  // namespace
 
 std::string urdf(const HandProfile& profile) {
+  // The names and the direction of abduction depend on the side of the hand.
   const std::string side(to_string(profile.handedness)), prefix = side + "_";
   const double towards_thumb =
       side_sign(profile.handedness);  // 1 if a rotation about +y leads towards the thumb, or -1
   const auto limits = widened_limits(profile, 0);
   const auto link_name = [&](int s) { return prefix + std::string(kSegmentNames[static_cast<std::size_t>(s)]); };
 
+  // Write a link for each segment, and the joints that connect it to its parent.
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + side + "_hand\">\n";
   for (int s = 0; s < kSegmentCount; ++s) {
     text += "  <link name=\"" + link_name(s) + "\">\n" +
@@ -87,6 +89,8 @@ std::string urdf(const HandProfile& profile) {
                   "-1 0 0",
                   range.flexion_lo,
                   range.flexion_hi};
+
+    // A joint with abduction gets a link without a shape between its two hinges.
     if (has_abduction(s)) {
       const double a = towards_thumb * range.abduction_lo, b = towards_thumb * range.abduction_hi;
       const std::string between = link_name(s) + "_abd";
@@ -96,6 +100,8 @@ std::string urdf(const HandProfile& profile) {
       flexion.parent = between;
       flexion.place = origin(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
     }
+
+    // The hinge of flexion moves the segment itself.
     text += joint(flexion);
   }
   return text + "</robot>\n";

@@ -99,12 +99,14 @@ class Video {
   static constexpr int kChannels = 3;
 
   int open_encoder(const char* format, double fps) {
+    // Find the first codec of this format that is installed.
     const AVCodec* found = nullptr;
     const Codec* codec = std::begin(kCodecs);
     for (; codec != std::end(kCodecs); ++codec)
       if (std::strcmp(codec->format, format) == 0 && (found = avcodec_find_encoder_by_name(codec->encoder))) break;
     if (!found) return AVERROR_ENCODER_NOT_FOUND;
 
+    // Set the size and the rate of the pictures.
     encoder_.reset(avcodec_alloc_context3(found));
     if (!encoder_) return AVERROR(ENOMEM);
     encoder_->width = even(width_);
@@ -112,9 +114,13 @@ class Video {
     encoder_->pix_fmt = codec->pixels;
     encoder_->framerate = av_d2q(fps, 60'000);  // a fraction with small numbers, since MPEG-4 stores them in 16 bits
     encoder_->time_base = av_inv_q(encoder_->framerate);
+
+    // Choose the distance of key frames, and state the colour space of the pixels.
     encoder_->gop_size = std::clamp(static_cast<int>(std::lround(fps)), 1, 120);  // one key frame per second
     encoder_->colorspace = AVCOL_SPC_SMPTE170M;  // the colour space that libswscale converts to by default
     encoder_->color_range = codec->pixels == AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+
+    // Open the encoder with one thread, and with its header where the file format keeps it.
     encoder_->thread_count = 1;  // leaves the other cores to the tracker
     if (file_->oformat->flags & AVFMT_GLOBALHEADER) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     return avcodec_open2(encoder_.get(), found, Options(codec->options).get());

@@ -87,6 +87,8 @@ VideoFile::~VideoFile() { (void)finish(); }
 Result<void> VideoFile::write(const Image<Rgb>& picture) {
   if (broken_) return tl::unexpected(*broken_);
   VideoModule::Message message{};
+
+  // Open the file with the size of the first picture.
   if (!video_) {
     width_ = picture.width();
     height_ = picture.height();
@@ -98,6 +100,8 @@ Result<void> VideoFile::write(const Image<Rgb>& picture) {
 
   static_assert(sizeof(Rgb) == 3, "pixels are read as they lie in memory");
   if (module_->write(video_, reinterpret_cast<const std::uint8_t*>(picture.data()), message)) return {};
+
+  // After an error, close the file and refuse all further pictures.
   VideoModule::Message ignored{};
   (void)module_->close(std::exchange(video_, nullptr), ignored);
   return broken(message);

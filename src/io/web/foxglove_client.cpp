@@ -112,10 +112,13 @@ bool FoxgloveClient::wait(Due& due) {
 }
 
 bool FoxgloveClient::send(const Due& due) {
+  // Answer the client, then see whether a frame is due.
   if (!due.reply.empty() && !socket_.send_text(due.reply)) return false;
   if (!due.frame) return true;
   const auto time = ros::time_of(due.frame->content().utime);
   if (!time) return true;
+
+  // Tell the client of topics that are new.
   const ros::Scene scene = scene_of(due.frame->content());
   const std::vector<ros::Topic> topics = ros::topics_of(scene);
   if (!advertise(topics)) return false;
@@ -124,6 +127,8 @@ bool FoxgloveClient::send(const Due& due) {
   for (const ros::Topic& topic : topics) {
     const std::uint32_t channel = channels_.at(topic.name);
     ros::Bytes message;
+
+    // Send the message under the number of each subscription to the topic.
     for (const auto& [subscription, wanted] : due.subscriptions) {
       if (wanted != channel) continue;
       if (message.empty()) message = topic.encode().value_or(ros::Bytes());

@@ -33,18 +33,21 @@ Result<FoxgloveRequest> parse_foxglove_request(std::string_view text) {
 
   FoxgloveRequest request;
   if (op == "subscribe") {
+    // Read which channels are requested, each under a number that the client chose.
     for (const Json& one : list_of(json, "subscriptions")) {
       const auto id = number_of(one, "id"), channel = number_of(one, "channelId");
       if (!id || !channel) return fail("a subscription needs an id and a channelId");
       request.subscribe.push_back({*id, *channel});
     }
   } else if (op == "unsubscribe") {
+    // Read the numbers of the subscriptions that end.
     for (const Json& one : list_of(json, "subscriptionIds")) {
       const auto id = number(one);
       if (!id) return fail("a subscription is named by a number");
       request.unsubscribe.push_back(*id);
     }
   } else {
+    // Refuse every other operation.
     return fail("the operation " + op + " is not offered: topics can only be read");
   }
   return request;

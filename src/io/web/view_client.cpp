@@ -113,6 +113,8 @@ bool ViewClient::has_due_frame(std::int64_t now_us) const {
 /// Waits until something may be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool ViewClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
+
+  // Sleep until something arrives, or until the next frame is allowed.
   while (!ending_ && !has_due(clock_.steady_us())) {
     const std::int64_t early_us = frames_.waiting() ? next_at_us_ - clock_.steady_us() : 0;
     if (early_us > 0 && !broken_)
@@ -121,6 +123,8 @@ bool ViewClient::wait(Due& due) {
       changed_.wait(lock);
   }
   if (ending_) return false;
+
+  // Take the newest status, reply and settings.
   sending_ = true;
   due.status = std::exchange(next_.status, nullptr);
   due.reply = std::exchange(next_.reply, nullptr);

@@ -27,11 +27,13 @@ int grid_step(const ViewFocus& part, int most) {
 ViewFocus everything(const Intrinsics& camera) { return {0, 0, camera.width, camera.height, 0, 1e9}; }
 
 std::vector<std::uint8_t> cloud_chunk(const RgbdFrame& frame, const ViewFocus& part) {
+  // Choose the grid of pixels that represents the part.
   const int step = grid_step(part, ViewFrame::kMaxPoints), columns = part.width / step, rows = part.height / step;
   const int first_u = part.u + step / 2, first_v = part.v + step / 2;
   std::vector<std::uint8_t> bytes;
   if (columns == 0 || rows == 0 || frame.depth.empty()) return bytes;
 
+  // Write the grid and the unit of depth.
   const bool coloured = !frame.colour.empty();
   bytes.reserve(32 + static_cast<std::size_t>(columns) * rows * (coloured ? 4 : 2));
   ChunkWriter out(bytes);
@@ -46,6 +48,8 @@ std::vector<std::uint8_t> cloud_chunk(const RgbdFrame& frame, const ViewFocus& p
       const std::uint16_t depth = frame.depth.at(first_u + step * i, first_v + step * j);
       out.put(depth >= near && depth <= far ? depth : std::uint16_t{0});
     }
+
+  // Add the colours of the same pixels.
   if (coloured)
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i) out.put(rgb565(frame.colour.at(first_u + step * i, first_v + step * j)));
@@ -85,12 +89,16 @@ std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const
   double near = std::numeric_limits<double>::infinity(), far = 0;
   for (const Eigen::Vector3d& point : points) {
     if (!point.allFinite() || point.z() <= 0) continue;
+
+    // Extend the rectangle around the pixel by a margin of constant size in space.
     const Eigen::Vector2d pixel = camera.project(point);
     const double margin = kBeside * camera.fx / point.z();
     left = std::min(left, pixel.x() - margin);
     right = std::max(right, pixel.x() + margin);
     top = std::min(top, pixel.y() - margin);
     bottom = std::max(bottom, pixel.y() + margin);
+
+    // Extend the range of depths.
     near = std::min(near, point.z());
     far = std::max(far, point.z());
   }
@@ -105,6 +113,7 @@ std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const
 }
 
 void ViewFrame::write_states(std::int64_t now, std::vector<std::uint8_t>& out) const {
+  // Write the times and the camera of the frame.
   ChunkWriter chunk(out);
   chunk.begin('F');
   for (const std::int64_t time : {content_.utime, content_.number, now}) chunk.put(time);
@@ -112,6 +121,8 @@ void ViewFrame::write_states(std::int64_t now, std::vector<std::uint8_t>& out) c
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) chunk.put(value);
   for (const int size : {camera.width, camera.height}) chunk.put(static_cast<std::int32_t>(size));
   chunk.end();
+
+  // Write each message under the name of its channel.
   for (const ViewMessage& message : content_.messages) {
     const std::size_t name = std::strlen(message.channel);
     chunk.begin('L');

@@ -29,15 +29,21 @@ Result<int> choice_of(const json& message, const char* key, std::initializer_lis
 
 Result<ViewRequest> settings_of(const json& message) {
   ViewSettings settings;
+
+  // Read what shall be shown.
   const auto cloud = choice_of(message, "cloud", {"none", "hand", "scene"});
   if (!cloud) return tl::unexpected(cloud.error());
   settings.cloud = static_cast<ViewCloud>(*cloud);
   const auto picture = choice_of(message, "picture", {"none", "colour", "depth"});
   if (!picture) return tl::unexpected(picture.error());
   settings.picture = static_cast<ViewPicture>(*picture);
+
+  // Read the size and the rate of what is sent.
   settings.large = message.value("large", settings.large);
   settings.rate = message.value("rate", settings.rate);
   if (!(settings.rate >= 0.1 && settings.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
+
+  // Read how many frames may be unacknowledged.
   settings.window = message.value("window", settings.window);
   if (settings.window < 0 || settings.window > 100) return fail("window is out of range", kWhere, "give 0 to 100");
   return settings;

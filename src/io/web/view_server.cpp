@@ -9,20 +9,26 @@
 namespace barehand {
 
 Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clock& clock) {
+  // Read the files of the page, and make the server that the handlers refer to.
   auto page = read_web_page();
   if (!page) return tl::unexpected(page.error());
   if (!options.on_command) options.on_command = [](const PlayerCommand&) {};
   std::unique_ptr<ViewServer> server(new ViewServer(options, clock));
 
+  // Set the address and the files.
   WebServer::Options web;
   web.address = options.address.address;
   web.port = options.address.port;
   web.allowed_origins = std::move(options.allowed_origins);
   web.files = std::move(*page);
+
+  // Accept clients of the live page and of Foxglove; the latter may also ask for a URDF.
   web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
   web.protocols.assign(std::begin(kFoxgloveProtocols), std::end(kFoxgloveProtocols));
   web.connect_protocol = [self = server.get()](WebSocket socket) { return self->foxglove_.connect(socket); };
   web.made_file = [self = server.get()](const std::string& path) { return self->foxglove_.urdf(path); };
+
+  // Start to listen only when everything is in place.
   auto started = WebServer::start(std::move(web));
   if (!started) return tl::unexpected(started.error());
   server->web_ = std::move(*started);

@@ -14,17 +14,24 @@ void put_vector(ChunkWriter& out, const Eigen::Vector3f& v) {
 }
 
 std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
+  // Make the skin with a mesh that is coarse enough to be sent.
   Skin skin = make_skin(profile, kCell);
   if (profile.scanned_skin) skin = coarsened(skin, kCell);
+
+  // Write the number of vertices and triangles.
   std::vector<std::uint8_t> bytes;
   ChunkWriter out(bytes);
   out.begin('S', static_cast<int>(profile.handedness));
   out.put(static_cast<std::uint32_t>(skin.vertices.size()));
   out.put(static_cast<std::uint32_t>(skin.triangles.size()));
+
+  // Write the positions, the normals and the skinning weights of the vertices.
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.in_a);
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.a == v.b ? v.in_a : v.in_b);
   for (const SkinVertex& v : skin.vertices) put_vector(out, v.normal_in_a);
   for (const SkinVertex& v : skin.vertices) out.put<float>(v.weight_b);
+
+  // Write the triangles, then the segments of each vertex as single bytes.
   for (const auto& triangle : skin.triangles)
     for (const std::int32_t corner : triangle) out.put(static_cast<std::uint32_t>(corner));
   for (const SkinVertex& v : skin.vertices) out.put(static_cast<std::uint8_t>(v.a));

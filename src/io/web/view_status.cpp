@@ -15,6 +15,7 @@ json times_json(const TimeSummary& time) {
 }
 
 json health_json(const PipelineHealth& health) {
+  // List the stages and the queues.
   json stages = json::array(), queues = json::array();
   for (const StageHealth& stage : health.stages)
     stages.push_back({{"name", stage.name}, {"time", times_json(stage.time)}, {"failed", stage.failed}});
@@ -24,6 +25,8 @@ json health_json(const PipelineHealth& health) {
                       {"capacity", queue.capacity},
                       {"pushed", queue.pushed},
                       {"dropped", queue.dropped}});
+
+  // Add the counts of frames and the latency.
   return {{"captured", health.captured},
           {"published", health.published},
           {"dropped", health.dropped},
@@ -51,6 +54,8 @@ json transform_json(const SE3& T) {
 
 json scan_json(const ViewScan& scan) {
   constexpr const char* kPhases[] = {"showing", "measuring", "done"};
+
+  // List how far each segment was seen and bent.
   json segments = json::array();
   for (const ViewScanSegment& s : scan.segments)
     segments.push_back({{"name", s.name},
@@ -61,6 +66,7 @@ json scan_json(const ViewScan& scan) {
                         {"before", s.before},
                         {"after", s.after}});
 
+  // Add the progress of the scan as a whole.
   return {{"phase", kPhases[static_cast<int>(scan.phase)]},
           {"how_to", scan.how_to},
           {"missing", scan.missing},

@@ -130,7 +130,7 @@ Result<int> WebServer::Impl::start() {
   context_ = mg_start(&callbacks, this, settings);
   if (!context_) return fail("cannot listen on " + port, "view", "another program may have the port; give --view=PORT");
 
-  // Set the handlers, and return the port, which the system has chosen if 0 was given.
+  // Set the handlers.
   mg_set_request_handler(context_, "**", on_request, this);
   mg_set_websocket_handler(context_, options_.socket_path.c_str(), on_connect, on_ready, on_data, on_close, this);
   if (options_.connect_protocol) {
@@ -139,6 +139,8 @@ Result<int> WebServer::Impl::start() {
     mg_set_websocket_handler_with_subprotocols(context_, "/", &protocols_, on_connect_protocol, on_ready, on_data,
                                                on_close, this);
   }
+
+  // Return the port, which the system has chosen if 0 was given.
   mg_server_port ports[1] = {};
   return mg_get_server_ports(context_, 1, ports) == 1 ? ports[0].port : options_.port;
 }

@@ -7,10 +7,14 @@ namespace barehand {
 
 FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   const HandEstimates& estimates = tracked.estimates;
+
+  // Start again with new parameters if they have changed.
   if (const auto params = pending_ ? pending_->take() : std::nullopt) {
     params_ = *params;
     makers_.clear();
   }
+
+  // Make the messages of the hands, each with a history of its own.
   while (makers_.size() < estimates.size()) makers_.emplace_back(params_);
   messages_.resize(estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) messages_[k] = makers_[k].process(*estimates[k]);
@@ -19,6 +23,8 @@ FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   if (tracked.grasps)
     for (std::size_t k = 0; k < estimates.size(); ++k)
       messages_[k].grasp = grasp_message(*estimates[k], (*tracked.grasps)[k]);
+
+  // Make the messages of contacts and objects.
   objects_.clear();
   if (const FrameContacts* contacts = tracked.contacts.get()) {
     for (std::size_t k = 0; k < estimates.size(); ++k)

@@ -28,10 +28,14 @@ Result<void> McapSink::consume(const TrackedFrame& tracked) {
   scene.frame = tracked.frame;
   scene.fps = input_.fps;
   scene.T_world_camera = input_.T_world_camera;
+
+  // Add the hands and the objects.
   const FrameMessages messages = makers_.process(tracked);
   for (const HandMessages& hand : messages.hands)
     scene.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact, hand.grasp});
   scene.objects.assign(messages.objects.begin(), messages.objects.end());
+
+  // Add the health of a live run from time to time.
   if (input_.live && clock_.steady_us() - health_us_ >= kHealthPeriodUs) {
     health_us_ = clock_.steady_us();
     scene.health = health_message(input_.health(), clock_.utime(), input_.source);

@@ -38,6 +38,8 @@ Result<void> ViewSink::consume(const TrackedFrame& tracked) {
   // bus.
   const FrameMessages messages = makers_.process(tracked);
   if (server_.has_clients()) server_.show(make_frame(tracked, messages));
+
+  // Post the same messages to the recorder of the live page, which writes them in its own thread.
   if (input_.recorder && input_.recorder->recording())
     input_.recorder->post(tracked.frame->utime,
                           [frame = tracked.frame, prefix = input_.prefix,
@@ -63,24 +65,33 @@ Result<void> ViewSink::finish() {
 bool ViewSink::recording_changed() const { return input_.recorder && input_.recorder->recording() != shown_recording_; }
 
 ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const FrameMessages& messages) {
+  // Take over what identifies the frame.
   ViewFrame::Content content;
   content.utime = tracked.frame->utime;
   content.number = tracked.frame->number;
   content.frame = tracked.frame;
+
+  // Collect the messages of each hand, and where it is.
   FrameVector<Eigen::Vector3d> places;
   for (std::size_t k = 0; k < tracked.estimates.size(); ++k) {
     const HandEstimate& estimate = *tracked.estimates[k];
     if (estimate.has_pose())
       for (const SegmentState& segment : estimate.segments) places.push_back(segment.T_camera_segment.t);
+
+    // Encode the messages of the hand as they are on the bus.
     const HandMessages& hand = messages.hands[k];
     content.messages.push_back(encoded("HAND_STATE", hand.state));
     content.messages.push_back(encoded("GLOVE_STATE", hand.glove));
     content.messages.push_back(encoded("HAND_JOINTS", hand.joints));
     if (hand.contact) content.messages.push_back(encoded("CONTACT_STATE", *hand.contact));
     if (hand.grasp) content.messages.push_back(encoded("GRASP_STATE", *hand.grasp));
+
+    // Keep the messages for the clients of Foxglove, and add the skin.
     content.hands.push_back({hand.state, hand.glove, hand.joints, hand.contact, hand.grasp});
     content.skins[static_cast<std::size_t>(estimate.handedness)] = skin_of(estimate);
   }
+
+  // Add the objects, the part of the image around the hands, and from time to time the health.
   for (const object_state_t& object : messages.objects) content.messages.push_back(encoded("OBJECT_STATE", object));
   content.objects.assign(messages.objects.begin(), messages.objects.end());
   content.focus = focus_on(places, tracked.frame->camera);
