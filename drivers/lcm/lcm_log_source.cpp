@@ -32,11 +32,14 @@ std::string names(const std::set<std::string>& channels) {
 }  // namespace
 
 Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path, const LcmLogOptions& options) {
+  // Check the options, open the files and choose the channels.
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
   std::unique_ptr<LcmLogSource> source(new LcmLogSource(path, options));
   if (auto ready = source->open_files().and_then([&] { return source->choose(); }); !ready)
     return tl::unexpected(ready.error());
+
+  // Start at the frame that was asked for.
   const auto count = static_cast<std::int64_t>(source->frames_.size());
   source->position_ = ReplayPosition(options.start, options.step, count);
   if (source->position_.at_end()) {
@@ -48,9 +51,12 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
 }
 
 Result<void> LcmLogSource::open_files() {
+  // Find the files of the log.
   auto logs = find_logs(path_);
   if (!logs) return tl::unexpected(logs.error());
   left_out_ = std::move(logs->left_out);
+
+  // Read their indices, and leave out files that cannot be read.
   for (const std::string& file : logs->files) {
     auto reader = LcmLogReader::open(file);
     if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no complete event", file);
@@ -58,12 +64,16 @@ Result<void> LcmLogSource::open_files() {
       left_out_.push_back(reader.error());
       continue;
     }
+
+    // Collect the events; the files are opened again when they are played.
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
     if (file != path_ && !finished_name(file).empty())
       warnings_.push_back(file + ": was left by a killed recorder; every complete event is played");
     reader->close();
     files_.push_back(std::move(*reader));
   }
+
+  // Without any event, the first fault is the result.
   if (frames_.empty()) return tl::unexpected(left_out_.front());
   return {};
 }
@@ -71,17 +81,23 @@ Result<void> LcmLogSource::open_files() {
 /// Keeps the events of the channels that were asked for or, if none were, of the only channel with frames.
 Result<void> LcmLogSource::choose() {
   const std::string& pattern = options_.channel;
+
+  // Collect all channels, and those that carry frames.
   std::set<std::string> all, with_frames;
   for (const Event& event : frames_) {
     all.insert(event.entry.channel);
     if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
   }
+
+  // Keep the events of the channels that match the pattern, or all frames if there is none.
   const bool is_name = all.contains(pattern);
   std::erase_if(frames_, [&](const Event& event) {
     const std::string& channel = event.entry.channel;
     if (pattern.empty()) return !carries_frames(event.entry.hash);
     return is_name ? channel != pattern : !matches_glob(pattern, channel);
   });
+
+  // Report it if the channel is ambiguous or nothing matches.
   if (pattern.empty() && with_frames.empty()) {
     return fail("the log holds no frames; its channels are " + names(all), path_,
                 "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");

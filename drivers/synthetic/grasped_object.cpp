@@ -17,6 +17,8 @@ HandContacts GraspedObject::contacts(std::span<const Eigen::Vector3f> skin, std:
   std::array<double, kSegmentCount> least;
   least.fill(std::numeric_limits<double>::max());
   std::array<Eigen::Vector3d, kSegmentCount> nearest{};
+
+  // Compare the signed distances of all vertices.
   for (std::size_t v = 0; v < skin.size(); ++v) {
     const Eigen::Vector3d p = T_object_camera * skin[v].cast<double>();
     const double distance = distance_.signed_distance(p);

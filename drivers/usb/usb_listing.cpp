@@ -43,12 +43,15 @@ std::string port_of(libusb_device* device) {
 }
 
 Result<UsbHandle> open_usb(libusb_device* device) {
+  // Open the device by its file.
   const std::string file =
       formatted("/dev/bus/usb/%03d/%03d", libusb_get_bus_number(device), libusb_get_device_address(device));
   libusb_device_handle* handle = nullptr;
   switch (const int status = libusb_open(device, &handle)) {
     case LIBUSB_SUCCESS:
       return UsbHandle(handle);
+
+    // Report the fault with its remedy.
     case LIBUSB_ERROR_ACCESS:
       return fail("this user may not open it", file,
                   "install deploy/udev/60-barehand-sensors.rules, add the user to the group plugdev (sudo adduser USER "

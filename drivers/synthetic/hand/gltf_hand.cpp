@@ -68,6 +68,7 @@ std::vector<SkinWeights> vertex_weights(const aiMesh& mesh, const std::array<con
 
 /// Copies the vertices in the hand frame, merging those that coincide, and the triangles that use them.
 void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<SkinWeights>& weights, HandMesh& hand) {
+  // Merge vertices that lie at the same place.
   std::map<std::tuple<float, float, float>, std::uint32_t> seen;
   std::vector<std::uint32_t> index(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {

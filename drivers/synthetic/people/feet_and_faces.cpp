@@ -100,6 +100,8 @@ std::unique_ptr<Sequence> make_faces(std::uint64_t seed) {
     Body::Setting body{random_body(random), {}, {}, true, true};
     const double x = 0.3 * (i - 0.5 * (count - 1)), y = random.uniform(-0.05, 0.2);
     body.T_world_body = {exp_so3({0, 0, random.uniform(-0.5, 0.5)}), {x, y, random.uniform(-0.4, -0.2)}};
+
+    // Move each body a little from key to key, with hanging arms.
     const double hang = -body.size.arm.reach();
     for (double time = 0; time <= s.duration; time += kHandlessStep)
       body.keys.push_back({time,

@@ -70,6 +70,8 @@ Result<void> DeviceComparison::reserve() {
 void DeviceComparison::send() {
   const Gl& gl = context_->gl();
   const JobBytes bytes(job_);
+
+  // Send the skin and the map only when they have changed.
   if (job_.new_skin) {
     skin.send(gl, bytes.skin);
     gl.Uniform2iv(kPointsUniform, kSegmentCount, job_.points.data());
@@ -80,6 +82,8 @@ void DeviceComparison::send() {
     gl.Uniform4f(kCameraUniform, job_.camera[0], job_.camera[1], job_.camera[2], job_.camera[3]);
     gl.Uniform2i(kMapSizeUniform, job_.map_size[0], job_.map_size[1]);
   }
+
+  // The poses are sent in every call.
   poses.send(gl, bytes.poses);
   gl.Uniform1i(kFirstSegmentUniform, job_.first_segment);
 }
