@@ -89,6 +89,8 @@ Result<Image<Rgb>> bot_colour(const bot_core::image_t& image, ImageSize size) {
       return raw_colour(image.data, size, image.row_stride, 3, 0);
     case image_t::PIXEL_FORMAT_BGR:
       return raw_colour(image.data, size, image.row_stride, 3, 2);
+
+    // Grey images have a single channel.
     case image_t::PIXEL_FORMAT_GRAY:
       return raw_colour(image.data, size, image.row_stride, 1, 0);
     default:

@@ -78,11 +78,13 @@ Result<void> check_numbers(const rgbd_frame_t& message) {
 Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& encoding) {
   if (auto sizes = check_sizes(frame); !sizes) return tl::unexpected(sizes.error());
 
-  // Copy the time stamp, the frame number and the intrinsics.
+  // Copy the time stamp, the frame number and the name of the sensor.
   rgbd_frame_t message;
   message.utime = frame.utime;
   message.seq = frame.number;
   message.sensor = frame.sensor;
+
+  // Copy the intrinsics of the camera.
   message.width = frame.camera.width;
   message.height = frame.camera.height;
   message.fx = frame.camera.fx;

@@ -100,6 +100,8 @@ SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
   for (const std::string& warning : order.take_warnings())
     to_come_.push_back(SourceNotice{{warning, name_of(packet.channel), ""}});
   ++foreign_number_;
+
+  // Deliver the frame, or report why it is skipped.
   if (number) {
     (*frame)->number = *number;
     to_come_.push_back(FramePtr(*std::move(frame)));

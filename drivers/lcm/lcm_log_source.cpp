@@ -56,7 +56,7 @@ Result<void> LcmLogSource::open_files() {
   if (!logs) return tl::unexpected(logs.error());
   left_out_ = std::move(logs->left_out);
 
-  // Read their indices, and leave out files that cannot be read.
+  // Find the events of each file, and leave out files that cannot be read.
   for (const std::string& file : logs->files) {
     auto reader = LcmLogReader::open(file);
     if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no complete event", file);
@@ -106,6 +106,8 @@ Result<void> LcmLogSource::choose() {
     return fail("the log holds frames on several channels: " + names(with_frames), path_,
                 how_to_choose(*with_frames.begin()));
   }
+
+  // A pattern must match at least one channel.
   if (frames_.empty()) return fail("no channel matches " + in_quotes(pattern) + "; there are " + names(all), path_);
   return {};
 }
@@ -120,11 +122,15 @@ void LcmLogSource::put_in_order() {
     const bool own = event.entry.hash == rgbd_frame_t::getHash();
     FrameOrder& order = orders.try_emplace(event.entry.channel, StampUnit::microseconds).first->second;
     const auto number = order.number(event.entry.utime, own ? event.entry.third : position);
+
+    // Keep the number, or note why the frame is skipped.
     if (number)
       event.number = *number;
     else
       unused_.emplace(position, number.error());
   }
+
+  // Report the warnings of every channel.
   for (auto& [channel, order] : orders)
     for (const std::string& warning : order.take_last_warnings())
       warnings_.push_back(path_ + " " + channel + ": " + warning);
@@ -149,11 +155,17 @@ SourceEvent LcmLogSource::read(std::int64_t position) {
     error.where = where;
     return SkippedFrame{std::move(error)};
   };
+
+  // Skip a frame whose time stamp cannot be used.
   if (const auto unused = unused_.find(position); unused != unused_.end()) return skipped(unused->second);
+
+  // Keep only one file open at a time.
   if (file != open_) files_[open_].close();
   open_ = file;
   const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
+
+  // Decode the frame, and give it its number.
   auto frame = decode_frame_message(*message, options_.foreign, number);
   if (!frame) return skipped(frame.error());
   (*frame)->number = number;

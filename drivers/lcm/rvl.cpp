@@ -94,6 +94,8 @@ Result<void> rvl_decode(std::span<const std::uint8_t> code, std::span<std::uint1
     for (std::uint32_t k = 0; k < measured; ++k) {
       std::uint32_t difference = 0;
       if (!in.number(difference)) return fail("compressed depth ends too early");
+
+      // Each count must be positive and fit into 16 bits.
       previous += unzigzag(difference);
       if (previous <= 0 || previous > 0xFFFF) return fail("compressed depth leaves the range of 16 bits");
       counts[i++] = static_cast<std::uint16_t>(previous);

@@ -52,9 +52,10 @@ double depth_unit_of(const mcap::Channel& channel) {
 }  // namespace
 
 Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, const McapOptions& options) {
-  // Check the step, and note all messages of the file.
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
+
+  // Note all messages of the file.
   std::unique_ptr<McapSource> source(new McapSource(path, options));
   auto reader = mcap::McapReader::open(path, [&](const auto& message, const auto& channel, auto bytes) {
     source->add_message(message, channel, bytes);
@@ -88,6 +89,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     const std::string& encoding = head->encoding;
     if (encoding == "16UC1" || encoding == "mono16") stream.kind = Kind::depth;
     if (encoding == "rgb8" || encoding == "bgr8") stream.kind = Kind::colour;
+
+    // The frame and the size tell later whether colour and depth belong together.
     stream.type += " in " + encoding;
     stream.frame_id = head->header.frame_id;
     stream.width = static_cast<int>(head->width);
@@ -101,6 +104,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     stream.kind = is_packed_depth(image->format) ? Kind::packed_depth : Kind::packed_colour;
     stream.type += " in " + image->format;
     stream.frame_id = image->header.frame_id;
+
+    // The size stays empty if it cannot be read.
     const auto size = compressed_image_size(image->data).value_or(ImageSize{});
     stream.width = size.width;
     stream.height = size.height;
@@ -127,6 +132,8 @@ void McapSource::add_message(const mcap::Message& message, const mcap::Channel& 
     }
     return;
   }
+
+  // Keep the place of an image message, and its time.
   stream.messages.push_back(message);
   stream.utimes.push_back(utime);
 }
@@ -146,13 +153,15 @@ Result<void> McapSource::choose() {
       chosen.push_back(topic);
   }
 
-  // Report it if none matches, or if the choice is ambiguous.
+  // Report it if no topic matches.
   if (chosen.empty() && !options_.channel.empty())
     return fail("no topic with depth images matches " + in_quotes(options_.channel) + "; its topics are " + topics(),
                 path_);
   if (chosen.empty())
     return fail("holds no depth images that are read; its topics are " + topics(), path_,
                 "known are sensor_msgs/msg/Image in 16UC1 and CompressedImage in compressedDepth, in CDR");
+
+  // The choice is ambiguous if several topics hold depth and none was named.
   if (chosen.size() > 1 && options_.channel.empty())
     return fail("holds depth images on several topics: " + comma_list(chosen), path_,
                 "choose one: run.frame_channel in the configuration of track, --channel " + shell_word(chosen[0]) +
@@ -219,7 +228,7 @@ Result<void> McapSource::add_frames(const std::string& topic) {
     const mcap::Channel& channel = reader_->channels().at(frame.depth.channel);
     const bool own = channel.metadata.contains(ros::kDepthUnit);
 
-    // Number the frame, or note the fault in the order of the frames.
+    // Number the frame, or note why it is not used.
     const auto position = static_cast<std::int64_t>(i);
     const auto number = order.number(frame.utime, own ? frame.depth.sequence : position);
     if (number)

@@ -219,6 +219,8 @@ void LiveSession::watch_colour() {
   } else if (!missing && colour_missing_) {
     colour_missing_ = false;
     output_.notice("colour is back", "colour images arrive again", "", false);
+
+    // Pair the streams again, unless this was tried too often.
     pair_again();
   }
 }

@@ -31,6 +31,8 @@ HandContacts GraspedObject::contacts(std::span<const Eigen::Vector3f> skin, std:
   HandContacts contacts;
   for (int s = 0; s < kSegmentCount; ++s) {
     const MeshDistance::Nearest place = distance_.nearest(nearest[s]);
+
+    // Interpolate the normals of the triangle's corners.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       normal += place.weights[k] * mesh_.normals[mesh_.triangles[place.triangle][k]].cast<double>();

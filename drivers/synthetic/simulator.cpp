@@ -182,6 +182,8 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}, {}};
     truth.table = table_of(i, view, hands[i], truth.pose);
+
+    // The table of the truth carries the number and the time of the frame.
     if (truth.table) {
       truth.table->number = number;
       truth.table->timestamp = 1e-6 * static_cast<double>(frame->utime);

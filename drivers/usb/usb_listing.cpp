@@ -58,6 +58,8 @@ Result<UsbHandle> open_usb(libusb_device* device) {
                   "plugdev), log in again and re-plug it");
     case LIBUSB_ERROR_NO_DEVICE:
       return fail("it has no device file", file, "in a container, pass in /dev/bus/usb; else re-plug it");
+
+    // Any other fault is reported as libusb describes it.
     default:
       return fail(std::string("cannot be opened: ") + libusb_strerror(status), file, "re-plug it");
   }

@@ -97,6 +97,8 @@ void clear_the_way(const GraspPlanner& planner, const SE3& T_palm_object, const 
         angles[finger] = wanted;
         for (double& angle : angles[finger].flexion)
           angle = std::clamp(angle + sign * turn, -8 * kDegree, 92 * kDegree);
+
+        // Keep the shape that gives the most clearance.
         if (const double gap = nearest(); gap > most) {
           most = gap;
           best = angles[finger];
@@ -139,6 +141,8 @@ Vector3d way_out(const GraspPlanner& planner, const PlannedGrasp& plan, const Si
       const auto gap = planner.clearance(plan.open, T_palm_object, object);
       least = std::min(least, *std::min_element(gap.begin(), gap.end()));
     }
+
+    // Keep the direction if it is clearly better.
     if (least <= most + 0.001) continue;  // of equal ones, the first
     most = least;
     best = direction.normalized();

@@ -81,6 +81,8 @@ SE3 Opposition::hold_of(const HandPose& pose) const {
     to_fingers -= pose[touches_[i].segment].R * touches_[i].normal;
     to_palm += pose[touches_[i].segment].R.col(2);
   }
+
+  // Turn the slab against the row if the fingers form one.
   const bool on_row = kind_ == HoldKind::slab && row.norm() > 0.01;
   if (on_row) {
     y = to_fingers - to_fingers.dot(row) / row.squaredNorm() * row;

@@ -76,6 +76,8 @@ void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<Ski
     const auto [it, fresh] = seen.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(hand.vertices.size()));
     index[v] = it->second;
     if (!fresh) continue;
+
+    // Copy the first vertex of each place.
     hand.vertices.push_back((T_hand_mesh * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
     hand.weights.push_back(weights[v]);
   }

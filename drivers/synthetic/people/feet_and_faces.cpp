@@ -77,6 +77,7 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
   const double heading = random.uniform() < 0.5 ? random.uniform(-0.6, 0.6) : random.uniform(-3.1, 3.1);
   const bool lying = random.uniform() < 0.3;
   for (const bool left : {false, true}) {
+    // Place each foot, turned a little from the common heading.
     const double apart = (left ? 0.5 : -0.5) * random.uniform(0.13, 0.3);
     const Eigen::Matrix3d R = exp_so3({0, 0, heading + random.uniform(-0.3, 0.3)}) *
                               exp_so3({lying ? random.uniform(-1.4, -1.0) : 0.0, 0, 0});

@@ -76,6 +76,8 @@ void DeviceComparison::send() {
     skin.send(gl, bytes.skin);
     gl.Uniform2iv(kPointsUniform, kSegmentCount, job_.points.data());
   }
+
+  // The map comes with the parameters of its camera.
   if (job_.new_map) {
     cells.send(gl, bytes.cells);
     hidden.send(gl, bytes.hidden);

@@ -44,11 +44,13 @@ Result<Egl> load_egl(const std::string& library) {
   dlclose(handle);
   if (!complete) return fail("not an EGL library", library, remedy);
 
-  // Find the functions that enumerate devices, where the driver has these extensions.
+  // Check whether the library can enumerate devices.
   const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const bool enumerates =
       has_extension(extensions, "EGL_EXT_device_base") ||
       (has_extension(extensions, "EGL_EXT_device_enumeration") && has_extension(extensions, "EGL_EXT_device_query"));
+
+  // Find the functions that enumerate devices.
   if (enumerates && has_extension(extensions, "EGL_EXT_platform_device")) {
     find_extension(egl, "eglGetPlatformDisplayEXT", egl.GetPlatformDisplayEXT);
     find_extension(egl, "eglQueryDevicesEXT", egl.QueryDevicesEXT);

@@ -120,6 +120,8 @@ Result<void> EglObserver::compare_on_device(const SampleBatch& batch, PatchDista
     const auto reserved = thread_->run([](DeviceComparison& d) { return d.reserve(); }, limits_.call);
     if (!reserved) return reserved;
   }
+
+  // Write the skin and the map if the device does not have them yet.
   if (job.new_skin) write_skin(*batch.surface, static_cast<float*>(device.skin.memory()));
   if (job.new_map) {
     static_assert(sizeof(PixelMap::Cell) == 4 * sizeof(float), "the shader reads a cell as one vec4");

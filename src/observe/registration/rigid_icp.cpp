@@ -121,6 +121,8 @@ class Registration {
       const OrientedPoint& q = model_[k];
       const Vector3d in_pivot = q.p - pivot_, moved = T * in_pivot;
       if (cloud_.hidden(moved)) continue;
+
+      // Match the point, and compute its robust weight.
       const IcpPair pair = match(T, in_pivot, k, moved);
       const IcpResidual r = icp_residual(T, pair);
       const Eigen::Vector4d w = robust_weight(r.value.tail<3>().squaredNorm(), scale) *
@@ -197,6 +199,8 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
   double best_cost = std::numeric_limits<double>::infinity();
   for (const SE3& coarse_motion : motions) {
     const SE3 motion = registration.run(coarse_motion, coarse, params.iterations, 1);
+
+    // Leave out motions that are not plausible or not better.
     if (!believable(motion, pivot, bound)) continue;
     const auto fit = registration.fit(motion);
     if (fit.cost >= best_cost) continue;

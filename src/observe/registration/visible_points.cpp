@@ -59,7 +59,7 @@ void VisiblePoints::remove_hidden(const Intrinsics& camera) {
 
 std::span<const OrientedPoint> VisiblePoints::of(const HandSurface& surface, const HandPose& pose,
                                                  const Intrinsics& camera, int count) {
-  // Find the points that can be seen.
+  // Find the points that face the camera and are not hidden.
   find_facing(surface, pose);
   if (facing_.empty() || count <= 0) return {};
   remove_hidden(camera);
@@ -74,6 +74,8 @@ std::span<const OrientedPoint> VisiblePoints::of(const HandSurface& surface, con
   double sum = 0, next = 0.5 * step;
   for (const Facing& f : facing_) {
     sum += f.weight;
+
+    // Take the point in whose area the next sample lies.
     if (sum <= next) continue;
     chosen_.push_back(f.point);
     while (next < sum) next += step;
