@@ -16,6 +16,8 @@ Result<HandPose> pose_of(const command_t& message) {
     const auto& p = message.position[s];
     const auto& q = message.orientation[s];  // quaternion (w, x, y, z)
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
+
+    // Accept only a finite position near the camera, and a quaternion that can be normalised.
     pose[s].t = Eigen::Vector3d(p[0], p[1], p[2]);
     const bool near = pose[s].t.cwiseAbs().maxCoeff() <= kFarthest && pose[s].t.allFinite();
     if (!near || !std::isfinite(turn.norm()) || turn.norm() <= 1e-6)
@@ -35,11 +37,15 @@ Result<Command> decode_command(WireBytes bytes) {
   if (message->command < command_t::RESET || message->command > command_t::SET_PROFILE) {
     return fail("unknown command " + std::to_string(message->command), "command");
   }
+
+  // Copy the fields that every command has.
   Command command;
   command.kind = static_cast<Command::Kind>(message->command);
   command.utime = message->utime;
   command.sensor = message->sensor;
   if (message->hand_id != command_t::ANY_HAND) command.hand_id = message->hand_id;
+
+  // Check the hand profile before it is copied.
   if (command.kind == Command::Kind::set_profile && message->profile.empty()) {
     return fail("the hand profile is empty", "command");
   }
@@ -48,6 +54,8 @@ Result<Command> decode_command(WireBytes bytes) {
                 "give at most " + std::to_string(kLongestProfile));
   }
   command.profile = message->profile;
+
+  // Only a command that initialises a hand carries a pose.
   if (command.kind == Command::Kind::initialise) {
     auto pose = pose_of(*message);
     if (!pose) return tl::unexpected(pose.error());

@@ -64,6 +64,7 @@ Result<void> rvl_zstd_into(std::span<const std::uint8_t> code, Depth& depth) {
 
 Result<void> decode_into(std::span<const std::uint8_t> bytes, DepthEncoding encoding, Depth& depth) {
   switch (encoding) {
+    // Raw depth is copied as it lies in memory, so its size must be that of the image.
     case DepthEncoding::raw16:
       if (bytes.size() != 2 * depth.size()) {
         return fail("raw depth holds " + std::to_string(bytes.size()) + " bytes, expected " +
@@ -71,6 +72,8 @@ Result<void> decode_into(std::span<const std::uint8_t> bytes, DepthEncoding enco
       }
       std::memcpy(depth.data(), bytes.data(), bytes.size());
       return {};
+
+    // Compressed depth is checked by its decoder.
     case DepthEncoding::zlib:
       return inflate_into(bytes, depth);
     case DepthEncoding::rvl_zstd:

@@ -26,11 +26,15 @@ Result<Bytes> encode_colour(const Image<Rgb>& colour, const FrameEncoding& encod
   switch (encoding.colour) {
     case ColourEncoding::none:
       return Bytes{};
+
+    // Raw colour is copied as it lies in memory.
     case ColourEncoding::raw_rgb: {
       static_assert(sizeof(Rgb) == 3, "pixels are copied as they lie in memory");
       const auto* first = reinterpret_cast<const std::uint8_t*>(colour.data());
       return Bytes(first, first + sizeof(Rgb) * colour.size());
     }
+
+    // The other encodings compress the image.
     case ColourEncoding::jpeg:
       return encode_jpeg(colour, encoding.jpeg_quality);
     case ColourEncoding::png:
@@ -44,12 +48,16 @@ Result<Image<Rgb>> decode_colour(const rgbd_frame_t& message) {
     case ColourEncoding::none:
       if (!message.colour.empty()) return fail("colour data in a frame that says it has none");
       return Image<Rgb>();
+
+    // Raw colour must have the size of the image.
     case ColourEncoding::raw_rgb: {
       Image<Rgb> colour(message.width, message.height);
       if (message.colour.size() != sizeof(Rgb) * colour.size()) return fail("raw colour of the wrong size");
       std::memcpy(static_cast<void*>(colour.data()), message.colour.data(), message.colour.size());
       return colour;
     }
+
+    // Compressed images name their own format, so one decoder serves both.
     case ColourEncoding::jpeg:
     case ColourEncoding::png:
       return decode_image(message.colour, {message.width, message.height});
@@ -69,20 +77,28 @@ Result<void> check_numbers(const rgbd_frame_t& message) {
 
 Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& encoding) {
   if (auto sizes = check_sizes(frame); !sizes) return tl::unexpected(sizes.error());
+
+  // Copy the time stamp, the frame number and the name of the sensor.
   rgbd_frame_t message;
   message.utime = frame.utime;
   message.seq = frame.number;
   message.sensor = frame.sensor;
+
+  // Copy the intrinsics of the camera.
   message.width = frame.camera.width;
   message.height = frame.camera.height;
   message.fx = frame.camera.fx;
   message.fy = frame.camera.fy;
   message.cx = frame.camera.cx;
   message.cy = frame.camera.cy;
+
+  // Encode the depth.
   message.depth_unit = frame.depth_unit;
   message.depth_encoding = static_cast<std::int8_t>(encoding.depth);
   message.depth = encode_depth(frame.depth, encoding.depth);
   message.depth_size = static_cast<std::int32_t>(message.depth.size());
+
+  // Encode the colour, if there is any and it is wanted.
   const bool has_colour = !frame.colour.empty() && encoding.colour != ColourEncoding::none;
   message.colour_encoding = static_cast<std::int8_t>(has_colour ? encoding.colour : ColourEncoding::none);
   if (has_colour) {
@@ -95,10 +111,13 @@ Result<rgbd_frame_t> encode_frame(const RgbdFrame& frame, const FrameEncoding& e
 }
 
 Result<std::shared_ptr<RgbdFrame>> decode_frame(const rgbd_frame_t& message) {
+  // Check the header, and decode the depth.
   if (auto numbers = check_numbers(message); !numbers) return tl::unexpected(numbers.error());
   auto depth =
       decode_depth(message.depth, static_cast<DepthEncoding>(message.depth_encoding), message.width, message.height);
   if (!depth) return tl::unexpected(depth.error());
+
+  // Copy the header into the frame.
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = message.utime;
   frame->number = message.seq;
@@ -106,6 +125,8 @@ Result<std::shared_ptr<RgbdFrame>> decode_frame(const rgbd_frame_t& message) {
   frame->camera = {message.width, message.height, message.fx, message.fy, message.cx, message.cy};
   frame->depth_unit = message.depth_unit;
   frame->depth = std::move(*depth);
+
+  // If the colour cannot be read, the frame is delivered without it.
   if (auto colour = decode_colour(message))
     frame->colour = std::move(*colour);
   else

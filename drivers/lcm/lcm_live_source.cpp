@@ -24,16 +24,22 @@ LcmLiveSource::LcmLiveSource(std::shared_ptr<LcmBus> bus, const LcmLiveOptions& 
 
 void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
   const std::lock_guard lock(mutex_);
+
+  // Ignore the messages of other channels, but remember one that carries frames.
   if (!chosen_.empty() && channel != chosen_) {
     if (carries_frames(message_hash(message))) other_ = channel;
     arrived_.notify_one();
     return;
   }
+
+  // If the queue is full, drop its oldest message.
   ++counts_.received;
   if (packets_.size() >= options_.capacity) {
     packets_.pop_front();
     ++counts_.replaced;
   }
+
+  // Queue the message, after counting the frames that were lost before it.
   if (message_hash(message) == rgbd_frame_t::getHash()) count_lost(channel, message_word(message, 2));
   packets_.push_back({channel, {message.begin(), message.end()}});
   arrived_.notify_one();
@@ -52,20 +58,26 @@ void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
 }
 
 SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
+  // Deliver what is already waiting.
   if (!to_come_.empty()) return take_next();
   Packet packet;
   {
+    // Wait for a message, or for another channel that has to be reported.
     std::unique_lock lock(mutex_);
     const auto to_tell = [this] { return !other_.empty() && !told_of_other_; };
     if (!arrived_.wait_for(lock, patience, [&] { return !packets_.empty() || to_tell(); })) {
       if (listener_.broken()) return SourceFailed{{"the LCM connection broke", bus_->url(), "check the network"}};
       return Timeout{};
     }
+
+    // Report once that other channels also carry frames.
     if (to_tell()) {
       told_of_other_ = true;
       return SourceNotice{{"frames also arrive on other channels, among them " + other_ + "; they are ignored",
                            name_of(chosen_), "name the channel if this is the wrong one"}};
     }
+
+    // Take the oldest message; it is decoded after the mutex has been released.
     packet = std::move(packets_.front());
     packets_.pop_front();
   }
@@ -73,18 +85,23 @@ SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
 }
 
 SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
+  // Decode the message, or report why it is skipped.
   auto frame = decode_frame_message(packet.message, options_.foreign, foreign_number_);
   if (!frame) {
     Error error = frame.error();
     error.where = name_of(packet.channel);
     return SkippedFrame{std::move(error)};
   }
+
+  // Check the order of the frames of this channel.
   choose(packet.channel);
   FrameOrder& order = orders_.try_emplace(packet.channel, StampUnit::microseconds).first->second;
   const auto number = order.number((*frame)->utime, (*frame)->number);
   for (const std::string& warning : order.take_warnings())
     to_come_.push_back(SourceNotice{{warning, name_of(packet.channel), ""}});
   ++foreign_number_;
+
+  // Deliver the frame, or report why it is skipped.
   if (number) {
     (*frame)->number = *number;
     to_come_.push_back(FramePtr(*std::move(frame)));

@@ -32,11 +32,14 @@ std::string names(const std::set<std::string>& channels) {
 }  // namespace
 
 Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path, const LcmLogOptions& options) {
+  // Check the options, open the files and choose the channels.
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
   std::unique_ptr<LcmLogSource> source(new LcmLogSource(path, options));
   if (auto ready = source->open_files().and_then([&] { return source->choose(); }); !ready)
     return tl::unexpected(ready.error());
+
+  // Start at the frame that was asked for.
   const auto count = static_cast<std::int64_t>(source->frames_.size());
   source->position_ = ReplayPosition(options.start, options.step, count);
   if (source->position_.at_end()) {
@@ -48,9 +51,12 @@ Result<std::unique_ptr<LcmLogSource>> LcmLogSource::open(const std::string& path
 }
 
 Result<void> LcmLogSource::open_files() {
+  // Find the files of the log.
   auto logs = find_logs(path_);
   if (!logs) return tl::unexpected(logs.error());
   left_out_ = std::move(logs->left_out);
+
+  // Find the events of each file, and leave out files that cannot be read.
   for (const std::string& file : logs->files) {
     auto reader = LcmLogReader::open(file);
     if (reader && reader->entries().empty()) reader = fail("is not an LCM log: it holds no complete event", file);
@@ -58,12 +64,16 @@ Result<void> LcmLogSource::open_files() {
       left_out_.push_back(reader.error());
       continue;
     }
+
+    // Collect the events; the files are opened again when they are played.
     for (const LogEntry& entry : reader->entries()) frames_.push_back({files_.size(), entry, 0});
     if (file != path_ && !finished_name(file).empty())
       warnings_.push_back(file + ": was left by a killed recorder; every complete event is played");
     reader->close();
     files_.push_back(std::move(*reader));
   }
+
+  // Without any event, the first fault is the result.
   if (frames_.empty()) return tl::unexpected(left_out_.front());
   return {};
 }
@@ -71,17 +81,23 @@ Result<void> LcmLogSource::open_files() {
 /// Keeps the events of the channels that were asked for or, if none were, of the only channel with frames.
 Result<void> LcmLogSource::choose() {
   const std::string& pattern = options_.channel;
+
+  // Collect all channels, and those that carry frames.
   std::set<std::string> all, with_frames;
   for (const Event& event : frames_) {
     all.insert(event.entry.channel);
     if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
   }
+
+  // Keep the events of the channels that match the pattern, or all frames if there is none.
   const bool is_name = all.contains(pattern);
   std::erase_if(frames_, [&](const Event& event) {
     const std::string& channel = event.entry.channel;
     if (pattern.empty()) return !carries_frames(event.entry.hash);
     return is_name ? channel != pattern : !matches_glob(pattern, channel);
   });
+
+  // Report it if the channel is ambiguous or nothing matches.
   if (pattern.empty() && with_frames.empty()) {
     return fail("the log holds no frames; its channels are " + names(all), path_,
                 "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
@@ -90,6 +106,8 @@ Result<void> LcmLogSource::choose() {
     return fail("the log holds frames on several channels: " + names(with_frames), path_,
                 how_to_choose(*with_frames.begin()));
   }
+
+  // A pattern must match at least one channel.
   if (frames_.empty()) return fail("no channel matches " + in_quotes(pattern) + "; there are " + names(all), path_);
   return {};
 }
@@ -104,11 +122,15 @@ void LcmLogSource::put_in_order() {
     const bool own = event.entry.hash == rgbd_frame_t::getHash();
     FrameOrder& order = orders.try_emplace(event.entry.channel, StampUnit::microseconds).first->second;
     const auto number = order.number(event.entry.utime, own ? event.entry.third : position);
+
+    // Keep the number, or note why the frame is skipped.
     if (number)
       event.number = *number;
     else
       unused_.emplace(position, number.error());
   }
+
+  // Report the warnings of every channel.
   for (auto& [channel, order] : orders)
     for (const std::string& warning : order.take_last_warnings())
       warnings_.push_back(path_ + " " + channel + ": " + warning);
@@ -133,11 +155,17 @@ SourceEvent LcmLogSource::read(std::int64_t position) {
     error.where = where;
     return SkippedFrame{std::move(error)};
   };
+
+  // Skip a frame whose time stamp cannot be used.
   if (const auto unused = unused_.find(position); unused != unused_.end()) return skipped(unused->second);
+
+  // Keep only one file open at a time.
   if (file != open_) files_[open_].close();
   open_ = file;
   const auto message = files_[file].read(entry);
   if (!message) return SourceFailed{message.error()};
+
+  // Decode the frame, and give it its number.
   auto frame = decode_frame_message(*message, options_.foreign, number);
   if (!frame) return skipped(frame.error());
   (*frame)->number = number;

@@ -62,10 +62,13 @@ std::vector<std::uint8_t> rvl_encode(std::span<const std::uint16_t> counts) {
   NibbleWriter out;
   std::int32_t previous = 0;
   for (std::size_t i = 0; i < counts.size();) {
+    // Find the next run of pixels without depth, and the run of measured pixels after it.
     std::size_t measured = i;
     while (measured < counts.size() && counts[measured] == 0) ++measured;
     std::size_t end = measured;
     while (end < counts.size() && counts[end] != 0) ++end;
+
+    // Write the lengths of both runs, and then the differences between successive measured pixels.
     out.number(static_cast<std::uint32_t>(measured - i));
     out.number(static_cast<std::uint32_t>(end - measured));
     for (i = measured; i < end; ++i) {
@@ -80,14 +83,19 @@ Result<void> rvl_decode(std::span<const std::uint8_t> code, std::span<std::uint1
   NibbleReader in(code);
   std::int32_t previous = 0;
   for (std::size_t i = 0; i < counts.size();) {
+    // Read the lengths of the next two runs.
     std::uint32_t zeros = 0, measured = 0;
     if (!in.number(zeros) || !in.number(measured)) return fail("compressed depth ends too early");
     if (zeros + measured == 0 || zeros + measured > counts.size() - i)
       return fail("compressed depth with an invalid run length");
+
+    // Fill in the pixels without depth, and sum up the differences between the measured ones.
     for (std::uint32_t k = 0; k < zeros; ++k) counts[i++] = 0;
     for (std::uint32_t k = 0; k < measured; ++k) {
       std::uint32_t difference = 0;
       if (!in.number(difference)) return fail("compressed depth ends too early");
+
+      // Each count must be positive and fit into 16 bits.
       previous += unzigzag(difference);
       if (previous <= 0 || previous > 0xFFFF) return fail("compressed depth leaves the range of 16 bits");
       counts[i++] = static_cast<std::uint16_t>(previous);

@@ -54,6 +54,8 @@ double depth_unit_of(const mcap::Channel& channel) {
 Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, const McapOptions& options) {
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
+
+  // Note all messages of the file.
   std::unique_ptr<McapSource> source(new McapSource(path, options));
   auto reader = mcap::McapReader::open(path, [&](const auto& message, const auto& channel, auto bytes) {
     source->add_message(message, channel, bytes);
@@ -63,6 +65,7 @@ Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, co
   source->warnings_ = source->reader_->warnings();
   if (auto chosen = source->choose(); !chosen) return tl::unexpected(chosen.error());
 
+  // Start at the frame that was asked for.
   const auto count = static_cast<std::int64_t>(source->frames_.size());
   source->position_ = ReplayPosition(options.start, options.step, count);
   if (source->position_.at_end())
@@ -74,6 +77,8 @@ Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, co
 McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::span<const std::uint8_t> bytes) {
   Stream stream;
   stream.type = channel.type;
+
+  // Streams in other encodings than CDR are not read.
   if (channel.encoding != "cdr") return stream;
   if (channel.type == ros::schema_name<ros::CameraInfo>()) stream.kind = Kind::camera;
 
@@ -84,6 +89,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     const std::string& encoding = head->encoding;
     if (encoding == "16UC1" || encoding == "mono16") stream.kind = Kind::depth;
     if (encoding == "rgb8" || encoding == "bgr8") stream.kind = Kind::colour;
+
+    // The frame and the size tell later whether colour and depth belong together.
     stream.type += " in " + encoding;
     stream.frame_id = head->header.frame_id;
     stream.width = static_cast<int>(head->width);
@@ -97,6 +104,8 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
     stream.kind = is_packed_depth(image->format) ? Kind::packed_depth : Kind::packed_colour;
     stream.type += " in " + image->format;
     stream.frame_id = image->header.frame_id;
+
+    // The size stays empty if it cannot be read.
     const auto size = compressed_image_size(image->data).value_or(ImageSize{});
     stream.width = size.width;
     stream.height = size.height;
@@ -107,6 +116,7 @@ McapSource::Stream McapSource::begin_stream(const mcap::Channel& channel, std::s
 /// Registers a message; called for every message in the order of the file.
 void McapSource::add_message(const mcap::Message& message, const mcap::Channel& channel,
                              std::span<const std::uint8_t> bytes) {
+  // Find the stream of this topic, or begin it.
   auto known = streams_.find(channel.topic);
   if (known == streams_.end()) known = streams_.emplace(channel.topic, begin_stream(channel, bytes)).first;
   Stream& stream = known->second;
@@ -122,6 +132,8 @@ void McapSource::add_message(const mcap::Message& message, const mcap::Channel& 
     }
     return;
   }
+
+  // Keep the place of an image message, and its time.
   stream.messages.push_back(message);
   stream.utimes.push_back(utime);
 }
@@ -133,22 +145,29 @@ std::string McapSource::topics() const {
 }
 
 Result<void> McapSource::choose() {
+  // Choose the topics with depth images that match the option.
   std::vector<std::string> chosen;
   for (const auto& [topic, stream] : streams_) {
     const bool depth = stream.kind == Kind::depth || stream.kind == Kind::packed_depth;
     if (depth && (options_.channel.empty() || topic == options_.channel || matches_glob(options_.channel, topic)))
       chosen.push_back(topic);
   }
+
+  // Report it if no topic matches.
   if (chosen.empty() && !options_.channel.empty())
     return fail("no topic with depth images matches " + in_quotes(options_.channel) + "; its topics are " + topics(),
                 path_);
   if (chosen.empty())
     return fail("holds no depth images that are read; its topics are " + topics(), path_,
                 "known are sensor_msgs/msg/Image in 16UC1 and CompressedImage in compressedDepth, in CDR");
+
+  // The choice is ambiguous if several topics hold depth and none was named.
   if (chosen.size() > 1 && options_.channel.empty())
     return fail("holds depth images on several topics: " + comma_list(chosen), path_,
                 "choose one: run.frame_channel in the configuration of track, --channel " + shell_word(chosen[0]) +
                     " for record and convert");
+
+  // Add the frames of the chosen topics.
   for (const std::string& topic : chosen)
     if (auto added = add_frames(topic); !added) return added;
 
@@ -167,6 +186,7 @@ const McapSource::Stream* McapSource::camera_of(const std::string& topic) const 
 /// The colour stream that is registered to a depth topic: with the same frame_id and image size. Null: there is none;
 /// if there is other colour, this adds a warning. (The size of packed depth is not known here.)
 const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
+  // Use the first colour stream that has the frame and the size of the depth.
   const Stream& depth = streams_.at(topic);
   std::vector<std::string> others;
   for (const auto& [other, stream] : streams_) {
@@ -176,6 +196,8 @@ const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
     if (stream.frame_id == depth.frame_id && same_size) return &stream;
     others.push_back(other);
   }
+
+  // Report colour that is left unused.
   if (!others.empty())
     warnings_.push_back(path_ + ": the colour of " + comma_list(others) +
                         " has another frame or size than the depth of " + topic +
@@ -184,6 +206,7 @@ const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
 }
 
 Result<void> McapSource::add_frames(const std::string& topic) {
+  // Find the intrinsics of this topic.
   const auto& [name, depth] = *streams_.find(topic);
   const Stream* camera = camera_of(topic);
   if (camera == nullptr && !options_.foreign.any())
@@ -192,6 +215,8 @@ Result<void> McapSource::add_frames(const std::string& topic) {
   if (camera != nullptr && camera->lens)
     warnings_.push_back(path_ + ": the coefficients of lens distortion in " + namespace_of(topic) +
                         "/camera_info are not used: record rectified images where they matter");
+
+  // Pair each depth image with a colour image.
   const Stream* colour = colour_of(topic);
   const ColourPairs pairs = pair_colour(depth.utimes, colour != nullptr ? colour->utimes : std::vector<std::int64_t>());
 
@@ -202,12 +227,16 @@ Result<void> McapSource::add_frames(const std::string& topic) {
     if (pairs.colour[i]) frame.colour = colour->messages[*pairs.colour[i]];
     const mcap::Channel& channel = reader_->channels().at(frame.depth.channel);
     const bool own = channel.metadata.contains(ros::kDepthUnit);
+
+    // Number the frame, or note why it is not used.
     const auto position = static_cast<std::int64_t>(i);
     const auto number = order.number(frame.utime, own ? frame.depth.sequence : position);
     if (number)
       frame.number = *number;
     else
       frame.fault = number.error().message();
+
+    // Take the frame rate from the metadata, if it is plausible.
     if (const double fps = number_in(channel, ros::kFps); fps > 0 && fps < 10'000) fps_ = fps;
     frames_.push_back(std::move(frame));
   }
@@ -232,6 +261,7 @@ SourceEvent McapSource::read(std::int64_t position) {
 }
 
 Result<FramePtr> McapSource::read_frame(const Frame& item) {
+  // Decode the depth, and describe the frame.
   auto depth = read_depth(item);
   if (!depth) return tl::unexpected(depth.error());
   const mcap::Channel& channel = reader_->channels().at(item.depth.channel);

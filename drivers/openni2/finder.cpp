@@ -16,6 +16,7 @@ OpenNiFinder::OpenNiFinder(std::string wanted, std::function<void()> came, UsbBu
     : wanted_(std::move(wanted)), came_(std::move(came)), usb_(usb), clock_(clock) {}
 
 Result<void> OpenNiFinder::load() {
+  // Release the library, and note the state of the bus.
   library_.reset();
   told_ = false;
   bus_when_loaded_ = bus_state();
@@ -30,6 +31,8 @@ Result<void> OpenNiFinder::load() {
     }
     came_();
   });
+
+  // Keep the library if it could be loaded.
   if (!library) return tl::unexpected(library.error());
   library_ = std::move(*library);
   return {};
@@ -70,6 +73,8 @@ tl::unexpected<Error> OpenNiFinder::not_found(const std::string& others) const {
       "if OpenNI2 has no driver for it, copy the manufacturer's driver into OpenNI2/Drivers beside libOpenNI2.so.0";
   for (const UsbSensor& sensor : *plugged) {
     what += "; plugged in: " + to_text(sensor);
+
+    // A sensor that cannot be opened determines the remedy.
     if (!sensor.obstacle) continue;
     what += ", " + sensor.obstacle->what;
     remedy = sensor.obstacle->remedy;

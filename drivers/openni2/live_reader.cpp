@@ -22,6 +22,7 @@ LiveReader::LiveReader(const std::string& wanted, const OpenNiParams& params, st
       usb_(std::move(usb)),
       finder_(
           wanted, [this] { look_again(); }, usb_.get(), clock) {
+  // Watch the USB bus, so that a sensor is noticed as soon as it is plugged in.
   if (!usb_) return;
   const auto changed = [this] {
     finder_.bus_changed();

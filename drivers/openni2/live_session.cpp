@@ -176,8 +176,11 @@ void LiveSession::give_up_step() {
 }
 
 void LiveSession::report_depth_fault(DepthFault fault) {
+  // Note since when this fault has lasted.
   if (fault != fault_) fault_since_us_ = now_us_;
   fault_ = fault;
+
+  // Report an empty image only after some time, since it may be correct.
   switch (fault) {
     case DepthFault::none:
       break;
@@ -185,6 +188,8 @@ void LiveSession::report_depth_fault(DepthFault fault) {
       if (now_us_ - fault_since_us_ > kSayAfter)
         output_.notice("empty", "no pixel has depth", "uncover the lens, and check that something is within its range");
       break;
+
+    // Skip images that cannot be used.
     case DepthFault::repeated:
       output_.skip("the depth image is identical to the previous one", kReplug);
       break;
@@ -214,6 +219,8 @@ void LiveSession::watch_colour() {
   } else if (!missing && colour_missing_) {
     colour_missing_ = false;
     output_.notice("colour is back", "colour images arrive again", "", false);
+
+    // Pair the streams again, unless this was tried too often.
     pair_again();
   }
 }

@@ -55,6 +55,8 @@ Result<std::unique_ptr<OpenNiFilePlayer>> OpenNiFilePlayer::open(const std::stri
   auto sensor = OpenNiSensor::open(name_of_its_own(path), params);
   if (!sensor)
     return fail(sensor.error().what, path, sensor.error().remedy.empty() ? kRemedyIncomplete : sensor.error().remedy);
+
+  // Make the player, and refuse a recording without depth images.
   std::unique_ptr<OpenNiFilePlayer> player(new OpenNiFilePlayer(path, std::move(*sensor)));
   if (player->frames() <= 0) return fail("the recording holds no depth images", path, "record it again");
   return player;

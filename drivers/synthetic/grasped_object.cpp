@@ -17,6 +17,8 @@ HandContacts GraspedObject::contacts(std::span<const Eigen::Vector3f> skin, std:
   std::array<double, kSegmentCount> least;
   least.fill(std::numeric_limits<double>::max());
   std::array<Eigen::Vector3d, kSegmentCount> nearest{};
+
+  // Compare the signed distances of all vertices.
   for (std::size_t v = 0; v < skin.size(); ++v) {
     const Eigen::Vector3d p = T_object_camera * skin[v].cast<double>();
     const double distance = distance_.signed_distance(p);
@@ -29,6 +31,8 @@ HandContacts GraspedObject::contacts(std::span<const Eigen::Vector3f> skin, std:
   HandContacts contacts;
   for (int s = 0; s < kSegmentCount; ++s) {
     const MeshDistance::Nearest place = distance_.nearest(nearest[s]);
+
+    // Interpolate the normals of the triangle's corners.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       normal += place.weights[k] * mesh_.normals[mesh_.triangles[place.triangle][k]].cast<double>();

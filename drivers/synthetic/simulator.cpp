@@ -54,6 +54,8 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   if (params.fps > 0 && params.fps < kSlowest)
     return fail(formatted("%g frames per second", params.fps), "sim:" + params.sequence,
                 formatted("give 0 for the sequence's own or %g at least", kSlowest));
+
+  // The object and the grasp can be chosen in one sequence only.
   const bool varied = params.sequence == "grasp";
   if (!varied && !(params.object.empty() && params.grasp.empty()))
     return fail("the keys object and grasp are those of the sequence grasp", "sim:" + params.sequence,
@@ -75,6 +77,8 @@ Result<Simulator> Simulator::create(const SimulatorParams& params, const std::st
   auto sequence = make_sequence(params.sequence, rig, seed, {params.object, params.grasp});
   if (!sequence) return tl::unexpected(sequence.error());
   simulator.sequence_ = std::move(*sequence);
+
+  // Keep the meshes of the objects that are grasped, mirrored like the hand.
   for (const SceneObject& object : simulator.sequence_->objects())
     if (object.grasped)
       simulator.grasped_.emplace(object.name, simulator.mirrors() ? mirrored(object.mesh) : object.mesh);
@@ -164,6 +168,7 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   RenderedView view = shade(camera(), rasteriser_.buffer(), scene, materials(),
                             static_cast<std::uint64_t>(params_.seed), static_cast<std::uint32_t>(number));
 
+  // Describe the frame as a sensor would.
   auto frame = std::make_shared<RgbdFrame>();
   frame->utime = kFirstUtime + std::llround(1e6 * static_cast<double>(number) / fps_);
   frame->number = number;
@@ -177,6 +182,8 @@ SimulatedFrame Simulator::render(std::int64_t number) {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandTruth truth{hands_[i].pose(state.hands[i].skeleton), {}, {}};
     truth.table = table_of(i, view, hands[i], truth.pose);
+
+    // The table of the truth carries the number and the time of the frame.
     if (truth.table) {
       truth.table->number = number;
       truth.table->timestamp = 1e-6 * static_cast<double>(frame->utime);

@@ -32,18 +32,27 @@ struct SimulatorParams {
 };
 template <class V>
 void visit(V& v, SimulatorParams& p) {
+  // These options set the sensor's noise and the random numbers.
   v("noise", p.noise, {"none", "kinect", "tof"}, "sensor whose noise is simulated");
   v("seed", p.seed, 0, 1000000000, "seed of motion and noise");
+
+  // These set the rate, the length and the speed of the sequence.
   v("fps", p.fps, 0.0, 1000.0, "frames per second; 0: the sequence's own");
   v("frames", p.frames, 0, 10000000, "number of frames; 0: the whole sequence");
   v("speed", p.speed, 0.05, 20.0, "factor on the speed of the motion");
+
+  // These set what is seen of the hand and the forearm.
   v("hand", p.hand, {"right", "left"},
     "which hand is shown, in sequences with one hand; a left hand is a mirror image");
   v("sleeve", p.sleeve, {"blue", "skin", "none"},
     "what the forearm wears: a blue sleeve, or nothing (skin); none: there is no forearm");
+
+  // These describe the camera.
   v("width", p.width, 64, 4096, "px, width of the images");
   v("height", p.height, 48, 4096, "px, height of the images");
   v("focal", p.focal, 0.0, 10000.0, "px, focal length; 0: 525 at a width of 640, and in proportion");
+
+  // The last ones set the shape of the hand, and what it grasps.
   visit(v, p.shape);
   v("object", p.object, "object of the sequence grasp; empty: drawn by the seed");
   v("grasp", p.grasp, "class of the sequence grasp, such as wrap or pinch; empty: drawn by the seed");

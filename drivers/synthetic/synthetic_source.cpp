@@ -66,9 +66,13 @@ FramePtr SyntheticSource::deliver() {
   const std::int64_t since_start = std::llround(1e6 * static_cast<double>(number) / simulator_.fps());
   frame->number = number;
   frame->utime = (spec_.live ? start_utime_ : Simulator::kFirstUtime) + since_start;
+
+  // Hand over the truth about each hand.
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     hands_[i].pose = last_.hands[i].pose;
     hands_[i].truth = std::move(last_.hands[i].table);
+
+    // The table carries the number and the time of the delivered frame.
     if (hands_[i].truth) {
       hands_[i].truth->number = number;
       hands_[i].truth->timestamp = 1e-6 * static_cast<double>(frame->utime);

@@ -43,18 +43,23 @@ std::string port_of(libusb_device* device) {
 }
 
 Result<UsbHandle> open_usb(libusb_device* device) {
+  // Open the device by its file.
   const std::string file =
       formatted("/dev/bus/usb/%03d/%03d", libusb_get_bus_number(device), libusb_get_device_address(device));
   libusb_device_handle* handle = nullptr;
   switch (const int status = libusb_open(device, &handle)) {
     case LIBUSB_SUCCESS:
       return UsbHandle(handle);
+
+    // Report the fault with its remedy.
     case LIBUSB_ERROR_ACCESS:
       return fail("this user may not open it", file,
                   "install deploy/udev/60-barehand-sensors.rules, add the user to the group plugdev (sudo adduser USER "
                   "plugdev), log in again and re-plug it");
     case LIBUSB_ERROR_NO_DEVICE:
       return fail("it has no device file", file, "in a container, pass in /dev/bus/usb; else re-plug it");
+
+    // Any other fault is reported as libusb describes it.
     default:
       return fail(std::string("cannot be opened: ") + libusb_strerror(status), file, "re-plug it");
   }

@@ -24,8 +24,11 @@ DeviceClock::Mapped DeviceClock::map(std::int64_t device_us, std::int64_t arriva
   if (!begun_) {
     begin(device_us, arrival_us);
   } else {
+    // Compare the sensor's clock with that of the host, both counted from the first frame.
     const Mark mark{static_cast<double>(device_us - first_device_),
                     static_cast<double>((arrival_us - first_arrival_) - (device_us - first_device_))};
+
+    // Restart the mapping after a jump; otherwise fit it to this frame as well.
     if (device_us <= last_device_ || jumped(mark)) {
       mapped.jumped_by = (device_us - last_device_) - (arrival_us - last_arrival_);
       begin(device_us, arrival_us);
@@ -91,6 +94,8 @@ void DeviceClock::fit() {
     mean_x += m.x / static_cast<double>(marks_.size());
     mean_y += m.y / static_cast<double>(marks_.size());
   }
+
+  // The slope is limited to a drift that is plausible.
   for (const Mark& m : marks_) {
     xx += (m.x - mean_x) * (m.x - mean_x);
     xy += (m.x - mean_x) * (m.y - mean_y);

@@ -50,6 +50,8 @@ void convert_colour_row(const std::uint8_t* in, int width, openni::PixelFormat f
     case openni::PIXEL_FORMAT_YUV422:
       convert_yuv(in, width, 1, 0, 3, 2, out);
       break;
+
+    // Grey gives the same value to all three colours.
     default:  // GRAY8
       for (int x = 0; x < width; ++x) out[x] = {in[x], in[x], in[x]};
   }

@@ -76,6 +76,8 @@ Eigen::Matrix3d spin(const Hold& hold, KeyedRandom& random) {
 void clear_the_way(const GraspPlanner& planner, const SE3& T_palm_object, const SignedDistance& object,
                    const HandAngles& opening, HandAngles& angles) {
   constexpr double kFree = 0.002;
+
+  // Consider every finger that the opening of the hand does not move at its base.
   for (int finger = 1; finger < kFingerCount; ++finger) {
     const auto nearest = [&] {
       const auto gap = planner.clearance(angles, T_palm_object, object);
@@ -88,11 +90,15 @@ void clear_the_way(const GraspPlanner& planner, const SE3& T_palm_object, const 
     const FingerAngles wanted = angles[finger];
     FingerAngles best = wanted;
     double most = nearest();
+
+    // Bend the finger further and further in both directions until it is free.
     for (double turn = 6 * kDegree; turn < 75 * kDegree && most < kFree; turn += 6 * kDegree)
       for (const double sign : {-1.0, 1.0}) {
         angles[finger] = wanted;
         for (double& angle : angles[finger].flexion)
           angle = std::clamp(angle + sign * turn, -8 * kDegree, 92 * kDegree);
+
+        // Keep the shape that gives the most clearance.
         if (const double gap = nearest(); gap > most) {
           most = gap;
           best = angles[finger];
@@ -120,10 +126,13 @@ void slide_out(const GraspPlanner& planner, const OpposedGrasp& grasp, const Sig
 
 /// The direction, in the palm frame, in which the open hand can leave the object best.
 Vector3d way_out(const GraspPlanner& planner, const PlannedGrasp& plan, const SignedDistance& object) {
+  // List the directions in which the hand may leave the object.
   const std::array<Vector3d, 5> directions = {Vector3d(0, 0.6, 0.8), Vector3d(0, 0, 1), Vector3d(0, 1, 0),
                                               Vector3d(0.7, 0, 0.7), Vector3d(0.7, 0.7, 0)};
   Vector3d best = directions[0];
   double most = -1;
+
+  // Find the least clearance on the way in each direction, and keep the direction where it is largest.
   for (const Vector3d& direction : directions) {
     double least = 1;
     for (const double way : {0.01, 0.025, 0.05, 0.08}) {
@@ -132,6 +141,8 @@ Vector3d way_out(const GraspPlanner& planner, const PlannedGrasp& plan, const Si
       const auto gap = planner.clearance(plan.open, T_palm_object, object);
       least = std::min(least, *std::min_element(gap.begin(), gap.end()));
     }
+
+    // Keep the direction if it is clearly better.
     if (least <= most + 0.001) continue;  // of equal ones, the first
     most = least;
     best = direction.normalized();
@@ -144,6 +155,8 @@ double faults(const GraspPlanner& planner, const GraspRecipe& recipe, const Plan
               const SignedDistance& object) {
   // Skin may be pressed in a little.
   constexpr double kSoft = 0.001;
+
+  // Sum up how deep the segments lie in the object.
   const auto gap = planner.clearance(plan.held, plan.T_palm_object, object);
   double sum = 0;
   for (const double distance : gap) sum += std::max(0.0, -distance - kSoft);
@@ -153,6 +166,8 @@ double faults(const GraspPlanner& planner, const GraspRecipe& recipe, const Plan
   for (int finger = 1; finger < kFingerCount; ++finger) touches[finger] = recipe.first.empty();
   for (const auto* list : {&recipe.first, &recipe.second})
     for (const Touch& touch : *list) touches[finger_of(touch.segment)] = true;
+
+  // Add the distances of the fingers that should touch but do not.
   for (int finger = 0; finger < kFingerCount; ++finger) {
     if (!touches[finger]) continue;
     const auto first = gap.begin() + segment_of(finger, 0);

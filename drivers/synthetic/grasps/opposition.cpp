@@ -37,6 +37,7 @@ Opposition::Opposition(const HandRig& rig, const GraspRecipe& recipe, const Hold
       least_abduction_(recipe.least_abduction),
       most_abduction_(recipe.most_abduction),
       first_count_(recipe.first.size()) {
+  // Find the touches on the skin, and the fingers that may move.
   for (const auto* touches : {&recipe.first, &recipe.second})
     for (const Touch& touch : *touches) {
       touches_.push_back(on_skin(rig.mesh, touch));
@@ -66,6 +67,8 @@ SE3 Opposition::hold_of(const HandPose& pose) const {
     places.push_back(pose[touches_[i].segment] * touches_[i].place);
     (i < first_count_ ? first : second) += places.back();
   }
+
+  // The centre lies midway between the means of both.
   first /= static_cast<double>(first_count_);
   second /= static_cast<double>(places.size() - first_count_);
   Vector3d y = second - first;
@@ -78,6 +81,8 @@ SE3 Opposition::hold_of(const HandPose& pose) const {
     to_fingers -= pose[touches_[i].segment].R * touches_[i].normal;
     to_palm += pose[touches_[i].segment].R.col(2);
   }
+
+  // Turn the slab against the row if the fingers form one.
   const bool on_row = kind_ == HoldKind::slab && row.norm() > 0.01;
   if (on_row) {
     y = to_fingers - to_fingers.dot(row) / row.squaredNorm() * row;
@@ -91,6 +96,8 @@ SE3 Opposition::hold_of(const HandPose& pose) const {
     const SE3& T = pose[rest_->segment];
     along = T * rest_->place + (radius_ + kBesideRest) * (T.R * rest_->normal) - centre;
   }
+
+  // Make the axes orthogonal.
   const Vector3d x = (along - along.dot(y) * y).normalized();
   SE3 T;
   T.R << x, y, x.cross(y);
@@ -149,17 +156,22 @@ OpposedGrasp Opposition::solve(const HandAngles& comfortable) const {
     for (int finger = 0; finger < kFingerCount; ++finger)
       for (int i = 0; i < 4 && moves_[finger]; ++i)
         for (const double sign : {-1.0, 1.0}) {
+          // Turn the joint by one step within its limits.
           HandAngles tried = best;
           Limits limits = (finger == 0 ? kThumbLimits : kFingerLimits)[i];
           if (finger == 0 && i == 0) limits = {least_abduction_, most_abduction_};
           double& angle = angle_of(tried[finger], i);
           angle = std::clamp(angle + sign * step, limits.lower, limits.upper);
+
+          // Keep the change if it lowers the cost.
           const double now = cost(tried, comfortable);
           if (now >= least - 1e-9) continue;
           least = now;
           best = tried;
           better = true;
         }
+
+    // Halve the step when no change helps any more.
     if (!better) step /= 2;
   }
 

@@ -40,6 +40,8 @@ Result<Choice> drawn(const GraspChoice& wanted, std::uint64_t seed) {
     for (const GraspType& known : types) names.push_back(known.name);
     return fail("grasp=" + wanted.type + " is no class of grasps", "sim:grasp", "choose one of: " + comma_list(names));
   }
+
+  // Check the object in the same way.
   if (!wanted.object.empty() && !is_object(wanted.object))
     return fail("there is no object \"" + wanted.object + "\"", "sim:grasp",
                 "choose one of: " + comma_list(object_names(false)) + ", " + comma_list(object_names(true)));
@@ -51,6 +53,8 @@ Result<Choice> drawn(const GraspChoice& wanted, std::uint64_t seed) {
   for (int i = 0; i < static_cast<int>(types.size()); ++i)
     if (wanted.object.empty() || can_hold(i, wanted.object)) possible.push_back(i);
   Choice choice{type ? *type : possible[random.bits() % possible.size()], wanted.object};
+
+  // Draw an object of this class, if none was given.
   if (choice.object.empty()) {
     const std::vector<std::string> objects = objects_for(choice.type, testing);
     choice.object = objects[random.bits() % objects.size()];
@@ -67,11 +71,15 @@ SE3 drawn_view(KeyedRandom& random) {
   // The fingers point up in the picture, more or less.
   const Vector3d z = -to_camera, fingers = -Vector3d::UnitZ();
   const Vector3d y = -(fingers - fingers.dot(z) * z).normalized();
+
+  // Turn the camera about its optical axis at random.
   SE3 T;
   T.R.row(0) = y.cross(z).transpose();
   T.R.row(1) = y.transpose();
   T.R.row(2) = z.transpose();
   T.R = exp_so3(random.uniform(-0.9, 0.9) * Vector3d::UnitZ()) * T.R;
+
+  // Place the hand near the middle of the image.
   const Vector3d centre(0, -0.02, -0.10);
   const Vector3d place(random.uniform(-0.04, 0.04), random.uniform(-0.03, 0.03), random.uniform(0.45, 0.75));
   T.t = place - T.R * centre;

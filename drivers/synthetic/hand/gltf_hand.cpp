@@ -68,6 +68,7 @@ std::vector<SkinWeights> vertex_weights(const aiMesh& mesh, const std::array<con
 
 /// Copies the vertices in the hand frame, merging those that coincide, and the triangles that use them.
 void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<SkinWeights>& weights, HandMesh& hand) {
+  // Merge vertices that lie at the same place.
   std::map<std::tuple<float, float, float>, std::uint32_t> seen;
   std::vector<std::uint32_t> index(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
@@ -75,6 +76,8 @@ void copy_skin(const aiMesh& mesh, const SE3& T_hand_mesh, const std::vector<Ski
     const auto [it, fresh] = seen.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(hand.vertices.size()));
     index[v] = it->second;
     if (!fresh) continue;
+
+    // Copy the first vertex of each place.
     hand.vertices.push_back((T_hand_mesh * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
     hand.weights.push_back(weights[v]);
   }

@@ -118,12 +118,16 @@ std::vector<SE3> Body::poses(double time, const std::optional<Vector3d>& right_w
   const SE3 T_world_body = frame(key);
   if (right_wrist) key.wrists[0] = T_world_body.inverse() * *right_wrist;
   std::vector<SE3> list = {T_world_body}, forearms;
+
+  // Let the elbow lie between the shoulder and the wrist.
   for (int arm = 0; arm < 2; ++arm) {
     const Vector3d shoulder = shoulder_of(setting_.size, arm);
     const Vector3d elbow = elbow_between(setting_.size.arm, shoulder, key.wrists[arm], towards_elbow(arm));
     list.push_back(T_world_body * limb_between(shoulder, elbow));
     if (arm == 1 || setting_.right_forearm) forearms.push_back(T_world_body * limb_between(elbow, key.wrists[arm]));
   }
+
+  // The forearms come after the upper arms.
   list.insert(list.end(), forearms.begin(), forearms.end());
   if (!setting_.head) return list;
 

@@ -26,10 +26,14 @@ SceneObject make_slab(const char* name, const Vector3d& half_sides, const Rgb& c
 std::pair<SceneObject, double> make_tall_object(KeyedRandom& random) {
   const double kind = random.uniform();
   const auto shade = static_cast<std::uint8_t>(random.uniform(40, 220));
+
+  // Three in ten objects are mugs.
   if (kind < 0.3) {
     const MugSize size{random.uniform(0.034, 0.045), random.uniform(0.08, 0.12), 0.004};
     return {{"mug", make_mug(size), {{182, 48, 40}, 0.6}}, size.height};
   }
+
+  // Half of the other objects are boxes, and half are cylinders.
   if (kind < 0.65) {
     const Vector3d half(random.uniform(0.02, 0.12), random.uniform(0.02, 0.1), random.uniform(0.015, 0.12));
     return {{"box", make_box(half), {{shade, 120, 90}}}, 2 * half.z()};

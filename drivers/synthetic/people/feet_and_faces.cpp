@@ -77,6 +77,7 @@ std::unique_ptr<Sequence> make_feet(std::uint64_t seed) {
   const double heading = random.uniform() < 0.5 ? random.uniform(-0.6, 0.6) : random.uniform(-3.1, 3.1);
   const bool lying = random.uniform() < 0.3;
   for (const bool left : {false, true}) {
+    // Place each foot, turned a little from the common heading.
     const double apart = (left ? 0.5 : -0.5) * random.uniform(0.13, 0.3);
     const Eigen::Matrix3d R = exp_so3({0, 0, heading + random.uniform(-0.3, 0.3)}) *
                               exp_so3({lying ? random.uniform(-1.4, -1.0) : 0.0, 0, 0});
@@ -100,6 +101,8 @@ std::unique_ptr<Sequence> make_faces(std::uint64_t seed) {
     Body::Setting body{random_body(random), {}, {}, true, true};
     const double x = 0.3 * (i - 0.5 * (count - 1)), y = random.uniform(-0.05, 0.2);
     body.T_world_body = {exp_so3({0, 0, random.uniform(-0.5, 0.5)}), {x, y, random.uniform(-0.4, -0.2)}};
+
+    // Move each body a little from key to key, with hanging arms.
     const double hang = -body.size.arm.reach();
     for (double time = 0; time <= s.duration; time += kHandlessStep)
       body.keys.push_back({time,

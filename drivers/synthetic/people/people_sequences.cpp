@@ -143,6 +143,7 @@ std::unique_ptr<Sequence> make_egocentric(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
+  // Choose the view of the camera and the distance of the wall.
   KeyedRandom random = scene_random(seed);
   StagedSequence::Setting s = handless_setting(seed, random);
   s.T_camera_world = camera_above_table(random.uniform(-10, 25) * kDegree, random.uniform(0.6, 1.1));
@@ -152,12 +153,16 @@ std::unique_ptr<Sequence> make_empty_person(std::uint64_t seed) {
   Body::Setting body{random_body(random), {}, {}, true, true};
   const bool shown[] = {random.uniform() < 0.6, random.uniform() < 0.6};
   const Vector3d rest = wrist_at_rest(body.size, random);
+
+  // Move the body a little from key to key.
   for (double time = 0; time <= s.duration; time += kHandlessStep) {
     BodyKey key{time,
                 random_within({0.05, 0.05, 0.02}, random),
                 random_within({0.1, 0.1, 0.4}, random),
                 random_within({0.4, 0.2, 0.8}, random),
                 {}};
+
+    // Choose the places of both wrists.
     for (int arm = 0; arm < 2; ++arm) {
       const double outside = arm == 0 ? -1 : 1;
       const Vector3d sleeve = Vector3d(outside * 0.15, -0.36, -0.1) + random_within({0.15, 0.1, 0.2}, random);

@@ -33,6 +33,8 @@ void Rasteriser::draw(std::span<const Eigen::Vector3f> vertices, std::span<const
       float* nearest = buffer_.inverse_z.row(v);
       std::uint32_t* front = buffer_.triangle.row(v);
       const float start = static_cast<float>(inverse_z), delta = static_cast<float>(step);
+
+      // Keep the nearer surface in each pixel.
       for (int u = begin; u < end; ++u) {
         const float value = start + static_cast<float>(u - begin) * delta;
         const bool nearer = value > nearest[u];

@@ -62,6 +62,7 @@ void scan_triangle(int width, int height, ScreenPoint a, ScreenPoint b, ScreenPo
   const int first = static_cast<int>(std::ceil(std::max(a.v, 0.0)));
   const int last = static_cast<int>(std::ceil(std::min(c.v, static_cast<double>(height)))) - 1;
   for (int v = first; v <= last; ++v) {
+    // Find the pixels of this row between the two edges, and fill them.
     double left = edge_at(a, c, v), right = v < b.v ? edge_at(a, b, v) : edge_at(b, c, v);
     if (left > right) std::swap(left, right);
     const int begin = static_cast<int>(std::ceil(std::max(left, 0.0)));

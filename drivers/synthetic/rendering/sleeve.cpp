@@ -19,6 +19,8 @@ TriangleMesh make_sleeve(const SE3& T_camera_palm, const Eigen::Vector3d& elbow,
     path.push_back((1 - t) * (1 - t) * wrist + 2 * t * (1 - t) * bend + t * t * elbow);
     radii.push_back(s * (bare ? 0.0255 + 0.016 * t : 0.0315 + 0.0135 * t));
   }
+
+  // Build the tube around the curve.
   return make_tube(path, radii);
 }
 

@@ -109,6 +109,8 @@ std::unique_ptr<Sequence> make_scan(std::uint64_t seed) {
   show(1.2, {0, -1.1, 0}, open);
   show(1.0, {0.5, 0, 0}, open_joined());
   show(1.0, {-0.6, 0, 0.2}, open_relaxed());
+
+  // Bend the fingers in both views, with an open hand between them.
   bend_all(palm);
   show(2.0, palm, open);
   bend_all(back);

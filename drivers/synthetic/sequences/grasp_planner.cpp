@@ -68,6 +68,8 @@ HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed,
       if (step > 1) margin[v] -= (skin[v] - before[v]).norm();
       int& free = first_free[finger_of(segment)];
       const int next = (segment - 1) % 3 + 1;
+
+      // Skip skin that cannot touch yet, or whose joint has stopped already.
       if (margin[v] > 0 || free >= next) continue;
       margin[v] = object_distance(T_object_palm * skin[v].cast<double>()) - kContact;
       if (margin[v] < 0) free = next;

@@ -61,16 +61,21 @@ Result<SequenceInfo> sequence_info(const std::string& name) {
 
 Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const HandRig* rig, std::uint64_t seed,
                                                 const GraspChoice& choice) {
+  // The first sequences show free hands.
   if (name == "fist") return make_fist(seed);
   if (name == "open") return make_open(seed);
   if (name == "scan") return make_scan(seed);
   if (name == "wave") return make_wave(seed);
   if (name == "returns") return make_returns(seed);
   if (name == "two_hands") return make_two_hands(seed);
+
+  // These sequences grasp objects.
   if (name == "grasp_mug") return make_grasp(*rig, GraspedShape::mug, seed);
   if (name == "grasp_ball") return make_grasp(*rig, GraspedShape::ball, seed);
   if (name == "grasp_pliers") return make_grasp(*rig, GraspedShape::pliers, seed);
   if (name == "grasp") return make_varied_grasp(*rig, choice, seed);
+
+  // These sequences show people, with hands or without.
   if (name == "person") return make_person(seed);
   if (name == "desk") return make_desk_work(seed);
   if (name == "egocentric") return make_egocentric(seed);
@@ -78,6 +83,8 @@ Result<std::unique_ptr<Sequence>> make_sequence(const std::string& name, const H
   if (name == "empty_desk") return make_empty_desk(seed);
   if (name == "faces") return make_faces(seed);
   if (name == "feet") return make_feet(seed);
+
+  // The sequences of occlusion differ in its degree.
   for (int degree = 0; degree <= 6; ++degree)
     if (name == "occlusion_" + std::to_string(degree)) return make_occlusion(*rig, degree, seed);
   return tl::unexpected(sequence_info(name).error());

@@ -23,12 +23,15 @@ Result<void> check(GLuint object, GLenum what, GetStatus get_status, GetLog get_
 }  // namespace
 
 Result<GLuint> make_compute_program(const Gl& gl, const std::string& source) {
+  // Compile the shader.
   const GLuint shader = gl.CreateShader(GL_COMPUTE_SHADER);
   const char* text = source.c_str();
   gl.ShaderSource(shader, 1, &text, nullptr);
   gl.CompileShader(shader);
   const auto compiled = check(shader, GL_COMPILE_STATUS, gl.GetShaderiv, gl.GetShaderInfoLog);
   if (!compiled) return tl::unexpected(compiled.error());
+
+  // Link it into a program, which then no longer needs the shader object.
   const GLuint program = gl.CreateProgram();
   gl.AttachShader(program, shader);
   gl.LinkProgram(program);

@@ -70,16 +70,22 @@ Result<void> DeviceComparison::reserve() {
 void DeviceComparison::send() {
   const Gl& gl = context_->gl();
   const JobBytes bytes(job_);
+
+  // Send the skin and the map only when they have changed.
   if (job_.new_skin) {
     skin.send(gl, bytes.skin);
     gl.Uniform2iv(kPointsUniform, kSegmentCount, job_.points.data());
   }
+
+  // The map comes with the parameters of its camera.
   if (job_.new_map) {
     cells.send(gl, bytes.cells);
     hidden.send(gl, bytes.hidden);
     gl.Uniform4f(kCameraUniform, job_.camera[0], job_.camera[1], job_.camera[2], job_.camera[3]);
     gl.Uniform2i(kMapSizeUniform, job_.map_size[0], job_.map_size[1]);
   }
+
+  // The poses are sent in every call.
   poses.send(gl, bytes.poses);
   gl.Uniform1i(kFirstSegmentUniform, job_.first_segment);
 }

@@ -74,6 +74,8 @@ class DeviceThread {
         lock.unlock();
         Result<void> result = done(work_);  // works without the lock, since only this thread resets work_
         lock.lock();
+
+        // Hand over the result.
         result_ = std::move(result);
         work_ = nullptr;
         changed_.notify_all();

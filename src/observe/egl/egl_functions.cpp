@@ -26,9 +26,12 @@ void find_extension(const Egl& egl, const char* name, Function& function) {
 
 Result<Egl> load_egl(const std::string& library) {
   const std::string remedy = "sudo apt-get install libegl1 libgl1-mesa-dri";
+
   // EGL is never unloaded, because drivers leave threads and thread-local data behind.
   void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle) return fail("EGL cannot be loaded: " + std::string(dlerror()), library, remedy);
+
+  // Find the functions that every version of EGL has.
   Egl egl{};
   const bool complete =
       find(handle, "eglBindAPI", egl.BindAPI) && find(handle, "eglCreateContext", egl.CreateContext) &&
@@ -36,12 +39,18 @@ Result<Egl> load_egl(const std::string& library) {
       find(handle, "eglGetError", egl.GetError) && find(handle, "eglGetProcAddress", egl.GetProcAddress) &&
       find(handle, "eglInitialize", egl.Initialize) && find(handle, "eglMakeCurrent", egl.MakeCurrent) &&
       find(handle, "eglQueryString", egl.QueryString) && find(handle, "eglReleaseThread", egl.ReleaseThread);
+
+  // Close the handle; the library remains loaded.
   dlclose(handle);
   if (!complete) return fail("not an EGL library", library, remedy);
+
+  // Check whether the library can enumerate devices.
   const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const bool enumerates =
       has_extension(extensions, "EGL_EXT_device_base") ||
       (has_extension(extensions, "EGL_EXT_device_enumeration") && has_extension(extensions, "EGL_EXT_device_query"));
+
+  // Find the functions that enumerate devices.
   if (enumerates && has_extension(extensions, "EGL_EXT_platform_device")) {
     find_extension(egl, "eglGetPlatformDisplayEXT", egl.GetPlatformDisplayEXT);
     find_extension(egl, "eglQueryDevicesEXT", egl.QueryDevicesEXT);

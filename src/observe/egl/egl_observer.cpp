@@ -73,6 +73,7 @@ Result<std::unique_ptr<EglObserver>> EglObserver::open(float cap, DeviceChoice c
 Result<std::unique_ptr<EglObserver>> EglObserver::open(float cap, DeviceChoice choice,
                                                        std::function<Result<Egl>()> load_functions,
                                                        const DeviceLimits& limits) {
+  // Start the thread on which the driver is called.
   auto comparison = std::make_unique<DeviceComparison>(cap, choice, std::move(load_functions), limits.fence);
   std::unique_ptr<Thread> thread;
   try {
@@ -80,8 +81,12 @@ Result<std::unique_ptr<EglObserver>> EglObserver::open(float cap, DeviceChoice c
   } catch (const std::system_error& e) {  // too many threads
     return fail(std::string("no thread for the driver: ") + e.what(), "EGL");
   }
+
+  // Open the device on that thread, within the time limit.
   const auto opened = thread->run([](DeviceComparison& device) { return device.open(); }, limits.open);
   if (!opened) return tl::unexpected(opened.error());
+
+  // Keep the thread, and the description of its device.
   std::unique_ptr<EglObserver> observer(new EglObserver(std::move(thread), limits));
   observer->device_ = observer->thread_->state()->device();
   return observer;
@@ -105,6 +110,8 @@ Result<void> EglObserver::compare_on_device(const SampleBatch& batch, PatchDista
   job.new_map = job.new_skin || map_id_ != batch.map_id;
   if (job.new_skin) describe_skin(*batch.surface, job);
   if (job.new_map) describe_map(batch.map, job);
+
+  // Describe the samples themselves.
   job.first_segment = batch.first_segment;
   job.per_segment = static_cast<int>(batch.poses[0].size());
 
@@ -113,16 +120,21 @@ Result<void> EglObserver::compare_on_device(const SampleBatch& batch, PatchDista
     const auto reserved = thread_->run([](DeviceComparison& d) { return d.reserve(); }, limits_.call);
     if (!reserved) return reserved;
   }
+
+  // Write the skin and the map if the device does not have them yet.
   if (job.new_skin) write_skin(*batch.surface, static_cast<float*>(device.skin.memory()));
   if (job.new_map) {
     static_assert(sizeof(PixelMap::Cell) == 4 * sizeof(float), "the shader reads a cell as one vec4");
     std::memcpy(device.cells.memory(), batch.map.cells.data(), batch.map.cells.size() * sizeof(PixelMap::Cell));
     std::memcpy(device.hidden.memory(), batch.map.hidden.data(), batch.map.hidden.size() * sizeof(std::int32_t));
   }
+
+  // The poses differ in every call, so they are always written.
   write_poses(batch, static_cast<float*>(device.poses.memory()));
   surface_ = batch.surface;
   map_id_ = batch.map_id;
 
+  // Compare on the device, and read the result back.
   const auto compared = thread_->run([](DeviceComparison& d) { return d.compare(); }, limits_.call);
   if (!compared) return compared;
   read_distances(static_cast<const float*>(device.results.memory()), batch.first_segment, distances);

@@ -6,12 +6,14 @@
 namespace barehand {
 
 Result<Gl> load_gl(const Egl& egl) {
+  // Load the functions that are required.
   Gl gl;
 #define BAREHAND_GL_LOAD(type, name)                                \
   gl.name = reinterpret_cast<type>(egl.GetProcAddress("gl" #name)); \
   if (!gl.name) return fail("gl" #name " is missing", "OpenGL ES", "update the graphics driver");
   BAREHAND_GL_FUNCTIONS(BAREHAND_GL_LOAD)
 #undef BAREHAND_GL_LOAD
+
   // EGL may return an address for any name, so ask only for functions of extensions that the driver lists.
   const auto* extensions = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
   for (const char* suffix : {"EXT", "KHR"}) {
@@ -20,6 +22,8 @@ Result<Gl> load_gl(const Egl& egl) {
     const std::string name = std::string("glGetGraphicsResetStatus") + suffix;
     gl.GetGraphicsResetStatus = reinterpret_cast<PFNGLGETGRAPHICSRESETSTATUSPROC>(egl.GetProcAddress(name.c_str()));
   }
+
+  // Persistently mapped buffers are used where the driver has them.
   if (has_extension(extensions, "GL_EXT_buffer_storage"))
     gl.BufferStorageEXT = reinterpret_cast<PFNGLBUFFERSTORAGEEXTPROC>(egl.GetProcAddress("glBufferStorageEXT"));
   return gl;

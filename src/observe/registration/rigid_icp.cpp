@@ -74,6 +74,8 @@ class Registration {
     Fit fit;
     double sum_sq = 0;
     int matched = 0, counted = 0;
+
+    // A point that is hidden at this motion costs a fixed amount.
     for (std::size_t k = 0; k < model_.size(); ++k) {
       const OrientedPoint& q = model_[k];
       const Vector3d moved = motion * q.p;
@@ -81,14 +83,20 @@ class Registration {
         fit.cost += kHiddenCost * scale * scale;
         continue;
       }
+
+      // Match each other point, and add its robust cost.
       ++counted;
       const IcpPair pair = match(motion, q.p - pivot_, k, moved);
       const double distance_sq = (moved - pair.data).squaredNorm(), plane = pair.normal.dot(moved - pair.data);
       fit.cost += robust_cost(distance_sq, scale);
+
+      // Points that match within the scale count as inliers.
       if (distance_sq > scale * scale) continue;
       sum_sq += plane * plane;
       ++matched;
     }
+
+    // Average the sums.
     fit.cost /= static_cast<double>(model_.size());
     fit.inliers = counted > 0 ? static_cast<double>(matched) / counted : 0;
     fit.rms = matched > 0 ? std::sqrt(sum_sq / matched) : 0;
@@ -107,10 +115,14 @@ class Registration {
   Vector6d step(const SE3& T, double scale, double point_weight, std::size_t stride) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d b = Vector6d::Zero();
+
+    // Sum up the normal equations over the points that are not hidden.
     for (std::size_t k = 0; k < model_.size(); k += stride) {
       const OrientedPoint& q = model_[k];
       const Vector3d in_pivot = q.p - pivot_, moved = T * in_pivot;
       if (cloud_.hidden(moved)) continue;
+
+      // Match the point, and compute its robust weight.
       const IcpPair pair = match(T, in_pivot, k, moved);
       const IcpResidual r = icp_residual(T, pair);
       const Eigen::Vector4d w = robust_weight(r.value.tail<3>().squaredNorm(), scale) *
@@ -118,6 +130,7 @@ class Registration {
       H += r.jacobian.transpose() * w.asDiagonal() * r.jacobian;
       b += r.jacobian.transpose() * w.cwiseProduct(r.value);
     }
+
     // Damping makes the step zero in directions that no point constrains.
     H.diagonal().array() += 1e-9;
     H.diagonal() *= 1.001;
@@ -166,9 +179,12 @@ IcpResidual icp_residual(const SE3& T_camera_pivot, const IcpPair& pair) {
 IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud& cloud, const SE3& last_motion,
                       const MotionBound& bound, const RegistrationParams& params) {
   if (!params.enabled || static_cast<int>(cloud.size()) < params.min_points || model.size() < 20) return {};
+
+  // Start without motion, from the centroid of the cloud, and from the last motion.
   Registration registration(model, cloud, params);
   const Vector3d pivot = centroid_of(model);
   FrameVector<SE3> motions = {SE3{}, SE3{Eigen::Matrix3d::Identity(), cloud.centroid() - pivot}, last_motion};
+
   // Run the first half of the iterations with fewer points, and merge starts that have converged to the same motion.
   const int coarse = params.iterations / 2, first = params.iterations / 6;
   int begin = 0;
@@ -177,11 +193,14 @@ IcpResult align_rigid(std::span<const OrientedPoint> model, const ObservedCloud&
     leave_one_of_each(motions, pivot);
     begin = end;
   }
+
   // Refine each remaining motion with all points, and keep the best plausible one.
   IcpResult best;
   double best_cost = std::numeric_limits<double>::infinity();
   for (const SE3& coarse_motion : motions) {
     const SE3 motion = registration.run(coarse_motion, coarse, params.iterations, 1);
+
+    // Leave out motions that are not plausible or not better.
     if (!believable(motion, pivot, bound)) continue;
     const auto fit = registration.fit(motion);
     if (fit.cost >= best_cost) continue;

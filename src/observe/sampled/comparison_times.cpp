@@ -47,6 +47,8 @@ Result<ComparisonTimes> time_comparison(const SampleBatch& batch, Observer& cpu,
     Result<void> done;
     const double on_device = elapsed([&] { done = device.compare(anew, by_device); });
     if (!done) return tl::unexpected(done.error());
+
+    // Keep the times, except those of the first call.
     if (i < 0) continue;
     cpu_seconds[i] = on_cpu;
     device_seconds[i] = on_device;

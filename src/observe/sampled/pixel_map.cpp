@@ -50,6 +50,8 @@ PixelMap make_pixel_map(const HandObservation& o, bool missing_is_background, Wo
   // The map is one pixel larger on each side than the region of interest.
   const Intrinsics& camera = o.frame->camera;
   const int w = o.label.width(), h = o.label.height();
+
+  // Reuse the memory of the previous map.
   PixelMap map = std::move(reused);
   map.width = w + 2;
   map.height = h + 2;
