@@ -87,6 +87,7 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 
   // Skin of the palm blends into the nearest finger, but the palm keeps at least half of the weight.
   if (nearest == kPalm) {
+    // Find the nearest finger.
     int finger = 0;
     double nearest_finger = hand.segment_distance(segment_of(0, 0), p);
     for (int f = 1; f < kFingerCount; ++f) {

@@ -100,6 +100,8 @@ void SampledSolid::measure_areas() {
   fluxes_.resize(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) {
     const SurfaceSample& own = samples_[static_cast<std::size_t>(k)];
+
+    // Count the nearby samples of the same side, which share the area around this one.
     int sharing = 0;
     for_nearby(own.p, [&](const SurfaceSample& other) {
       sharing += (other.p - own.p).squaredNorm() < kRadius * kRadius && other.n.dot(own.n) > kSameSide;

@@ -56,6 +56,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
   if (all_tracked && !windows) return nullptr;
 
+  // Run the networks; after an error they are not used any more.
   Result<Detection> detection = Detection{};
   expect_tracked(frame, feedback);
   if (whole)
