@@ -230,6 +230,8 @@ Skin coarsened(const Skin& skin, double cell) {
   std::vector<Cluster> clusters;
   std::vector<int> cluster_of;
   cluster_of.reserve(skin.vertices.size());
+
+  // A cluster is a cube in the frame of a segment.
   for (const SkinVertex& v : skin.vertices) {
     const Eigen::Array3i cube = (v.in_a.array() * per_metre).floor().cast<int>();
     const auto [known, fresh] =

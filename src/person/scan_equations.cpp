@@ -145,6 +145,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     sums.as += w * by_weight * a;
     sums.bs += w * by_weight * b;
   }
+
+  // Add the sums of the poses to the tree.
   poses.add_to(tree);
 }
 
@@ -208,6 +210,8 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
     add(v.a, sums.skin_weight, sums.as);
     add(v.b, sums.skin_weight, sums.bs);
   }
+
+  // Build the sparse matrix of the couplings.
   coupling_.resize(kPose, variables.count());
   coupling_.setFromTriplets(entries.begin(), entries.end());
 }

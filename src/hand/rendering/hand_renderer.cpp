@@ -151,6 +151,8 @@ class Rasteriser {
       std::memcpy(depth, &old_depth, size);
       std::memcpy(vertex, &old_vertex, size);
     };
+
+    // Touch only the bytes that are left in the image.
     bytes == sizeof(Lanes) ? blend(sizeof(Lanes)) : blend(bytes);  // a constant size compiles to a single instruction
   }
 
