@@ -138,6 +138,8 @@ Skin make_blended_skin(const HandProfile& profile, double cell, const std::stop_
   const SE3 T_palm_hand = hand.pose()[kPalm].inverse();
   for (const Vector3d& p : mesh.vertices) {
     if (stop.stop_requested()) return {};
+
+    // Find the two segments and the skinning weight.
     const Binding binding = bind(hand, profile, p);
     SkinVertex v;
     v.a = static_cast<std::int16_t>(binding.a);

@@ -27,6 +27,8 @@ DistanceGrid::DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lowe
   const auto size = static_cast<float>(cell);
   float before = std::numeric_limits<float>::max();
   Vector3f at_before = Vector3f::Zero();
+
+  // Fill the fine grid.
   fill([&](const Vector3f& p) {
     float distance = coarse.distance(p);
 

@@ -201,6 +201,8 @@ Result<void> close_holes(ObjectMesh& mesh, const std::string& where, MeshRepair&
       if (next == loop.front()) break;
       loop.push_back(next);
     }
+
+    // Close the hole along the loop.
     if (auto closed = close_hole(mesh, loop, size, where); !closed) return closed;
     ++repair.closed;
   }

@@ -128,6 +128,8 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
       sum += p;
       ++count;
     }
+
+    // Shift the model by the difference of the two middles.
     if (count < 8) break;
     pose.t += (wanted - sum / static_cast<float>(count)).cast<double>();
   }

@@ -134,6 +134,8 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
         if (distance < least) best = &cluster, best_track = t, least = distance;
       }
     }
+
+    // Join this pair, or stop if none is near enough.
     if (!best) break;
     best->track = static_cast<int>(best_track);
     tracks_[best_track].seen = utime;

@@ -178,6 +178,8 @@ ObjectMesh largest_part(const TriangleMesh& mesh) {
     index[i] = static_cast<std::uint32_t>(part.vertices.size());
     part.vertices.push_back(mesh.vertices[i].cast<float>());
   }
+
+  // Copy its triangles with the new numbers of their corners.
   for (const auto& t : mesh.triangles)
     if (root_of(t[0]) == best) part.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
   return part;

@@ -130,6 +130,8 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
   const float n = static_cast<float>(count), weak = 0.01f * (xx + yy);
   xx += weak - n * mean.x() * mean.x(), yy += weak - n * mean.y() * mean.y(), xy -= n * mean.x() * mean.y();
   xz -= n * mean.x() * mean.z(), yz -= n * mean.y() * mean.z();
+
+  // Compute both slopes, unless the points lie on one line.
   const float determinant = xx * yy - xy * xy;
   if (!(determinant > 0)) return false;
   const float b = (yy * xz - xy * yz) / determinant, s = (xx * yz - xy * xz) / determinant;
@@ -172,6 +174,8 @@ void SurfaceCells::grow(std::vector<bool>& open) {
           at_border = true;
           continue;
         }
+
+        // Join the neighbour if no crease and no step lies between.
         const auto j = static_cast<std::int32_t>(place_.index(c + dc, r + dr));
         if (component_[j] >= 0 || !joined(i, j)) continue;
         component_[j] = number;

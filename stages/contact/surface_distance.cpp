@@ -72,6 +72,8 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
   }
   const auto best =
       static_cast<std::size_t>(std::min_element(distance_sq_.begin(), distance_sq_.end()) - distance_sq_.begin());
+
+  // Leave out skin that is too far from the surface.
   const float least_sq = distance_sq_[best];
   if (least_sq > kReach * kReach) return false;
 
@@ -98,6 +100,8 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
   const Vector3f foot = x - least * plane.normal, way = foot - p;
   const float length = way.norm();
   const int steps = 1 + static_cast<int>(length / kStep);
+
+  // Remember the last place that is not seen to be empty.
   Vector3f end = p;
   for (int k = 1; k <= steps; ++k) {
     const Vector3f at = p + way * (static_cast<float>(k) / static_cast<float>(steps));

@@ -75,6 +75,8 @@ class OnnxReader {
     const std::string& type = node.op_type();
     require(node.output_size() == 1, type + " with several outputs");
     require(node.input_size() >= (type == "Constant" ? 0 : type == "Slice" ? 3 : 1), type + " without inputs");
+
+    // Read the node by its type; what is no layer must compute a size.
     if (type == "Conv")
       add_convolution(node);
     else if (type == "Relu" || type == "Add")

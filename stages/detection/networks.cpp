@@ -35,6 +35,8 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
   const auto count = [&](int pixels, double f, int width) {
     return std::max(1, static_cast<int>(std::ceil(pixels * focal / (f * width) - 1e-6)));
   };
+
+  // Count the columns and rows of windows.
   const int columns = count(camera.width, camera.fx, kFullShape.width),
             rows = count(camera.height, camera.fy, kFullShape.height);
 
@@ -131,6 +133,8 @@ DetectedJoint read_joint(const NetworkOutput& output, int joint, const DepthView
   Eigen::Matrix2d across = square(kSpreadShare * metres) * heat.covariance;
   if (mirrored) across(0, 1) = across(1, 0) = -across(0, 1);
   const double depth_variance = square(kSpreadShare * kWindowDepth) * heat.value_variance + 0.5 * across.trace();
+
+  // Add the variances along the ray and across it.
   const Eigen::Vector3d ray = result.position / z;
   result.covariance = depth_variance * ray * ray.transpose();
   result.covariance.topLeftCorner<2, 2>() += across;

@@ -23,6 +23,8 @@ Result<std::vector<int>> read_classes(const json_fields::Object& file, std::size
     return fail("has interface " + std::to_string(static_cast<int>(*version)) + ", and " + std::to_string(kInterface) +
                     " is needed",
                 file.where, kRemedy);
+
+  // The list must be there, and not be too long.
   if (!file.has("classes") || !file.json["classes"].is_array() || file.json["classes"].size() > most)
     return fail("has no list \"classes\" of at most 64 rows", file.where, kRemedy);
 
@@ -63,6 +65,8 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
     else if (read)
       read = tl::unexpected(got.error());
   };
+
+  // Lists are read in the same way.
   const auto numbers = [&](const char* key, double lo, double hi, auto&& values) {
     const auto got = file.numbers(key, static_cast<std::size_t>(values.size()), lo, hi);
     if (got)

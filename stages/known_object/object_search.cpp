@@ -59,6 +59,8 @@ PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, con
   const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
   const Vector3f t = T_object_camera.t.cast<float>(), centre = object.centre.cast<float>();
   const auto radius_sq = static_cast<float>(object.radius * object.radius);
+
+  // Only points within the object's sphere could be the object.
   int within = 0, on_surface = 0;
   for (const Vector3f& point : points) {
     const Vector3f p = R * point + t;
@@ -108,6 +110,8 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
       around_.push_back(p);
       sum += p;
     }
+
+    // Shift the middle to the mean of these points.
     if (around_.empty()) break;
     middle = sum / static_cast<float>(around_.size());
   }

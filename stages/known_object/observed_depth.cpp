@@ -90,6 +90,8 @@ Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_cam
     if (p.z() <= 0) continue;
     const Eigen::Vector2d pixel = frame_.camera.project(p);
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+
+    // Measure the depth at this pixel, which may belong to a hand.
     const double z = frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
     const bool hand = z > 0 && of_hand(u, v);
 
