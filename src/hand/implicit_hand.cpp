@@ -283,6 +283,8 @@ double ImplicitHand::distance(const Eigen::Vector3d& p) const {
   // Fingers must not blend with each other, so they are combined by a sharp minimum.
   double d = segment_distance(kPalm, p);
   double fingers = std::numeric_limits<double>::max();
+
+  // Each finger is the minimum of its three segments.
   for (int finger = 0; finger < kFingerCount; ++finger) {
     double chain = std::numeric_limits<double>::max();
     for (int k = 0; k < 3; ++k) chain = std::min(chain, segment_distance(segment_of(finger, k), p));

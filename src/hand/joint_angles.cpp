@@ -38,6 +38,8 @@ std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile
       // abduction about +y.
       const bool flexion = std::abs(dof.axis.x()) > std::abs(dof.axis.y());
       const bool flipped = flexion ? dof.axis.x() > 0 : dof.axis.y() < 0;
+
+      // Widen the range on both sides.
       const double lo = (flipped ? -dof.upper : dof.lower) - widening;
       const double hi = (flipped ? -dof.lower : dof.upper) + widening;
       (flexion ? limits[s].flexion_lo : limits[s].abduction_lo) = lo;

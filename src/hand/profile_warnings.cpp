@@ -23,6 +23,7 @@ constexpr double kRadians = 3.2 * kDegree;
 std::vector<std::string> profile_warnings(const HandProfile& profile) {
   std::vector<std::string> warnings;
 
+  // Warn of an implausible length, as from numbers in millimetres.
   const double length = profile.hand_length();
   if (length < kSmallest || length > kLargest)
     warnings.push_back(
@@ -41,6 +42,8 @@ std::vector<std::string> profile_warnings(const HandProfile& profile) {
     widest = gap;
     at = s;
   }
+
+  // Warn of a gap that is wider than rounding explains.
   if (at >= 0)
     warnings.push_back(
         formatted("the joint of %s lies %.1f mm from the end of the bone before it: are the numbers of "

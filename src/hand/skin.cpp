@@ -87,6 +87,7 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 
   // Skin of the palm blends into the nearest finger, but the palm keeps at least half of the weight.
   if (nearest == kPalm) {
+    // Find the nearest finger.
     int finger = 0;
     double nearest_finger = hand.segment_distance(segment_of(0, 0), p);
     for (int f = 1; f < kFingerCount; ++f) {
@@ -137,6 +138,8 @@ Skin make_blended_skin(const HandProfile& profile, double cell, const std::stop_
   const SE3 T_palm_hand = hand.pose()[kPalm].inverse();
   for (const Vector3d& p : mesh.vertices) {
     if (stop.stop_requested()) return {};
+
+    // Find the two segments and the skinning weight.
     const Binding binding = bind(hand, profile, p);
     SkinVertex v;
     v.a = static_cast<std::int16_t>(binding.a);
@@ -229,6 +232,8 @@ Skin coarsened(const Skin& skin, double cell) {
   std::vector<Cluster> clusters;
   std::vector<int> cluster_of;
   cluster_of.reserve(skin.vertices.size());
+
+  // A cluster is a cube in the frame of a segment.
   for (const SkinVertex& v : skin.vertices) {
     const Eigen::Array3i cube = (v.in_a.array() * per_metre).floor().cast<int>();
     const auto [known, fresh] =

@@ -96,6 +96,8 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
       for (int y = 0; y < cells.y(); ++y)
         for (int x = 0; x < cells.x(); ++x) visit(Vector3i(x, y, z));
   };
+
+  // Move each vertex onto the surface in a few steps.
   for_each_cell([&](const Vector3i& n) {
     Vector3d vertex;
     if (!grid.cell_vertex(n, vertex)) return;

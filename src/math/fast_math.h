@@ -25,6 +25,8 @@ inline float fast_exp(float x) {
   p = p * r + 4.1665795894e-2f;
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
+
+  // Scale the result by the power of two, and return zero for very small ones.
   const float mantissa = p * r * r + r + 1.0f;
   const float scale = std::bit_cast<float>((static_cast<std::int32_t>(clamped) + 127) << 23);
   return x < -87.0f ? 0.0f : mantissa * scale;

@@ -73,12 +73,16 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
   node.upper = -node.lower;
   node.centre = node.area = Vector3d::Zero();
   double weight = 0;
+
+  // Extend the box by the corners of every triangle.
   for (std::uint32_t i = first; i < first + count; ++i) {
     const Corners c = corners(order_[i]);
     for (const Vector3d& corner : c) {
       node.lower = node.lower.cwiseMin(corner);
       node.upper = node.upper.cwiseMax(corner);
     }
+
+    // Add the triangle to the normal and the centroid, weighted by its area.
     const Vector3d area = 0.5 * (c[1] - c[0]).cross(c[2] - c[0]);
     const double w = area.norm() + 1e-18;  // triangles without area have a centroid, too
     node.area += area;

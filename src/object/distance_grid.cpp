@@ -27,8 +27,12 @@ DistanceGrid::DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lowe
   const auto size = static_cast<float>(cell);
   float before = std::numeric_limits<float>::max();
   Vector3f at_before = Vector3f::Zero();
+
+  // Fill the fine grid.
   fill([&](const Vector3f& p) {
     float distance = coarse.distance(p);
+
+    // Measure exactly within a band around the surface.
     if (std::abs(distance) < kBand * size) {
       const auto exact = static_cast<float>(mesh.nearest(p.cast<double>()).distance);
       const bool same_side = exact + std::abs(before) > 1.01f * (p - at_before).norm();

@@ -34,6 +34,8 @@ std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh) {
     const double at = area * (i + random.uniform()) / kSamples;
     const auto found = std::min(std::upper_bound(upto.begin(), upto.end(), at), upto.end() - 1);
     const auto t = static_cast<std::size_t>(found - upto.begin());
+
+    // Draw a place that is uniformly distributed over the triangle.
     const auto u = static_cast<float>(std::sqrt(random.uniform())), v = static_cast<float>(random.uniform());
     samples.push_back(
         {(1 - u) * corner(t, 0) + u * (1 - v) * corner(t, 1) + u * v * corner(t, 2), cross(t).normalized()});

@@ -57,6 +57,8 @@ void merge_vertices(ObjectMesh& mesh, MeshRepair& repair) {
     const Vector3f& v = mesh.vertices[i];
     const Eigen::Vector3i lower = ((v.array() - tolerance) / cell).floor().cast<int>();
     const Eigen::Vector3i upper = ((v.array() + tolerance) / cell).floor().cast<int>();
+
+    // Find the first kept vertex at this place.
     Index found = static_cast<Index>(kept.size());
     for (int x = lower.x(); x <= upper.x(); ++x)
       for (int y = lower.y(); y <= upper.y(); ++y)
@@ -134,6 +136,8 @@ Result<std::vector<std::vector<Index>>> orient(ObjectMesh& mesh, const std::stri
     if (state[first] != unvisited) continue;
     std::vector<Index>& part = parts.emplace_back(1, static_cast<Index>(first));
     state[first] = as_it_is;
+
+    // Turn each neighbour that runs the other way round, which must not contradict an earlier decision.
     for (std::size_t i = 0; i < part.size(); ++i)
       for (const auto& [other, consistent] : neighbours[part[i]]) {
         const char wanted = (state[part[i]] == as_it_is) == consistent ? as_it_is : turned;
@@ -143,6 +147,8 @@ Result<std::vector<std::vector<Index>>> orient(ObjectMesh& mesh, const std::stri
           return fail("the surface has one side only, like a Moebius strip", where, kRemedy);
       }
   }
+
+  // Turn the triangles.
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state[i] == turned) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]), ++repair.flipped;
   return parts;
@@ -195,6 +201,8 @@ Result<void> close_holes(ObjectMesh& mesh, const std::string& where, MeshRepair&
       if (next == loop.front()) break;
       loop.push_back(next);
     }
+
+    // Close the hole along the loop.
     if (auto closed = close_hole(mesh, loop, size, where); !closed) return closed;
     ++repair.closed;
   }

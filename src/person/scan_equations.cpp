@@ -126,6 +126,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     const auto posed = [&](int s, const Vector3f& p) -> Vector3d { return frame.pose[s] * p.cast<double>(); };
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_weight = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
+
+    // A twist moves the vertex by its share of the skinning weight.
     const auto twist = [&](int s, double skin_weight) {
       PoseColumn column;
       column.head<3>() = skin_weight * normal;
@@ -145,6 +147,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     sums.as += w * by_weight * a;
     sums.bs += w * by_weight * b;
   }
+
+  // Add the sums of the poses to the tree.
   poses.add_to(tree);
 }
 
@@ -208,6 +212,8 @@ void ScanFrameEquations::couple(const ScanModel& model, const ScanVariables& var
     add(v.a, sums.skin_weight, sums.as);
     add(v.b, sums.skin_weight, sums.bs);
   }
+
+  // Build the sparse matrix of the couplings.
   coupling_.resize(kPose, variables.count());
   coupling_.setFromTriplets(entries.begin(), entries.end());
 }

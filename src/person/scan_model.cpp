@@ -150,6 +150,8 @@ HandProfile scanned_profile(const ScanModel& start_model, const ScanModel& model
     SegmentProfile& bone = hand.segments[s];
     const Vector3d& start = model.in_segment[s];
     Vector3d end = bone.distal;
+
+    // Choose the distal end by the kind of the segment.
     if (s == kPalm) {
       end = model.in_parent[segment_of(2, 0)];
     } else if (!is_tip(s)) {

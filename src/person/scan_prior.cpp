@@ -127,6 +127,8 @@ class Prior {
       J.col(k) << normal, (v.in_a.cast<double>() - centre).cross(normal) / kMeanLever;
       offset[k] = offset_[members[k]];
     }
+
+    // Scale the means, and add them as residuals.
     J /= static_cast<double>(count) * kMeanOffset;
     add_mean_rows(unknowns, J, J * offset);
   }
@@ -142,6 +144,8 @@ class Prior {
     double beside = sections->middle_x(0) - model_.in_segment[segment].x();
     std::vector<int> unknowns = {ScanVariables::joint(segment) + 3};
     std::vector<double> J = {-1};
+
+    // Add the derivatives with respect to the offsets of the vertices.
     for (std::size_t k = 0; k < sections->vertices().size(); ++k) {
       const int vertex = sections->vertices()[k];
       const double change = sections->middle_x_per_offset()[static_cast<Eigen::Index>(k)];

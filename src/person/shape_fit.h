@@ -28,6 +28,8 @@ template <class V>
 void visit(V& v, ShapeFitParams& p) {
   v.user("enabled", p.enabled,
          "learn the person's hand while tracking: the bones if the profile is a mean hand, and the skin");
+
+  // These set which frames contribute to the shape, and how much.
   v("every", p.every, 1, 1000,
     "every n-th frame contributes to the shape, until there are `initial_frames` contributions");
   v("every_later", p.every_later, 1, 100000,
@@ -37,11 +39,15 @@ void visit(V& v, ShapeFitParams& p) {
   v("weight", p.weight, 1e-6, 1.0,
     "weight of one frame relative to the prior, which is how people differ; it is small, as errors of the model repeat "
     "in all frames");
+
+  // These limit the memory of earlier contributions.
   v("memory", p.memory, 0.01, 10.0,
     "length of the memory relative to the number of contributions so far; old ones were made with a less accurate "
     "hand");
   v.formerly("memory_looks");
   v("memory_frames", p.memory_frames, 1.0, 1e6, "longest memory, in contributions");
+
+  // These set when the skin is rebuilt and when it is scanned.
   v("first_rebuild", p.first_rebuild, 1, 100000,
     "contributions before the skin is first rebuilt; each later rebuild waits for twice as many");
   v.user("scan_after", p.scan_after, 32, 100000,

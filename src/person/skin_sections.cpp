@@ -26,6 +26,8 @@ std::optional<SkinSections> SkinSections::fit(const Skin& skin, int segment, dou
   const auto count = static_cast<Eigen::Index>(sections.vertices_.size());
   Eigen::Matrix<double, Eigen::Dynamic, 7> A(count, 7);
   Eigen::VectorXd support(count), squares(count);
+
+  // Add one equation for each vertex.
   for (Eigen::Index k = 0; k < count; ++k) {
     const SkinVertex& v = skin.vertices[sections.vertices_[k]];
     const Eigen::Vector2d n = v.normal_in_a.head<2>().cast<double>(), p = v.in_a.head<2>().cast<double>();

@@ -74,6 +74,7 @@ void CommandedTracker::follow(const Command& command) {
     log_.logger().info("command: track from the given pose");
     tracker_.hand(hands[0]).apply(StartAt{command.pose});
   } else {
+    // Use the given profile from now on, and warn of what is implausible about it.
     auto profile = parse_profile(command.profile, "command");
     if (!profile) return log_.warn("command", "ignored a hand profile: " + profile.error().message());
     for (const std::string& warning : profile_warnings(*profile))

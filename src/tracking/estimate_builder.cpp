@@ -43,6 +43,8 @@ void EstimateBuilder::change() {
 HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen,
                                        bool bad, const PersonModel& person, Decisions decisions) {
   auto out = std::allocate_shared<HandEstimate>(FrameAllocator<HandEstimate>());
+
+  // Copy what identifies the frame and the hand.
   out->utime = observation.frame->utime;
   out->number = observation.frame->number;
   out->sensor = observation.frame->sensor;
@@ -51,6 +53,8 @@ HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, Track
   out->handedness = person.profile().handedness;
   out->profile = person.shared_profile();
   out->decisions = std::move(decisions);
+
+  // Fill in the pose that was chosen, or the last tracked one while the track is held or lost.
   if (status == TrackStatus::tracking && chosen) {
     fill_segments(*out, *chosen, bad, person.size_in_view());
     last_tracked_ = out;
@@ -65,6 +69,8 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
   const TrackerParams& params = context_.params;
   out.score = refined.score;
   out.joint_gap = chosen.joint_gap;
+
+  // Find the segments of which too little is matched to be called seen.
   std::array<bool, kSegmentCount> hidden;
   for (int s = 0; s < kSegmentCount; ++s) hidden[s] = refined.matched[s] < params.seen_fraction;
 
@@ -81,6 +87,8 @@ void EstimateBuilder::fill_segments(HandEstimate& out, const Hypothesis& chosen,
     state.covariance = covariance[s];
     if (size_in_view != 1) state.covariance += size_covariance(refined.pose[s], size_in_view);
     if (bad) state.covariance.diagonal().head<3>().array() += kBadDeviation * kBadDeviation;
+
+    // State how well the segment is seen, and its velocity if the track continues.
     state.visible = refined.visible[s];
     state.seen = !hidden[s];
     state.confidence = confidence(*out.profile, state, s);

@@ -156,6 +156,8 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
   // A copy of this size, or of the size that it may stand for, must explain the observation clearly better.
   std::vector<double> log_sizes = {log_size};
   if (std::abs(log_size) > kFarSize) log_sizes.push_back(kUnderstated * log_size);
+
+  // Search with a copy of each size, and keep the best one.
   std::optional<double> best;
   for (const double log_other : log_sizes) {
     const double size = std::exp(log_other);
@@ -165,6 +167,8 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
     best = size;
   }
   if (!best) return std::nullopt;
+
+  // Confirm the size, and count refuted sizes anew.
   size_refuted_ = 0;
   confirmed_size_ = best;
   return best;

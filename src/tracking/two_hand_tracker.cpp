@@ -74,6 +74,8 @@ HandEstimates TwoHandTracker::process(const HandObservations& observations) {
     apply_verification(k, *out[k]);
     check_tracked_size(k, *ordered[k], *out[k]);
   }
+
+  // Without a tracked hand, search both hands at once.
   if (tracked.empty())
     search_both(ordered, out);
   else
@@ -141,6 +143,8 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
   // profile's own side, the mirrored profile is not tried, since it has the wrong size, too.
   const double score = found ? found->score() : INFINITY;
   const bool other_size = check_found_size(0, observation, found);
+
+  // Tell the verification that nothing was found, or let it test the other side.
   if (score > params_.loss.lost_score) {
     if (found && !other_size && params_.size_check) check.nothing_found(observation, score);
   } else if (params_.side_check) {
@@ -218,6 +222,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     if (clearly_better(straight, crossed)) owned = {0, 1};
     if (clearly_better(crossed, straight)) owned = {1, 0};
   } else {
+    // Give a single observation to the hand that explains it clearly better.
     const int j = observations[0]->hand_present ? 0 : 1;
     for (int k = 0; k < 2; ++k) {
       const bool other_returns = tracks[1 - k].status == TrackStatus::lost && tracks[k].status != TrackStatus::lost;

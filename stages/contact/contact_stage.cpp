@@ -64,11 +64,15 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
       cells_.collect(observations, estimates, k, on_skin, points_, open_);
     }
   }
+
+  // Leave out the points that belong to a tracked hand.
   std::erase_if(points_, [&](const SurfacePoint& point) {
     for (std::size_t k = 0; k < estimates.size(); ++k)
       if (tracked(*estimates[k]) && hands_[k].owns(point)) return true;
     return false;
   });
+
+  // Track the objects, and the known objects among them.
   objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, space_, open_, points_, out->objects);
   find_known(observations, estimates, out->objects);
 
@@ -82,6 +86,8 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
   }
+
+  // Let the objects remember which of them the hands touch.
   objects_.note_touches(out->hands);
   return out;
 }
@@ -107,6 +113,8 @@ void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estima
     const Vector3f t = T_object_camera.t.cast<float>();
     DistanceGrid::Sample least{SurfaceDistance::kReach, Vector3f::Zero()};
     if (known.object->grid.distance(R * skin.centre + t) > skin.radius + SurfaceDistance::kReach) continue;
+
+    // Sample the distance grid of the object at every point of the skin.
     const Vector3f* nearest = nullptr;
     for (const Vector3f& p : skin.points) {
       const DistanceGrid::Sample sample = known.object->grid.sample(R * p + t);
@@ -123,6 +131,8 @@ void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estima
     contact.deviation = std::sqrt(variance(segment, contact.point, contact.normal) +
                                   variance(known.T_camera_object, known.covariance, contact.point, contact.normal) +
                                   kSkinDeviation * kSkinDeviation);
+
+    // An unseen fingertip counts as more likely to touch the known object that its hand holds.
     contact.inferred = !segment.seen;
     contact.partner = known.object->id;
     const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
@@ -135,6 +145,8 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentState& segment = estimate.segments[s];
     Contact& contact = contacts[s];
+
+    // Find the surface that is nearest to this segment.
     const auto nearest = distance_.measure(hand.skin(s), points_, [this](std::int32_t object, const Vector3f& p) {
       return space_.empty(p) || objects_.seen_empty(object, p);
     });
@@ -146,6 +158,8 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
       }
       continue;
     }
+
+    // State the distance and its deviation.
     contact.point = nearest->point.cast<double>();
     contact.normal = nearest->normal.cast<double>();
     contact.distance = nearest->distance;
@@ -202,6 +216,8 @@ void ContactStage::touch_hand(std::size_t own, std::size_t other, const HandEsti
       const SegmentState &first = estimates[own]->segments[a.segment], &second = estimates[other]->segments[b.segment];
       const double apart =
           variance(first, measured.on_a, measured.normal) + variance(second, measured.on_b, measured.normal);
+
+      // Offer the contact to the segment, which keeps the nearest one.
       Contact contact = touch_of_skins(measured.distance, apart, first, second);
       contact.point = measured.on_b;
       contact.normal = measured.normal;

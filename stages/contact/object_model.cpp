@@ -57,6 +57,8 @@ int ObjectModel::nearest(const Vector3f& p) const {
   if (!near(p)) return -1;
   const Vector3i i = indices(p);
   if ((i.array() < kReach).any() || (i.array() >= kSide - kReach).any()) return -1;
+
+  // Compare the surfels of all cells within reach.
   int best = -1;
   float least = std::numeric_limits<float>::infinity();
   for (int z = -kReach; z <= kReach; ++z)
@@ -110,6 +112,7 @@ double ObjectModel::contradicted(const SE3& T_camera_object, const ObservedSpace
 
 SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* const> points,
                          const ObservedSpace& space) const {
+  // Shift the model up to twice, so that the middle of its visible surface comes to lie on that of the points.
   Vector3f wanted = Vector3f::Zero();
   for (const SurfacePoint* point : points) wanted += point->p / static_cast<float>(points.size());
   SE3 pose = predicted;
@@ -125,6 +128,8 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
       sum += p;
       ++count;
     }
+
+    // Shift the model by the difference of the two middles.
     if (count < 8) break;
     pose.t += (wanted - sum / static_cast<float>(count)).cast<double>();
   }
@@ -132,6 +137,7 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
 }
 
 SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const {
+  // Express the prediction's uncertainty as information on the shift and the turn.
   const std::size_t step = 1 + points.size() / kMostPoints;
   Vector6d information;
   information << Eigen::Vector3d::Constant(1 / (kShift * kShift)), Eigen::Vector3d::Constant(1 / (kTurn * kTurn));
@@ -145,9 +151,13 @@ SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const
     for (std::size_t k = 0; k < points.size(); k += step) {
       const int i = nearest(T.back(points[k]->p));
       if (i < 0 || surfels_[i].weight < kTrusted) continue;
+
+      // Leave out the surfels that face another way.
       const Surfel& surfel = surfels_[i];
       const Vector3f n = T.R * surfel.n, place = T * surfel.p;
       if (n.dot(points[k]->n) < 0.5f) continue;
+
+      // Weigh the distance along the normal robustly.
       const double r = n.dot(points[k]->p - place);
       const double weight = 1 / (1 + r * r / (kOutlier * kOutlier / 4));
       const Vector6d row = point_jacobian((place - T.t).cast<double>()).transpose() * n.cast<double>();
@@ -163,6 +173,8 @@ SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const
     b *= scale;
     A.diagonal() += information;
     b += information.cwiseProduct(boxminus(predicted, pose));
+
+    // Step to the solution, and stop when the step is small.
     covariance = A.inverse();
     const Vector6d twist = covariance * b;
     pose = boxplus(pose, twist);
@@ -196,6 +208,8 @@ void ObjectModel::add(const Vector3f& p, const Vector3f& n) {
   if (c < 0) return;
   Cell& cell = cells_[c];
   cell.empty = 0;
+
+  // Create a surfel in a cell that has none.
   if (cell.surfel < 0) {
     if (surfels_.size() >= kMostSurfels) return;
     cell.surfel = static_cast<std::int16_t>(surfels_.size());
@@ -219,6 +233,8 @@ void ObjectModel::remove_contradicted(const SE3& T_camera_object, const Observed
   const Pose T(T_camera_object);
   for (std::size_t i = 0; i < surfels_.size();) {
     Surfel& surfel = surfels_[i];
+
+    // A surfel loses weight where the space is empty, or where it faces the camera and no depth is measured.
     const Vector3f p = T * surfel.p;
     if (space.empty(p))
       surfel.weight = 0.7f * surfel.weight - 0.3f;
@@ -228,6 +244,8 @@ void ObjectModel::remove_contradicted(const SE3& T_camera_object, const Observed
       ++i;
       continue;
     }
+
+    // Remove the surfel, and move the last one into its place.
     cells_[surfel.cell].surfel = -1;
     count_around(surfel.cell, -1);
     if (i + 1 < surfels_.size()) {
@@ -251,6 +269,8 @@ void ObjectModel::see_empty_cells(const SE3& T_camera_object, const ObservedSpac
   const int stride = 1 + size.prod() / kMostCells;
   layer_ = (layer_ + 1) % stride;
   const Vector3f step = kCell * T.R.col(0);
+
+  // Count the frames in which a cell without a surfel was seen to be empty.
   for (int z = first.z() + layer_; z <= last.z(); z += stride)
     for (int y = first.y(); y <= last.y(); ++y) {
       Cell* row = &cells_[number({0, y, z})];

@@ -45,6 +45,8 @@ void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates
 void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
   centre.setZero();
   for (const SurfacePoint* point : points) centre += point->p.cast<double>() / static_cast<double>(points.size());
+
+  // Align the model with the points, and judge whether the pose is credible.
   const SE3 before = state.T_camera_object;
   bool credible = true;
   if (placed) {
@@ -82,6 +84,7 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
 
 /// States whether the nearest palm holds it.
 void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
+  // Find the tracked hand whose palm is nearest.
   const HandEstimate* nearest = nullptr;
   for (const HandEstimatePtr& estimate : estimates) {
     if (estimate->status != TrackStatus::tracking) continue;
@@ -90,6 +93,8 @@ void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
     };
     if (!nearest || distance(*estimate) < distance(*nearest)) nearest = estimate.get();
   }
+
+  // Compare the object's place in the palm with its place before.
   bool held = false;
   hand_ = -1;
   if (nearest && !open) {

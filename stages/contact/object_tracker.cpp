@@ -91,6 +91,8 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       }
       continue;
     }
+
+    // Assign the component to the track whose model has most of its points near, if they are enough.
     int most = std::max(0, static_cast<int>(kOverlap * count_[i]) - 1);
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       if (near_[t * components + i] <= most) continue;
@@ -119,6 +121,7 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
   // Join the nearest pairs of an object and a track that are both free.
   const std::size_t known = tracks_.size();
   while (true) {
+    // Find the nearest of the free pairs.
     Cluster* best = nullptr;
     std::size_t best_track = 0;
     double least = 1;
@@ -131,6 +134,8 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
         if (distance < least) best = &cluster, best_track = t, least = distance;
       }
     }
+
+    // Join this pair, or stop if none is near enough.
     if (!best) break;
     best->track = static_cast<int>(best_track);
     tracks_[best_track].seen = utime;
@@ -152,10 +157,14 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
 void ObjectTracker::merge(std::int64_t utime) {
   const auto components = static_cast<std::size_t>(links_.components());
   const std::size_t known = components == 0 ? 0 : near_.size() / components;
+
+  // Search for a track that was not seen and whose model is near the points of another track.
   for (std::size_t t = 0; t < known; ++t) {
     ObjectTrack& track = tracks_[t];
     for (std::size_t i = 0; i < components && track.seen != utime; ++i) {
       if (owner_[i] < 0 || count_[i] < kSpeck || near_[t * components + i] < kSame * count_[i]) continue;
+
+      // Keep the older identifier and forget the model of the track that was not seen.
       ObjectTrack& other = tracks_[owner_[i]];
       if (track.state.id < other.state.id) std::swap(track.state.id, other.state.id);
       track.model = ObjectModel();

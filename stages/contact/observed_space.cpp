@@ -42,6 +42,8 @@ bool ObservedSpace::blank(const Eigen::Vector3f& p) const {
               v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
     const Image<float>& depth = view.observation->depth;
     if (!depth.contains(u - kAround, v - kAround) || !depth.contains(u + kAround, v + kAround)) continue;
+
+    // Look for a measured depth around the pixel.
     in_view = true;
     for (int y = v - kAround; y <= v + kAround; ++y)
       for (int x = u - kAround; x <= u + kAround; ++x)

@@ -65,6 +65,8 @@ void PosedHand::pose(const HandEstimate& estimate) {
       skin.normals.push_back(R * Vector3f(surface.nx[i], surface.ny[i], surface.nz[i]));
       skin.centre += skin.points.back();
     }
+
+    // Complete the enclosing sphere.
     skin.centre /= static_cast<float>(skin.points.size());
     skin.radius = 0;
     for (const Vector3f& p : skin.points) skin.radius = std::max(skin.radius, (p - skin.centre).norm());

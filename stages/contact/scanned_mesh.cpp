@@ -100,6 +100,8 @@ void SampledSolid::measure_areas() {
   fluxes_.resize(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) {
     const SurfaceSample& own = samples_[static_cast<std::size_t>(k)];
+
+    // Count the nearby samples of the same side, which share the area around this one.
     int sharing = 0;
     for_nearby(own.p, [&](const SurfaceSample& other) {
       sharing += (other.p - own.p).squaredNorm() < kRadius * kRadius && other.n.dot(own.n) > kSameSide;
@@ -176,6 +178,8 @@ ObjectMesh largest_part(const TriangleMesh& mesh) {
     index[i] = static_cast<std::uint32_t>(part.vertices.size());
     part.vertices.push_back(mesh.vertices[i].cast<float>());
   }
+
+  // Copy its triangles with the new numbers of their corners.
   for (const auto& t : mesh.triangles)
     if (root_of(t[0]) == best) part.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
   return part;

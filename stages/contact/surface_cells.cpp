@@ -43,6 +43,8 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
   fill_cells(observations, *estimates[k], k, on_skin);
   fit_planes();
   grow(open);
+
+  // Add the cells of the new components to the points.
   for (std::size_t i = 0; i < component_.size(); ++i) {
     if (component_[i] < first) continue;
     SurfacePoint& point = points.emplace_back();
@@ -59,6 +61,8 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
   const SE3 T_palm_camera = estimate.segments[kPalm].T_camera_segment.inverse();
   const Vector3f middle = estimate.segments[segment_of(2, 0)].T_camera_segment.t.cast<float>();
   const double z_palm = std::max(0.1, estimate.segments[kPalm].T_camera_segment.t.z());
+
+  // Choose the spacing of the grid by the distance of the palm.
   step_ = std::max(1, static_cast<int>(std::lround(kSpacing * seen.frame->camera.fx / z_palm)));
   place_.reset(seen.depth.width() / step_, seen.depth.height() / step_, Vector3f::Zero());
   component_.reset(place_.width(), place_.height(), kOther);
@@ -71,14 +75,20 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
       if (label == PixelLabel::unknown) continue;
       const Vector3f p = seen.point(u, v);
       if (p.z() <= 0) continue;
+
+      // Leave out the skin of this hand, the forearm and the other hand.
       const bool foreign = label == PixelLabel::hand && !on_skin(p);
       if (label == PixelLabel::hand && !foreign) continue;
       if (on_forearm(T_palm_camera, p.cast<double>())) continue;
       if (of_other_hand(observations, k, u + seen.u0, v + seen.v0)) continue;
+
+      // Mark what lies beyond the surroundings of the hand.
       if ((p - middle).squaredNorm() > kSurroundings * kSurroundings) {
         beyond_.at(c, r) = std::abs(p.z() - middle.z()) < kSurroundings;
         continue;
       }
+
+      // Keep the place; an object begins to grow here.
       place_.at(c, r) = p;
       if (label == PixelLabel::object || foreign) component_.at(c, r) = kSeed;
     }
@@ -120,10 +130,13 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
   const float n = static_cast<float>(count), weak = 0.01f * (xx + yy);
   xx += weak - n * mean.x() * mean.x(), yy += weak - n * mean.y() * mean.y(), xy -= n * mean.x() * mean.y();
   xz -= n * mean.x() * mean.z(), yz -= n * mean.y() * mean.z();
+
+  // Compute both slopes, unless the points lie on one line.
   const float determinant = xx * yy - xy * xy;
   if (!(determinant > 0)) return false;
   const float b = (yy * xz - xy * yz) / determinant, s = (xx * yz - xy * xz) / determinant;
 
+  // State the point on the plane and the normal that faces the camera.
   point.p = centre;
   point.p.z() += mean.z() - b * mean.x() - s * mean.y();
   point.n = Vector3f(b, s, -1).normalized();
@@ -135,11 +148,15 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
 /// one thing stands on another. A surface that reaches the border of the region continues there.
 void SurfaceCells::grow(std::vector<bool>& open) {
   const int width = place_.width();
+
+  // Two cells are joined unless there is a step or a concave crease between them.
   const auto joined = [&](std::int32_t i, std::int32_t j) {
     if (normal_[j].isZero() || std::abs(place_[j].z() - place_[i].z()) > kStep) return false;
     const Vector3f step = fitted_[j] - fitted_[i];
     return step.dot(normal_[i] - normal_[j]) < kCrease * step.norm();
   };
+
+  // Begin a component at every seed that has none.
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(component_.size()); ++seed) {
     if (component_[seed] != kSeed || normal_[seed].isZero()) continue;
     const auto number = static_cast<std::int32_t>(open.size());
@@ -157,6 +174,8 @@ void SurfaceCells::grow(std::vector<bool>& open) {
           at_border = true;
           continue;
         }
+
+        // Join the neighbour if no crease and no step lies between.
         const auto j = static_cast<std::int32_t>(place_.index(c + dc, r + dr));
         if (component_[j] >= 0 || !joined(i, j)) continue;
         component_[j] = number;

@@ -43,6 +43,8 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
   for (const Vector3f& x : skin.points) {
     Plane plane;
     if (!find_plane(x, plane)) continue;
+
+    // Where the nearest point lies aside, extend the surface towards the skin.
     const float height = plane.height, aside_sq = plane.apart * plane.apart - height * height;
     if (aside_sq >= kAside * kAside) {
       if (nearest && std::max(height, 0.f) >= nearest->distance) continue;
@@ -62,6 +64,7 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
 
 /// Finds the known point nearest to x, and averages the planes around it. False: there is none within kReach.
 bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
+  // Find the nearest point of the surface.
   const float px = x.x(), py = x.y(), pz = x.z();
   for (std::size_t i = 0; i < close_.size(); ++i) {
     const float dx = px - x_[i], dy = py - y_[i], dz = pz - z_[i];
@@ -69,9 +72,12 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
   }
   const auto best =
       static_cast<std::size_t>(std::min_element(distance_sq_.begin(), distance_sq_.end()) - distance_sq_.begin());
+
+  // Leave out skin that is too far from the surface.
   const float least_sq = distance_sq_[best];
   if (least_sq > kReach * kReach) return false;
 
+  // Average the planes of the points around it.
   float weights = 0, f = 0;
   Vector3f normal = Vector3f::Zero();
   for (std::size_t i = 0; i < close_.size(); ++i) {
@@ -94,6 +100,8 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
   const Vector3f foot = x - least * plane.normal, way = foot - p;
   const float length = way.norm();
   const int steps = 1 + static_cast<int>(length / kStep);
+
+  // Remember the last place that is not seen to be empty.
   Vector3f end = p;
   for (int k = 1; k <= steps; ++k) {
     const Vector3f at = p + way * (static_cast<float>(k) / static_cast<float>(steps));

@@ -56,12 +56,15 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
   if (all_tracked && !windows) return nullptr;
 
+  // Search the frame, or the windows around the tracked hands.
   Result<Detection> detection = Detection{};
   expect_tracked(frame, feedback);
   if (whole)
     detection = detector_->detect(frame, workers_, places_);
   else if (windows)
     detection = detector_->detect_at(frame, places_, workers_);
+
+  // After an error, go on without the networks.
   if (!detection) {
     log_->warn("hands are found without networks from now on: {}", detection.error().message());
     detector_.reset();

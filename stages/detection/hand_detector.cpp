@@ -17,6 +17,8 @@ constexpr double kApart = 0.09;  // minimum distance between two hands' palms [m
 /// Median depth [m] of the pixels near a peak that are labelled as hand; 0 if there are none.
 double palm_depth(const Image<float>& depth, const NetworkOutput& output, double u, double v) {
   std::vector<float> found;
+
+  // Collect the depths around the palm at which the network labels the hand.
   const int centre_u = static_cast<int>(std::lround(u)), centre_v = static_cast<int>(std::lround(v));
   for (int y = std::max(0, centre_v - kPalmRadius); y <= std::min(depth.height() - 1, centre_v + kPalmRadius); ++y)
     for (int x = std::max(0, centre_u - kPalmRadius); x <= std::min(depth.width() - 1, centre_u + kPalmRadius); ++x) {
@@ -28,6 +30,8 @@ double palm_depth(const Image<float>& depth, const NetworkOutput& output, double
           hand >= logit(SurfaceLabel::object))
         found.push_back(depth.at(x, y));
     }
+
+  // Take the median.
   if (found.empty()) return 0;
   const auto middle = found.begin() + found.size() / 2;
   std::nth_element(found.begin(), middle, found.end());
@@ -113,6 +117,8 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
   Detection out;
   out.whole_frame = true;
   if (const auto found = find_palms(frame, out); !found) return tl::unexpected(found.error());
+
+  // Leave out the palms that earlier searches found unlikely, except where a tracked hand is.
   known_.begin_search();
   std::erase_if(palms_, [&](const Palm& palm) {
     const auto here = [&](const ExpectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };

@@ -38,6 +38,8 @@ HeatMoments heat_moments(const HeatMap& map, const float* values) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   HeatMoments moments;
+
+  // Add up the moments, weighted by the probabilities.
   for (int row = 0; row < map.height; ++row)
     for (int column = 0; column < map.width; ++column) {
       const int i = row * map.width + column;
@@ -50,6 +52,7 @@ HeatMoments heat_moments(const HeatMap& map, const float* values) {
       value_square += p * values[i] * values[i];
     }
 
+  // Normalise the sums.
   moments.mean = sum / total;
   moments.covariance = squares / total - moments.mean * moments.mean.transpose();
   moments.value_mean /= total;

@@ -109,6 +109,8 @@ Network::Net::Convolution Network::Net::prepare(const NetworkGraph::Convolution&
   if (step.relu) after.append_eltwise(1, dnnl::algorithm::eltwise_relu, 0, 0);
   dnnl::primitive_attr attributes;
   attributes.set_post_ops(after);
+
+  // Describe the convolution, and leave the order of the weights open.
   const Memory::desc bias({outputs}, kFloat, Memory::format_tag::x);
   const dnnl::convolution_forward::desc wanted(
       dnnl::prop_kind::forward_inference, dnnl::algorithm::convolution_direct, values[step.input].get_desc(),
@@ -123,6 +125,7 @@ Network::Net::Convolution Network::Net::prepare(const NetworkGraph::Convolution&
   dnnl::reorder(ordered, weights).execute(stream, ordered, weights);
   stream.wait();
 
+  // Bind the arguments of the convolution.
   Convolution result{dnnl::convolution_forward(chosen),
                      {{DNNL_ARG_SRC, values[step.input]},
                       {DNNL_ARG_WEIGHTS, weights},

@@ -35,6 +35,8 @@ NetworkCues network_cues(const DetectedHand& detected) {
     sum += std::min(kSure, labels.hand_log_odds[i]);
     ++count;
   }
+
+  // Without such a cell, the cue keeps its default.
   if (count) cues.labels = sum / count;
   return cues;
 }

@@ -75,6 +75,8 @@ class OnnxReader {
     const std::string& type = node.op_type();
     require(node.output_size() == 1, type + " with several outputs");
     require(node.input_size() >= (type == "Constant" ? 0 : type == "Slice" ? 3 : 1), type + " without inputs");
+
+    // Read the node by its type; what is no layer must compute a size.
     if (type == "Conv")
       add_convolution(node);
     else if (type == "Relu" || type == "Add")
@@ -112,6 +114,7 @@ class OnnxReader {
     step.stride = static_cast<int>(strides[0]);
     step.pad = static_cast<int>(pads[0]);
 
+    // Read the weights and the bias.
     require(node.input_size() == 3, "a convolution without bias");
     step.input = values_.at(node.input(0));
     step.weights = floats(node.input(1));
@@ -119,6 +122,8 @@ class OnnxReader {
     const NetworkGraph::Shape in = graph_.values[step.input];
     const int channels = static_cast<int>(step.bias.size());
     require(step.weights.size() == step.bias.size() * in.channels * step.kernel * step.kernel, "a grouped convolution");
+
+    // Add the output, whose size follows from kernel, stride and border.
     const auto reduced = [&](int n) { return (n + 2 * step.pad - step.kernel) / step.stride + 1; };
     require(std::min(in.height, in.width) + 2 * step.pad >= step.kernel, "a convolution larger than its input");
     step.output = add_value({channels, reduced(in.height), reduced(in.width)});
@@ -166,18 +171,23 @@ class OnnxReader {
     NetworkGraph::Join step;
     NetworkGraph::Shape out;
     for (const std::string& name : node.input()) {
+      // An enlarged input is joined by its source, with the size that it is enlarged to.
       const auto found = enlarged_.find(name);
       const int value = found != enlarged_.end() ? found->second.value : values_.at(name);
       const NetworkGraph::Shape& in = graph_.values[value];
       const std::int64_t height = found != enlarged_.end() ? found->second.height : in.height,
                          width = found != enlarged_.end() ? found->second.width : in.width;
       if (step.inputs.empty()) out = {0, static_cast<int>(height), static_cast<int>(width)};
+
+      // All planes must have the same size.
       require(height == out.height && width == out.width && height >= in.height && width >= in.width &&
                   height < 10000 && width < 10000,
               "Concat of planes of different sizes");
       out.channels += in.channels;
       step.inputs.push_back(value);
     }
+
+    // Add the step to the graph.
     step.output = values_[node.output(0)] = add_value(out);
     graph_.steps.push_back(std::move(step));
   }
@@ -215,6 +225,7 @@ class OnnxReader {
       const std::int64_t first = end_of(1), last = end_of(2);
       if (first < last) out.assign(in.begin() + first, in.begin() + last);
     } else if (node.op_type() == "Concat") {
+      // Concatenate the parts.
       for (const std::string& name : node.input()) {
         const std::vector<std::int64_t> part = integers_.at(name);
         out.insert(out.end(), part.begin(), part.end());

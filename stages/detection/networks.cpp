@@ -35,6 +35,8 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
   const auto count = [&](int pixels, double f, int width) {
     return std::max(1, static_cast<int>(std::ceil(pixels * focal / (f * width) - 1e-6)));
   };
+
+  // Count the columns and rows of windows.
   const int columns = count(camera.width, camera.fx, kFullShape.width),
             rows = count(camera.height, camera.fy, kFullShape.height);
 
@@ -86,12 +88,16 @@ void read_labels(const NetworkOutput& output, const DepthView& view, bool mirror
   const int width = output.label_width, height = output.label_height;
   out.label.reset(width, height);
   out.hand_log_odds.reset(width, height);
+
+  // Choose the most probable label of every cell.
   for (int r = 0; r < height; ++r)
     for (int c = 0; c < width; ++c) {
       std::array<float, kSurfaceLabelCount> logit;
       for (int k = 0; k < kSurfaceLabelCount; ++k) logit[k] = output.label_plane(k)[r * width + c];
       const auto best = std::max_element(logit.begin(), logit.end());
       constexpr int kHand = static_cast<int>(SurfaceLabel::hand);
+
+      // Compute the log odds of the hand against all other labels.
       float rest = 0;
       for (int k = 0; k < kSurfaceLabelCount; ++k)
         if (k != kHand) rest += std::exp(logit[k] - logit[kHand]);
@@ -100,6 +106,7 @@ void read_labels(const NetworkOutput& output, const DepthView& view, bool mirror
       out.hand_log_odds.at(column, r) = -std::log(rest);
     }
 
+  // State where the cells lie in the frame.
   const Eigen::Vector2d corner = view.frame_pixel(mirrored ? 1 : 0, 0);
   out.u0 = corner.x();
   out.v0 = corner.y();
@@ -111,6 +118,8 @@ DetectedJoint read_joint(const NetworkOutput& output, int joint, const DepthView
                          const Intrinsics& camera) {
   const HeatMap map{output.map_plane(joint), output.map_width, output.map_height};
   const HeatMoments heat = heat_moments(map, output.map_plane(kLandmarkCount + joint));
+
+  // Map the mean of the heat map to a pixel and a depth.
   double u = kMapStep * heat.mean.x() + kMapOffset;
   if (mirrored) u = view.width - 1 - u;
   const Eigen::Vector2d pixel = view.frame_pixel(u, kMapStep * heat.mean.y() + kMapOffset);
@@ -124,6 +133,8 @@ DetectedJoint read_joint(const NetworkOutput& output, int joint, const DepthView
   Eigen::Matrix2d across = square(kSpreadShare * metres) * heat.covariance;
   if (mirrored) across(0, 1) = across(1, 0) = -across(0, 1);
   const double depth_variance = square(kSpreadShare * kWindowDepth) * heat.value_variance + 0.5 * across.trace();
+
+  // Add the variances along the ray and across it.
   const Eigen::Vector3d ray = result.position / z;
   result.covariance = depth_variance * ray * ray.transpose();
   result.covariance.topLeftCorner<2, 2>() += across;

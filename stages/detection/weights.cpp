@@ -41,12 +41,15 @@ Result<DetectionWeights> load_weights(const std::string& folder) {
   if (!json) return tl::unexpected(json.error());
   if (!json->is_object()) return fail("is not a JSON object", where, kRemedy);
   const json_fields::Object manifest{*json, where};
+
+  // Verify that this program supports the interface of the networks.
   const auto version = manifest.text("version"), interface = manifest.text("interface");
   if (!version) return tl::unexpected(version.error());
   if (!interface) return tl::unexpected(interface.error());
   if (*interface != kInterface)
     return fail("has interface " + *interface + ", this program supports " + kInterface, where, kNetworkRemedy);
 
+  // Read the two networks.
   auto full = checked_file(folder, manifest, "full"), crop = checked_file(folder, manifest, "crop");
   if (!full) return tl::unexpected(full.error());
   if (!crop) return tl::unexpected(crop.error());

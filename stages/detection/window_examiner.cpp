@@ -28,12 +28,14 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
 /// into a right one; the network was trained with right hands.
 Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
                                                            bool mirrored) {
+  // Run the network on the window around the place.
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
   const auto output = crop_.run(input_);
   if (!output) return tl::unexpected(output.error());
 
+  // Read the joints, the side and the labels from its output.
   Window window;
   DetectedHand& hand = window.hand;
   for (int k = 0; k < kLandmarkCount; ++k)
@@ -51,6 +53,8 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   bool mirrored = place.side == Handedness::left;
   auto window = run_network(frame, place.centre, mirrored);
   if (!window) return tl::unexpected(window.error());
+
+  // Examine a second window if the hand lies aside, or if it is of the other side.
   const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || other_side()) {

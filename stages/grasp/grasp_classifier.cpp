@@ -23,9 +23,12 @@ Result<std::vector<int>> read_classes(const json_fields::Object& file, std::size
     return fail("has interface " + std::to_string(static_cast<int>(*version)) + ", and " + std::to_string(kInterface) +
                     " is needed",
                 file.where, kRemedy);
+
+  // The list must be there, and not be too long.
   if (!file.has("classes") || !file.json["classes"].is_array() || file.json["classes"].size() > most)
     return fail("has no list \"classes\" of at most 64 rows", file.where, kRemedy);
 
+  // Read the classes; every grasp must have a row.
   std::vector<int> classes;
   std::array<bool, kGraspCount> present{};
   for (const auto& name : file.json["classes"]) {
@@ -47,6 +50,8 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
   if (!json) return tl::unexpected(json.error());
   if (!json->is_object()) return fail("is no JSON object", path, kRemedy);
   const json_fields::Object file{*json, path};
+
+  // Read the classes, each of which has a row of weights.
   auto classes = read_classes(file, kMaxRows);
   if (!classes) return tl::unexpected(classes.error());
   const auto rows = static_cast<Eigen::Index>(classes->size());
@@ -60,6 +65,8 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
     else if (read)
       read = tl::unexpected(got.error());
   };
+
+  // Lists are read in the same way.
   const auto numbers = [&](const char* key, double lo, double hi, auto&& values) {
     const auto got = file.numbers(key, static_cast<std::size_t>(values.size()), lo, hi);
     if (got)
@@ -67,6 +74,8 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
     else if (read)
       read = tl::unexpected(got.error());
   };
+
+  // Read the weights of the rows, and the spread and memory.
   GraspClassifier out;
   out.classes_ = std::move(*classes);
   out.bias_.resize(rows);
@@ -79,6 +88,8 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
   number("spread", 0, kLargest, out.spread_);
   number("memory", 0.01, kLargest, out.memory_);
   if (!read) return tl::unexpected(read.error());
+
+  // Store the inverse deviations, by which the features are scaled.
   out.scale_ = deviation.cwiseInverse();
   out.weights_ = weights;
   return out;

@@ -111,6 +111,7 @@ GraspFeatures grasp_features(const HandEstimate& estimate) {
       const bool abducts = k == 0 || (finger == kThumb && k == 1);
       const Vector3d abduction = finger == kThumb ? R.col(1) : shape.pose[kPalm].R.col(1);
       for (const Vector3d& axis : {Vector3d(R.col(0)), abduction}) {
+        // Differentiate the features numerically, per standard deviation of the joint.
         const double deviation = deviation_about(estimate, segment, axis);
         features.spread.col(column++) =
             (values_of(turned(shape, finger, k, kStep * axis), side) - features.values) * (deviation / kStep);

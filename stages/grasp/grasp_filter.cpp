@@ -32,6 +32,8 @@ const GraspProbabilities& GraspFilter::add(const std::array<double, kGraspCount>
   const double none = probabilities_[0], any = 1 - none;
   const auto best =
       static_cast<int>(std::max_element(probabilities_.begin() + 1, probabilities_.end()) - probabilities_.begin());
+
+  // Another decision needs an advantage over the present one.
   if (grasp_ == 0) {
     if (any > none) grasp_ = best;
   } else if (none > kAdvantage * any) {

@@ -30,6 +30,8 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
   std::vector<PosedObject> posed;
   if (observations.empty() || !observations.front()->frame) return posed;
   const ObservedDepth view(observations);
+
+  // Count the points of each object, to know later which share of them a known object claimed.
   std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by id: points, and those that were claimed
   for (const SurfacePoint& point : points) ++claimed[point.object].first;
 
@@ -41,6 +43,8 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
     if (!seen) continue;
     known.push_back(*seen);
     posed.push_back({tracker.object(), seen->T_camera_object, seen->covariance, seen->hand_id});
+
+    // Claim the points near the surface of the object.
     const SE3 T_object_camera = seen->T_camera_object.inverse();
     for (SurfacePoint& point : points) {
       const Eigen::Vector3f p = (T_object_camera * point.p.cast<double>()).cast<float>();

@@ -66,6 +66,8 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
   const auto all = predictions(dt, estimates);
   points_.clear();
   for (const Prediction& prediction : all) view.points_near(*object_, prediction.T, kReach, kFew, points_);
+
+  // Choose the prediction with the least misfit.
   const Prediction* best = nullptr;
   double least = 0;
   for (const Prediction& prediction : all) {
@@ -90,6 +92,8 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
     covariance_ += diagonal(best->shift, best->turn);
     return false;
   }
+
+  // Accept the refined pose and smooth the velocity.
   const Vector6d moved = boxminus(fitted.T_camera_object, *T_);
   if (dt > 0) velocity_ += kSmooth * (moved / dt - velocity_);
   T_ = fitted.T_camera_object;
@@ -112,6 +116,8 @@ bool KnownObjectTracker::find(const ObservedDepth& view, const HandEstimates& es
     for (int finger = 0; finger < kFingerCount; ++finger)
       seed += hand.segments[segment_of(finger, 2)].T_camera_segment.t.cast<float>() / kFingerCount;
   }
+
+  // Search around the seed; a found object starts at rest.
   ++searches_;
   const auto found = search_.search(*object_, view, points, seed);
   if (!found) return false;

@@ -58,6 +58,8 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
     T = boxplus(T, step);
     if (step.norm() < kStep && coarse == 1) break;
   }
+
+  // Return the pose with a proper rotation, and its covariance.
   T.R = orthonormalised(T.R);
   fitted.covariance = information.inverse();
   return fitted;

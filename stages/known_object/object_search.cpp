@@ -59,6 +59,8 @@ PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, con
   const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
   const Vector3f t = T_object_camera.t.cast<float>(), centre = object.centre.cast<float>();
   const auto radius_sq = static_cast<float>(object.radius * object.radius);
+
+  // Only points within the object's sphere could be the object.
   int within = 0, on_surface = 0;
   for (const Vector3f& point : points) {
     const Vector3f p = R * point + t;
@@ -98,6 +100,7 @@ double ObjectSearch::misfit(const KnownObject& object, const SE3& T) const {
 
 /// Collects the points that the object could cover if it were at the place, and moves the place to their middle.
 Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3f> points, Vector3f middle) {
+  // Shift the middle to the mean of the points around it.
   const auto radius_sq = static_cast<float>(object.radius * object.radius);
   for (int i = 0; i < kShifts; ++i) {
     around_.clear();
@@ -107,6 +110,8 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
       around_.push_back(p);
       sum += p;
     }
+
+    // Shift the middle to the mean of these points.
     if (around_.empty()) break;
     middle = sum / static_cast<float>(around_.size());
   }
@@ -129,6 +134,8 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const O
     const SE3 T = place(object, R, middle);
     tried.emplace_back(misfit(object, T), T);
   }
+
+  // Keep the better ones by their misfit alone, then the best ones with the view compared as well.
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::nth_element(tried.begin(), tried.begin() + kCompared, tried.end(), less);
   tried.resize(kCompared);
@@ -145,6 +152,8 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const O
     const FoundPose pose{T, quality_of(object, view, T, points)};
     if (!found || pose.quality.cost() < found->quality.cost()) found = pose;
   }
+
+  // Accept the best pose only if it is visible, consistent and explains the points.
   const auto& [visibility, explained] = found->quality;
   if (visibility.shown() < kLeastShown || visibility.seen < kLeastSeen ||
       visibility.inconsistent() > kMaxInconsistent || explained < kLeastExplained)

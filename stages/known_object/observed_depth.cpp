@@ -50,6 +50,8 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
   if (centre.z() < object.radius + 0.05) return;
   const Eigen::Vector2d middle = camera.project(centre);
   const double radius = camera.fx * (object.radius + reach) / (centre.z() - object.radius);
+
+  // Clip it to the image.
   const int u0 = std::max(0, static_cast<int>(middle.x() - radius));
   const int u1 = std::min(camera.width - 1, static_cast<int>(middle.x() + radius));
   const int v0 = std::max(0, static_cast<int>(middle.y() - radius));
@@ -60,6 +62,8 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
   const double area = std::max(0.0, 1.0 + u1 - u0) * std::max(0.0, 1.0 + v1 - v0);
   const int step = std::max(1, static_cast<int>(std::sqrt(0.4 * area / static_cast<double>(most))));
   const std::size_t end = points.size() + most;
+
+  // Leave out the pixels of a hand and those away from the surface.
   for (int v = v0; v <= v1; v += step)
     for (int u = u0; u <= u1 && points.size() < end; u += step) {
       const double z = frame_.depth.at(u, v) * frame_.depth_unit;
@@ -86,8 +90,12 @@ Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_cam
     if (p.z() <= 0) continue;
     const Eigen::Vector2d pixel = frame_.camera.project(p);
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+
+    // Measure the depth at this pixel, which may belong to a hand.
     const double z = frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
     const bool hand = z > 0 && of_hand(u, v);
+
+    // Count the sample by what lies in front of it or behind it.
     if (z <= 0)
       ++visibility.hidden;
     else if (z < p.z() - alike)

@@ -36,24 +36,31 @@ struct ChoiceParams {
 
 template <class V>
 void visit(V& v, ChoiceParams& p) {
+  // These compare sampled and uncrossed poses with the followed one.
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
   v.formerly("uncross");
   v("uncross_fingers", p.uncross_fingers, "also test the followed pose with crossing fingers put side by side");
   v("uncross_allowance", p.uncross_allowance, 0.0, 1.0,
     "the pose with uncrossed fingers may have a global score that is higher by up to this fraction");
+
+  // These compare the poses that a search found with the followed one.
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
   v.formerly("elsewhere_advantage");
   v("different_pose_advantage", p.different_pose_advantage, 0.0, 1.0,
     "a pose found by a search with the palm in another place replaces the followed one only if its score is lower by "
     "this fraction");
+
+  // These judge a score by itself.
   v.formerly("search_settled");
   v("sufficient_score", p.sufficient_score, 0.0, 0.1,
     "m, a found pose with a lower global score ends the search of a frame");
   v.formerly("search_convincing");
   v("confident_score", p.confident_score, 0.0, 0.1,
     "m, a pose with a lower global score is confident, whatever the baseline score");
+
+  // These judge a score against the baseline score.
   v.formerly("doubt");
   v("ambiguity_margin", p.ambiguity_margin, 0.0, 1000.0,
     "a pose is ambiguous, and the frame is searched as well, if its score exceeds the baseline score by this fraction "
@@ -66,6 +73,8 @@ void visit(V& v, ChoiceParams& p) {
   v("rejection_factor", p.rejection_factor, 0.0, 1000.0,
     "a pose with a score above this multiple of the baseline score, and not confident, is not the hand that was lost; "
     "0: no limit");
+
+  // These set what a detection that confirms a pose does.
   v("agreement", p.agreement, 0.0, 1.0,
     "m, a detection confirms a pose if the mean distance between its joints and the pose's is at most this");
   v.formerly("confirmed");

@@ -65,6 +65,8 @@ FusedPose Follower::sample(const HandObservation& observation, HandModel& hand, 
   const double factor = interval_factor(prediction.dt);
   const Proposals* proposals = &hand.fusion.first_proposals(prediction.primary(), factor);
   const int levels = context_.params.fusion.levels;
+
+  // Go through the levels; the last one yields the fused pose.
   for (int level = 0;; ++level) {
     const int count = budget_.samples(context_.observer->on_device());
     const SegmentSamples& samples =
