@@ -36,7 +36,6 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   const double score =
       followed ? choice_.score_with_detection(observation, person_.profile(), followed->refined) : INFINITY;
   if (score < track_.state.bad_threshold(evidence) && !track_.is_another_hand(score, rules)) {
-    // Update the baseline score with the good pose, and propose an alternative to it.
     track_.search_frames = 0;
     proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
@@ -45,8 +44,6 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
     const Effort effort = track_.effort(context_.params.full_search_every);
     other = search(observation, effort, track_.attempts(effort, context_.params.search_attempts));
   }
-
-  // Without a second hypothesis, there is nothing to choose.
   if (!followed || !other) return conclude(observation, followed ? followed : other, evidence);
 
   // Choose. A hand seldom jumps, so a pose in another place needs a larger advantage, unless the track is tentative.
@@ -136,8 +133,6 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
   const TrackPhase before = track_.state.phase(), phase = track_.state.update(evidence);
   if (phase != before)
     choice_.note({"state", to_string(phase), to_string(before), evidence.score.value_or(NAN), NAN, 0});
-
-  // The motion begins anew with a tentative pose and ends with the track.
   if (phase == TrackPhase::tentative) {
     track_.motion.restart(best->refined.pose, observation.frame->utime);
   } else if (phase == TrackPhase::searching) {
@@ -164,7 +159,6 @@ void HandTracker::apply(const TrackRequest& request) {
     reset_track();
     person_.reset();  // the next hand may be another person's
   } else if (const auto* other = std::get_if<UseProfile>(&request)) {
-    // Another profile starts without a track.
     reset_track();
     person_.use(other->profile);
   } else if (const auto* mismatch = std::get_if<NoteSizeMismatch>(&request)) {
@@ -174,7 +168,6 @@ void HandTracker::apply(const TrackRequest& request) {
     std::shared_ptr<Observer> observer = context_.observer_for(changed->params);
     person_.change(changed->params, observer);
 
-    // Pass the change on to all that depend on the parameters.
     context_.params = changed->params;
     context_.observer = std::move(observer);
     follower_.change();
