@@ -21,7 +21,7 @@ constexpr double kAllMatched = 0.3;
 
 // Parameters of the accumulation of evidence over frames (HandEvidence).
 constexpr double kKept = 0.9;          // factor by which the sum of earlier frames decays per frame
-constexpr double kCounts = 0.1;       // weight of the sum of earlier frames, whose errors are mostly the same
+constexpr double kCounts = 0.1;        // weight of the sum of earlier frames, whose errors are mostly the same
 constexpr double kApart = 0.1;         // a detection farther than this from all known places starts a new one [m]
 constexpr std::uint32_t kFaded = 100;  // number of frames after which a place is forgotten
 
