@@ -24,7 +24,8 @@ class LiveSession {
   struct Loss {
     std::string kind, what, remedy;
   };
-  /// Reads and delivers what arrives within a short time; returns the loss if the sensor must be opened again.
+  /// Reads and delivers what arrives within a short time; if the sensor was lost and
+  /// must be opened again, returns why.
   std::optional<Loss> step();
 
   const std::string& where() const { return sensor_->where(); }

@@ -24,7 +24,7 @@ using GraspTruth = std::map<std::int64_t, int>;
 /// Reads a table of grasps (docs/formats.md). Errors name the line: an unknown class, a number that is none.
 Result<GraspTruth> read_grasp_truth(const std::string& path);
 
-/// What a result states in one frame.
+/// The grasp that a log of hand states contains for one frame.
 struct StatedGrasp {
   bool known = false;  ///< false: the classes are UNKNOWN
   int grasp = 0;       ///< as in GraspTruth

@@ -9,7 +9,7 @@
 
 namespace barehand {
 
-/// A triangle mesh in the frame of the signed distance [m].
+/// A triangle mesh [m], in the frame of the signed distance function that it was made from.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside

@@ -56,8 +56,8 @@ class ProfileVerifier {
  private:
   std::unique_ptr<HandTracker> tracker_of(const HandProfile& profile) const;
   HandTracker& other_side();
-  // Searches with copies of about the size exp(`log_size`). Returns the size of the best one if it explains the
-  // observation clearly better than `score` [m].
+  // Searches with copies of the hand profile that are scaled by about exp(`log_size`). Returns the size of the best one
+  // if it explains the observation clearly better than `score` [m].
   std::optional<double> verified_size(const HandObservation& observation, double score, double log_size);
   // Reports a hand of the other side, once.
   void report_other_side();

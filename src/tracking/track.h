@@ -61,9 +61,9 @@ struct Track {
 
   /// Continues the track with the pose of a frame; fingers that are not seen bend with their neighbours.
   void continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params);
-  /// Continues with other parameters; a hand that is tracked or held stays tracked.
+  /// Continues with other parameters; the state of the track stays as it is.
   void change(const TrackerParams& params);
-  /// Forgets the hand, so that it is searched without any prior knowledge.
+  /// Forgets the hand, so that it is searched for without any prior knowledge.
   void forget();
 };
 

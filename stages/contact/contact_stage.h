@@ -33,7 +33,7 @@ class ContactStage {
   ContactStage(const ContactParams& params, KnownObjectFinder find_known, int known)
       : params_(params), find_known_(std::move(find_known)), objects_(known + 1) {}
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
-  /// The objects without a mesh as of the last frame.
+  /// The unknown objects (those for which no mesh was given), as they were in the last frame.
   std::span<const ObjectTrack> objects() const { return objects_.tracks(); }
 
  private:

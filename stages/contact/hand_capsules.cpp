@@ -1,3 +1,4 @@
+// The capsules of a hand, the distance of two capsules, and which pairs of segments may count as touching.
 #include "stages/contact/hand_capsules.h"
 
 #include <algorithm>

@@ -126,7 +126,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
   });
 
   for (next_ = 0; next_ < palms_.size() && out.hands.size() < kMostHands;) {
-    // Examine the next palms at the same time.
+    // Examine the next palms in one batch.
     choose_palms(out);
     places_.clear();
     for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}});

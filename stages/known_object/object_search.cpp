@@ -39,7 +39,7 @@ std::vector<Eigen::Matrix3d> spiral(int count) {
   return rotations;
 }
 
-/// A weak prior, which keeps a pose in place that no points hold.
+/// A weak prior. It keeps a pose from drifting in directions that the points do not constrain.
 PosePrior anywhere_near(const SE3& T) {
   constexpr double kShift = 0.05, kTurn = 1;
   PosePrior prior{T};

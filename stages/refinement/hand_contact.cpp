@@ -8,8 +8,6 @@
 namespace barehand {
 namespace {
 
-// Penalises overlaps of capsules within the fingers and the palm.
-
 using Eigen::Vector3d;
 using Axis = LineSegment;
 

@@ -33,8 +33,8 @@ class DataTerm {
         folds_(static_cast<float>(w.folds)),
         palm_trust_(static_cast<float>(p.palm_trust)) {}
 
-  /// Calls `use(direction, residual, information)` with the residual model - data [m] along every direction that
-  /// counts, up to four of them. Returns the energy; 0 if the correspondence is beyond the gate.
+  /// Calls `use(direction, residual, information)` for up to four directions. The residual is the model point minus
+  /// the data point along the direction [m]. Returns the energy; 0 if the correspondence is beyond the gate.
   template <class Use>
   double add(const Correspondence& c, const SkinVertex& v, const Use& use) const {
     const Vector3f r = c.model - c.data;

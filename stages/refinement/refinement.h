@@ -65,7 +65,8 @@ class Refinement {
                           const HandPose& predicted, int iterations) const;
   /// Score and visibility of an unchanged pose.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
-  /// Normal equations of the hand's shape at a refined pose; `basis` must belong to the skin of this object.
+  /// Normal equations of the hand's shape at a refined pose; `basis` must belong to the skin that this
+  /// Refinement was made with.
   void shape_equations(const HandObservation& observation, const HandPose& pose, const ShapeBasis& basis,
                        ShapeEquations& equations) const;
 

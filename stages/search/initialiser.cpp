@@ -199,9 +199,9 @@ Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, dou
   return trials;
 }
 
-/// Moves a trial onto the data in three ways and keeps the best one: the mean of the visible skin on the centroid of
-/// the hand; the centre of the palm on the widest place of the hand, which is right even if fingers are hidden; the
-/// heel of the palm on the widest place, in case half of the palm is hidden, too.
+/// Shifts the start pose of a trial so that it meets the observed hand, in three ways, and keeps the best one. It puts
+/// the mean of the model's visible skin at the centroid of the hand's pixels; the centre of the palm at their widest
+/// part, which is right even if fingers are hidden; or the heel of the palm there, in case half of the palm is hidden.
 void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) const {
   const ArticulatedPose shape = trial.scored.articulated;
   if (trial.stays) {

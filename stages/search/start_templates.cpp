@@ -1,4 +1,4 @@
-// The hand shapes and orientations that a search tries.
+// The hand shapes that a search tries, and the orientation that belongs to given angles.
 #include "stages/search/start_templates.h"
 
 #include <algorithm>

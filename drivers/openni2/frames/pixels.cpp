@@ -20,7 +20,7 @@ const std::uint8_t* row_of(const openni::VideoFrameRef& frame, int v) {
 
 std::uint8_t clamped(int value) { return static_cast<std::uint8_t>(std::clamp(value >> 8, 0, 255)); }
 
-/// Converts as BT.601 states for video range, in 8-bit fixed point.
+/// Converts as BT.601 specifies for video range, in 8-bit fixed point.
 Rgb from_yuv(int y, int u, int v) {
   const int c = 298 * (y - 16) + 128, d = u - 128, e = v - 128;
   return {clamped(c + 409 * e), clamped(c - 100 * d - 208 * e), clamped(c + 516 * d)};

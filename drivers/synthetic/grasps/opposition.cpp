@@ -60,7 +60,7 @@ Opposition::SkinPlace Opposition::on_skin(const HandMesh& mesh, const Touch& tou
 }
 
 SE3 Opposition::hold_of(const HandPose& pose) const {
-  // The axis y leads from the first to the second touches.
+  // The touches form two groups on opposite sides of the object. The y axis points from the first group to the second.
   std::vector<Vector3d> places;
   Vector3d first = Vector3d::Zero(), second = Vector3d::Zero();
   for (std::size_t i = 0; i < touches_.size(); ++i) {

@@ -73,7 +73,7 @@ tl::expected<ExperimentReport, TrackFailure> ExperimentRun::run() {
 }
 
 Step ExperimentRun::check() const {
-  // Refuse a folder with other content than an experiment that is to be replaced.
+  // Refuse a folder that contains anything but an experiment that is to be replaced.
   std::error_code error;
   const bool folder = fs::is_directory(options_.out, error);
   const bool replaced = options_.overwrite && folder && fs::exists(options_.out + kMark, error);

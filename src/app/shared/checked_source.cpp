@@ -75,7 +75,8 @@ bool CheckedSource::check_image(const FramePtr& frame) {
   return true;
 }
 
-/// Reports a recording whose depth image stays the same. A sensor's noise never repeats, but a rendered hand may rest.
+/// Reports a recording whose depth image stays the same. The noise of a sensor never
+/// repeats, so the sensor had stopped. In a simulated recording the hand may only rest: this is a notice, not an error.
 void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
   if (!still) {
     still_since_.reset();

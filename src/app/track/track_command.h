@@ -11,7 +11,7 @@ struct TrackOptions;
 /// Adds the options that say which frames are tracked, how, and which hands: from --source to --init.
 void add_input_options(CLI::App& command, TrackOptions& options);
 
-/// Adds the options of the live page, which calibrate has, too.
+/// Adds the options of the live page. The calibrate command has the same ones.
 void add_view_options(CLI::App& command, TrackOptions& options);
 
 /// Adds `barehand track`, the daemon. After it has run, `exit_code` holds its result (exit_code.h).

@@ -88,7 +88,7 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
   if (!room) return tl::unexpected(room.error());
   if (const auto good = check_pipe_of_overlay(options.overlay, live); !good) return tl::unexpected(good.error());
 
-  // Check the names as they were given, before any of them gets a number.
+  // Check the file names as the user gave them, before free numbers are appended to names that exist.
   std::vector<InputFile> inputs{{"--config", config_path}};
   for (const std::string& hand : options.hands)
     if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});

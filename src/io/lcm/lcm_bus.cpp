@@ -14,7 +14,7 @@ constexpr long kReceiveBuffer = 2 << 20;
 
 bool is_udp(const std::string& url) { return url.starts_with("udpm://"); }
 
-/// Adds an option to a URL, unless the URL has one of this name.
+/// Adds an option to a URL, unless the URL already has one by that name.
 std::string with_option(const std::string& url, const std::string& name, long value) {
   for (const char before : {'?', '&'})
     if (url.find(before + name + "=") != std::string::npos) return url;

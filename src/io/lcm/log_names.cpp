@@ -62,7 +62,7 @@ std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   return files;
 }
 
-/// Why a draft is not played; none if it is played or `path` is no draft.
+/// Why a log that still has its temporary name is not played. None if it is played, or if `path` has no such name.
 std::optional<Error> why_left_out(const fs::path& path) {
   const fs::path name = final_name(path);
   std::error_code ignored;

@@ -22,7 +22,8 @@ struct LogRotation {
   std::int64_t quota = 0;       ///< largest size of all files together [bytes]
 };
 
-/// Whether `file`, by its name and folder, is one of the logs of the set `set`, such as "take.lcmlog".
+/// Whether `file`, by its name and folder, is one of the logs of a set. `set` is the path that the set was recorded
+/// under, such as "take.lcmlog".
 bool belongs_to_set(const std::filesystem::path& file, const std::filesystem::path& set);
 
 /// Locks the set of logs `path` for writing: two writers at once would remove each other's files. The lock is the file

@@ -1,4 +1,4 @@
-// Opens a recording folder: its camera, its images and their time stamps.
+// Opens a recording folder (its camera, images and time stamps), and reads, checks and undistorts its frames.
 #include "io/recording/recording.h"
 
 #include <filesystem>
