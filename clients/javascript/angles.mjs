@@ -1,7 +1,7 @@
 // Prints the angles of the index finger from a running `barehand track`, frame by frame:
 //   node angles.mjs [LINES]
 // Needs Node.js 18 or later and no packages. LCM_DEFAULT_URL names the network. Browsers have no UDP; there, the same
-// decoders read the messages on the WebSocket of `barehand track --view` (docs/view.md).
+// decoders read the messages on the WebSocket of `barehand track --view` (docs/view_protocol.md).
 import dgram from "node:dgram";
 import {decodeGloveState, kSideNames, kStatusNames} from "../../web/lcm.js";
 

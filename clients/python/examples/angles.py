@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Prints the angles of the index finger, frame by frame, from a running `barehand track` or from a log.
-  angles.py [LINES] [LOG]      LCM_DEFAULT_URL names the network"""
+  angles.py [LINES] [SOURCE]   SOURCE: a log, an MCAP file, or the live page (ws://HOST:PORT); without one, LCM, whose network
+                               LCM_DEFAULT_URL names"""
 import itertools
 import math
 import sys
