@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "hand/surface_nets.h"
+#include "math/disjoint_sets.h"
 
 namespace barehand {
 namespace {
@@ -152,36 +153,28 @@ double SampledSolid::distance(const Vector3d& place) const {
 
 /// The connected part of a mesh with the most triangles.
 ObjectMesh largest_part(const TriangleMesh& mesh) {
-  // Join the vertices of each triangle, always to the smaller number.
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root_of = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& t : mesh.triangles)
-    for (const int corner : t) {
-      const int a = root_of(t[0]), b = root_of(corner);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+  // Join the vertices of each triangle.
+  DisjointSets parts;
+  while (parts.size() < mesh.vertices.size()) parts.add();
+  for (const auto& t : mesh.triangles) parts.join(parts.join(t[0], t[1]), t[2]);
 
   // Find the part with the most triangles.
   std::vector<int> count(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) ++count[root_of(t[0])];
+  for (const auto& t : mesh.triangles) ++count[parts.root(t[0])];
   const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
 
   // Copy it.
   ObjectMesh part;
   std::vector<std::uint32_t> index(mesh.vertices.size());
   for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i) {
-    if (root_of(i) != best) continue;
+    if (parts.root(i) != best) continue;
     index[i] = static_cast<std::uint32_t>(part.vertices.size());
     part.vertices.push_back(mesh.vertices[i].cast<float>());
   }
 
   // Copy its triangles with the new numbers of their corners.
   for (const auto& t : mesh.triangles)
-    if (root_of(t[0]) == best) part.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+    if (parts.root(t[0]) == best) part.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
   return part;
 }
 

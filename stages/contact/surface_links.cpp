@@ -19,20 +19,13 @@ std::uint64_t key_of(int x, int y, int z) {
 void SurfaceLinks::link(const std::vector<bool>& open, const std::vector<SurfacePoint>& points) {
   list_voxels(points);
   find_pieces(open);
-  parent_.resize(open.size());
-  for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<std::int32_t>(i);
-  const auto root_of = [&](std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  };
 
-  // Join what lies in neighbouring voxels, always to the smaller number.
+  // Join what lies in neighbouring voxels.
+  sets_.clear();
+  while (sets_.size() < open.size()) sets_.add();
   for_neighbours([&](const Voxel& a, const Voxel& b) {
-    if (open_[a.component] != open_[b.component]) return;
-    const std::int32_t i = root_of(a.component), j = root_of(b.component);
-    parent_[std::max(i, j)] = std::min(i, j);
+    if (open_[a.component] == open_[b.component]) sets_.join(a.component, b.component);
   });
-  for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = root_of(static_cast<std::int32_t>(i));
 }
 
 void SurfaceLinks::list_voxels(const std::vector<SurfacePoint>& points) {

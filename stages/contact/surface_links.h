@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "math/disjoint_sets.h"
 #include "stages/contact/surface_cells.h"
 
 namespace barehand {
@@ -13,10 +14,10 @@ class SurfaceLinks {
   /// `open`: whether each component continues out of view.
   void link(const std::vector<bool>& open, const std::vector<SurfacePoint>& points);
   /// The first component of those that a component is joined with.
-  std::int32_t root(std::int32_t component) const { return parent_[component]; }
+  std::int32_t root(std::int32_t component) { return sets_.root(component); }
   /// Whether a component continues out of view, or is a piece of something that does.
   bool open(std::int32_t component) const { return open_[component]; }
-  std::int32_t components() const { return static_cast<std::int32_t>(parent_.size()); }
+  std::int32_t components() const { return static_cast<std::int32_t>(sets_.size()); }
 
  private:
   /// An occupied voxel with a component in it, and one of the points there.
@@ -31,8 +32,8 @@ class SurfaceLinks {
   template <class Act>
   void for_neighbours(const Act& act) const;
 
-  std::vector<std::int32_t> parent_;  // of each component, towards the first one of the same object
-  std::vector<Voxel> voxels_;         // by key, then component
+  DisjointSets sets_;          // of the components of one object
+  std::vector<Voxel> voxels_;  // by key, then component
   std::vector<bool> open_;
   std::vector<int> flush_;  // of each component, places where it is flush with an open one, less the others
 };

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "math/disjoint_sets.h"
 #include "stages/preprocess/coarse_grid.h"
-#include "stages/preprocess/image/disjoint_sets.h"
 #include "stages/preprocess/image/flood.h"
 
 namespace barehand {

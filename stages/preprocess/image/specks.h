@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 #include "math/camera.h"
-#include "stages/preprocess/image/disjoint_sets.h"
+#include "math/disjoint_sets.h"
 
 namespace barehand {
 
