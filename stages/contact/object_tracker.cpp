@@ -86,8 +86,8 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
     if (links_.open(static_cast<std::int32_t>(i)) && count_[i] >= kSpeck) {
       for (std::size_t t = 0; t < tracks_.size(); ++t) {
         ObjectTrack& track = tracks_[t];
-        if (near_[t * components + i] >= kSpeck && track.model.contradiction(track.predicted, {}, space) < kGone)
-          track.seen = utime;
+        if (track.seen == utime || near_[t * components + i] < kSpeck) continue;
+        if (track.model.contradiction(track.predicted, {}, space) < kGone) track.seen = utime;
       }
       continue;
     }

@@ -23,8 +23,7 @@ void ObservedSpace::observe(const HandObservations& observations) {
 ObservedSpace::Occupancy ObservedSpace::at(const Eigen::Vector3f& p) const {
   if (p.z() <= 0) return Occupancy::unknown;
   for (const View& view : views_) {
-    const int u = static_cast<int>(view.fx * p.x() / p.z() + view.cx + 0.5f),
-              v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
+    const auto [u, v] = view.pixel_of(p);
     const Image<float>& depth = view.observation->depth;
     if (!depth.contains(u, v) || depth.at(u, v) <= 0) continue;
     const float behind = depth.at(u, v) - p.z();
@@ -38,8 +37,7 @@ bool ObservedSpace::blank(const Eigen::Vector3f& p) const {
   if (p.z() <= 0) return false;
   bool in_view = false;
   for (const View& view : views_) {
-    const int u = static_cast<int>(view.fx * p.x() / p.z() + view.cx + 0.5f),
-              v = static_cast<int>(view.fy * p.y() / p.z() + view.cy + 0.5f);
+    const auto [u, v] = view.pixel_of(p);
     const Image<float>& depth = view.observation->depth;
     if (!depth.contains(u - kAround, v - kAround) || !depth.contains(u + kAround, v + kAround)) continue;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "observe/observation.h"
@@ -25,6 +26,11 @@ class ObservedSpace {
     const HandObservation* observation = nullptr;
     float fx = 0, fy = 0, cx = 0, cy = 0;  // of the region of interest [px]
     float margin = 0;                      // [m]
+
+    /// The pixel of the region that shows a place in front of the camera.
+    std::array<int, 2> pixel_of(const Eigen::Vector3f& p) const {
+      return {static_cast<int>(fx * p.x() / p.z() + cx + 0.5f), static_cast<int>(fy * p.y() / p.z() + cy + 0.5f)};
+    }
   };
   std::vector<View> views_;
 };
