@@ -2,12 +2,12 @@
 #include "io/mesh/gltf_depth.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+
+#include "io/file_ending.h"
 
 namespace barehand {
 
@@ -16,8 +16,7 @@ int gltf_depth(const std::string& path) {
   constexpr std::streamoff kHeader = 12;
 
   // Find out from the ending whether the file is text or binary.
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_case_ending(path);
   const bool text = ending == ".gltf";
   if (!text && ending != ".glb") return 0;
 

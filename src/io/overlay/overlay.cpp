@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/format.h"
+#include "io/file_ending.h"
 #include "io/recording/image_file.h"
 #include "io/video/video_file.h"
 

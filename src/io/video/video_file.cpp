@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <utility>
+
+#include "io/file_ending.h"
 
 namespace barehand {
 namespace {
@@ -26,12 +27,6 @@ std::string module_file() {
 }
 
 }  // namespace
-
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 const char* video_format(const std::string& path) {
   const std::string ending = lower_case_ending(path);

@@ -10,9 +10,6 @@
 
 namespace barehand {
 
-/// The extension of a name, with its dot, in lower case.
-std::string lower_case_ending(const std::string& path);
-
 /// libavformat's name for the format of a video with the ending of `path`, in upper or lower case: .mp4, .mkv, .webm or
 /// .avi. nullptr for another ending.
 const char* video_format(const std::string& path);
