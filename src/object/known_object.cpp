@@ -48,8 +48,8 @@ std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh) {
 
 KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
   // Measure the mesh.
-  Vector3f lower = mesh.vertices.front(), upper = lower;
-  for (const Vector3f& v : mesh.vertices) lower = lower.cwiseMin(v), upper = upper.cwiseMax(v);
+  const Eigen::AlignedBox3f box = bounding_box(mesh);
+  const Vector3f lower = box.min(), upper = box.max();
   const Vector3d extent = (upper - lower).cast<double>(), centre = 0.5 * (lower + upper).cast<double>();
   double radius = 0;
   for (const Vector3f& v : mesh.vertices) radius = std::max(radius, (v.cast<double>() - centre).norm());

@@ -24,11 +24,7 @@ constexpr double kLeastVolume = 1e-6;  // of a solid, as a fraction of the cube 
 constexpr const char* kRemedy =
     "close the mesh with a modelling program, for example Blender (3D-Print Toolbox) or MeshLab (Close Holes)";
 
-float size_of(const ObjectMesh& mesh) {
-  Vector3f lower = mesh.vertices.front(), upper = lower;
-  for (const Vector3f& v : mesh.vertices) lower = lower.cwiseMin(v), upper = upper.cwiseMax(v);
-  return (upper - lower).maxCoeff();
-}
+float size_of(const ObjectMesh& mesh) { return bounding_box(mesh).sizes().maxCoeff(); }
 
 /// Leaves out the vertices that no triangle has: they would count as a part of the object's size.
 void remove_unused(ObjectMesh& mesh) {
@@ -210,6 +206,12 @@ Result<void> close_holes(ObjectMesh& mesh, const std::string& where, MeshRepair&
 }
 
 }  // namespace
+
+Eigen::AlignedBox3f bounding_box(const ObjectMesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& v : mesh.vertices) box.extend(v);
+  return box;
+}
 
 Result<MeshRepair> repair_mesh(ObjectMesh& mesh, const std::string& where) {
   // Merge what is one place, and remove what is no triangle.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -15,6 +15,9 @@ struct ObjectMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<MeshDistance::Triangle> triangles;
 };
+
+/// The box that encloses all vertices of a mesh, which must not be empty.
+Eigen::AlignedBox3f bounding_box(const ObjectMesh& mesh);
 
 /// What repair_mesh() had to change.
 struct MeshRepair {

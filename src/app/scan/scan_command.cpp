@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -16,6 +15,7 @@
 #include "app/track/track_run.h"
 #include "core/format.h"
 #include "core/parallel/parallel.h"
+#include "io/file_ending.h"
 #include "io/obj_file.h"
 #include "stages/contact/scanned_mesh.h"
 
@@ -41,9 +41,7 @@ int complain(const Error& error, int exit_code) {
 
 /// What a mesh shows, for people: "object 1, 98 x 95 x 97 mm, 63 % of its surface seen".
 std::string described(const ObjectScan::Object& object, const ScannedMesh& scanned) {
-  Eigen::Vector3f lower = scanned.mesh.vertices.front(), upper = lower;
-  for (const Eigen::Vector3f& v : scanned.mesh.vertices) lower = lower.cwiseMin(v), upper = upper.cwiseMax(v);
-  const Eigen::Vector3f mm = 1000 * (upper - lower);
+  const Eigen::Vector3f mm = 1000 * bounding_box(scanned.mesh).sizes();
   return formatted("object %d, %.0f x %.0f x %.0f mm, %.0f %% of its surface seen", object.id, mm.x(), mm.y(), mm.z(),
                    100 * scanned.seen);
 }
@@ -69,9 +67,7 @@ class ScanAdvice {
 };
 
 Result<void> check_name(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending == ".obj") return {};
+  if (lower_case_ending(path) == ".obj") return {};
   return fail("does not end in .obj", "--out " + path, "meshes are written as Wavefront OBJ files");
 }
 
