@@ -117,8 +117,7 @@ Binding bind(const ImplicitHand& hand, const HandProfile& profile, const Vector3
 
 Skin make_blended_skin(const HandProfile& profile, double cell, const std::stop_token& stop) {
   const ImplicitHand hand(profile);
-  constexpr double kOutside = 1;  // ends the costly computation at once
-  const auto distance = [&](const Vector3d& p) { return stop.stop_requested() ? kOutside : hand.distance(p); };
+  const auto distance = [&](const Vector3d& p) { return hand.distance(p); };
 
   // Extract the surface in a box around all bones, with a margin for the flesh.
   Vector3d lower = hand.pose()[kPalm].t, upper = lower;

@@ -19,8 +19,8 @@ class Grid {
   Grid(const Distance& distance, const Vector3d& lower, const Vector3d& upper, double cell, const std::stop_token& stop)
       : lower_(lower), cell_(cell), nodes_(((upper - lower) / cell).array().ceil().cast<int>() + 1) {
     value_.resize(nodes_.cast<std::size_t>().prod());
-    for (int z = 0; z < nodes_.z() && !stop.stop_requested(); ++z)
-      for (int y = 0; y < nodes_.y(); ++y)
+    for (int z = 0; z < nodes_.z(); ++z)
+      for (int y = 0; y < nodes_.y() && !stop.stop_requested(); ++y)
         for (int x = 0; x < nodes_.x(); ++x) value_[index({x, y, z})] = distance(position({x, y, z}));
   }
   std::size_t index(const Vector3i& n) const {
@@ -92,8 +92,8 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
   // Every cell that the surface crosses gets one vertex.
   std::vector<int> vertex_of(grid.size(), -1);
   const auto for_each_cell = [&](auto&& visit) {
-    for (int z = 0; z < cells.z() && !stop.stop_requested(); ++z)
-      for (int y = 0; y < cells.y(); ++y)
+    for (int z = 0; z < cells.z(); ++z)
+      for (int y = 0; y < cells.y() && !stop.stop_requested(); ++y)
         for (int x = 0; x < cells.x(); ++x) visit(Vector3i(x, y, z));
   };
 
