@@ -62,6 +62,11 @@ struct ConfigReader::State {
 
   void problem(const YAML::Mark& mark, const std::string& text) { problems[mark.line + 1].push_back(text); }
 
+  /// Reports that the file gives the old name of a key of the current group beside, or instead of, its new path.
+  void renamed(const YAML::Node& node, const std::string& old, const std::string& now) {
+    problem(node.Mark(), "'" + groups.back().path + old + "' is now '" + now + "', give that alone");
+  }
+
   /// The value of a key of the current group, under its own or its older name; undefined if the file has neither.
   YAML::Node find(const std::string& key) {
     const std::string old = std::exchange(former, "");
@@ -70,8 +75,7 @@ struct ConfigReader::State {
     if (!before.IsDefined()) return now;
 
     // Both names at once are an error. Messages about the value give the name that is in the file.
-    const std::string& path = groups.back().path;
-    if (now.IsDefined()) problem(before.Mark(), "'" + path + old + "' is now '" + path + key + "', give that alone");
+    if (now.IsDefined()) renamed(before, old, groups.back().path + key);
     groups.back().known.push_back(old);
     return before;
   }
@@ -207,8 +211,7 @@ void ConfigReader::retired(const char* key, const char* now) {
   double before = 0, after = 0;
   const bool same =
       current != state_->values.end() && convert(old, before) && convert(current->second, after) && before == after;
-  if (!same)
-    state_->problem(old.Mark(), "'" + state_->groups.back().path + key + "' is now '" + now + "', give that alone");
+  if (!same) state_->renamed(old, key, now);
 }
 
 void ConfigReader::formerly(const char* key) { state_->former = key; }
