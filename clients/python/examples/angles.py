@@ -16,9 +16,9 @@ def text(hand):
                      *(f"{math.degrees(angle):.1f}" for angle in known)])
 
 
-def main(lines=None, log=None):
+def main(lines=None, source=None):
     try:
-        states = (hand for hands in barehand.hands(log) for hand in (*hands, *hands.without_pose))
+        states = (hand for hands in barehand.hands(source) for hand in (*hands, *hands.without_pose))
         for hand in itertools.islice(states, int(lines) if lines else None):
             print(text(hand), flush=True)
     except barehand.Error as error:
