@@ -1,6 +1,7 @@
 """Examples for the networks: scenes as inputs of a network, with the outputs that it should give. The program prepares
 its inputs in the same way in stages/detection/networks.cpp."""
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, Iterator
 
 import torch
 from torch import Tensor
@@ -69,6 +70,21 @@ def _crop(generator: Generator, count: int) -> Examples:
     depth = (scenes.joints[..., 2] - scenes.middle[:, None, None, 2]) / CROP_DEPTH
     return Examples(image, label, torch.stack([u, scenes.uv[..., 1]], -1), depth, scenes.pixels >= _LEAST_PIXELS["crop"],
                     scenes.right[:, 0] != mirror, 1e3 * scenes.middle[:, 2] / scenes.view.focal, scenes)
+
+
+def parts(examples: Examples, size: int) -> Iterator[Examples]:
+    """Divides `examples` into batches of `size`."""
+    for first in range(0, len(examples.image), size):
+        yield _rows(examples, slice(first, first + size))
+
+
+def _rows(value: Any, rows: slice) -> Any:
+    """The `rows` of each tensor in a dataclass or a tuple of batches; what is no tensor is kept."""
+    if isinstance(value, Tensor):
+        return value[rows]
+    if is_dataclass(value):
+        return type(value)(*(_rows(getattr(value, field.name), rows) for field in fields(value)))
+    return value
 
 
 def generator_for(seed: int, device: str, mesh, points: int) -> Generator:

@@ -10,18 +10,21 @@ import math
 import os
 import time
 from pathlib import Path
+from typing import Iterator
 
 import torch
 
 from evaluate import UNSEEN_SEED, evaluate
-from examples import generator_for, make_examples
-from export import export, greatest_difference, write_manifest
+from examples import Examples, generator_for, make_examples, parts
+from export import SIZES, export, greatest_difference, write_manifest
 from hands_folder import add_hands_option, right_hand
 from losses import LOSSES
 from network import HandNetwork, make_network
+from scenes.scene import Generator
 
 _SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
 _BATCH = {"full": 160, "crop": 256}
+_AT_ONCE = 6  # number of batches that are made at once, because a GPU makes many images in hardly more time than few
 _SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
 _VALIDATION_SEED = 1_000_003  # seed whose people and scenes are in no batch of the training
 
@@ -57,11 +60,12 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     before = _loss(network, name, unseen)
 
     # Train with new examples in every step.
+    batches = _batches(generator, name, batch, 1 if options.smoke else _AT_ONCE)
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
         network.train()
-        examples = make_examples(generator, name, batch)
+        examples = next(batches)
         with torch.autocast(device, torch.bfloat16, enabled=device == "cuda"):
             output = network(examples.image)
         loss = LOSSES[name](output, examples)
@@ -81,6 +85,11 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     return network
 
 
+def _batches(generator: Generator, name: str, size: int, at_once: int) -> Iterator[Examples]:
+    while True:
+        yield from parts(make_examples(generator, name, size * at_once), size)
+
+
 def _loss(network: HandNetwork, name: str, examples) -> float:
     network.eval()
     with torch.no_grad():
@@ -92,10 +101,11 @@ def main() -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     torch.backends.cudnn.benchmark = True
     started, figures = time.monotonic(), {}
-    for name in ("crop", "full"):
+    for name in options.networks:
         batch = _SMOKE_BATCH if options.smoke else _BATCH[name]
         points = 5000 if options.smoke else 12000
-        schedule = Schedule(60 * options.minutes * _SHARE[name], _SMOKE_STEPS[name] if options.smoke else options.steps)
+        share = _SHARE[name] if len(options.networks) > 1 else 1
+        schedule = Schedule(60 * options.minutes * share, _SMOKE_STEPS[name] if options.smoke else options.steps)
         network = train(name, options, schedule, batch, points)
 
         generator = generator_for(UNSEEN_SEED, options.device, right_hand(options.hands), points)
@@ -106,8 +116,11 @@ def main() -> None:
             images = make_examples(generator_for(5, "cpu", right_hand(options.hands), 5000), name, 4).image
             figures[name]["greatest difference in OpenCV"] = greatest_difference(network, name, options.out, images)
 
-    write_manifest(options.out, options.version)
-    (options.out / "evaluation.json").write_text(json.dumps(figures, indent=1) + "\n")
+    # The program needs both networks; training of a single one only replaces its file.
+    if all((options.out / f"{name}.onnx").is_file() for name in SIZES):
+        write_manifest(options.out, options.version)
+    name = "evaluation.json" if len(options.networks) > 1 else f"evaluation_{options.networks[0]}.json"
+    (options.out / name).write_text(json.dumps(figures, indent=1) + "\n")
     print(json.dumps(figures, indent=1))
     print(f"wrote {options.out} in {(time.monotonic() - started) / 60:.1f} minutes")
 
@@ -118,6 +131,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=25, help="of training (default: 25)")
     parser.add_argument("--steps", type=int, default=0, help="of each network, instead of a time")
     parser.add_argument("--smoke", action="store_true", help="a few small steps")
+    parser.add_argument("--network", choices=SIZES, help="train this one only, for example beside the other one")
     parser.add_argument("--resume", type=Path, metavar="FOLDER", help="go on from full.pt and crop.pt of an earlier OUT")
     parser.add_argument("--version", default="2.0", help="that nets.json states (default: 2.0)")
     parser.add_argument("--seed", type=int, default=1)
@@ -125,6 +139,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--check", action="store_true", help="compare with OpenCV's outputs (needs python3-opencv)")
     add_hands_option(parser)
     options = parser.parse_args()
+    options.networks = [options.network] if options.network else ["crop", "full"]
     if options.device == "cpu":
         torch.set_num_threads(int(os.environ.get("OMP_NUM_THREADS", "1")))
         if not options.smoke:
