@@ -41,11 +41,16 @@ function(barehand_library name)
   add_library(barehand_${name} STATIC ${ARG_SOURCES})
   add_library(barehand::${name} ALIAS barehand_${name})
   target_link_libraries(barehand_${name} PUBLIC barehand_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS} ${common_libraries})
-  target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^src/app")
+    target_compile_options(barehand_${name} PRIVATE ${command_options})
+    target_precompile_headers(barehand_${name} REUSE_FROM barehand_command_headers)
+  else()
+    target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
+  endif()
 
   # Compile several files at once where headers take most of the time. Not where numbers are computed: there, what the
   # compiler inlines, and with it the last digit, would depend on which files are neighbours.
-  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(folder MATCHES "^(src/(app|core|evaluation|io|pipeline|sensor)|drivers)")
     set_target_properties(barehand_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()

@@ -139,25 +139,20 @@ void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report,
   }
 }
 
-int tell(const Error& error, int exit_code) {
-  std::cerr << "barehand bench: " << error.message() << std::endl;
-  return exit_code;
-}
-
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
-  if (const auto free = check_written(options); !free) return tell(free.error(), kExitUsage);
+  if (const auto free = check_written(options); !free) return failed("bench", free.error(), kExitUsage);
   if (!options.draw.empty()) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
-    return drawn ? kExitOk : tell(drawn.error(), kExitUsage);
+    return drawn ? kExitOk : failed("bench", drawn.error(), kExitUsage);
   }
 
   // Check everything before the measurement starts.
   const auto cases = cases_of(options);
-  if (!cases) return tell(cases.error(), kExitUsage);
+  if (!cases) return failed("bench", cases.error(), kExitUsage);
   const auto input = read_input(options);
-  if (!input) return tell(input.error(), kExitUsage);
+  if (!input) return failed("bench", input.error(), kExitUsage);
 
   // Measure, and write the report with the conditions of the measurement.
   BenchReport report;
@@ -171,7 +166,7 @@ int run_bench(const BenchOptions& options) {
   if (done) measure_observers(*cases, report, told);
   if (done && !options.json.empty()) done = write_bench_json(report, options.json);
   if (done && !options.json.empty() && !options.plots.empty()) done = draw_bench(options.json, options.plots);
-  if (!done) return tell(done.error(), kExitFailure);
+  if (!done) return failed("bench", done.error(), kExitFailure);
   return options.json.empty() ? printed(kExitOk) : static_cast<int>(kExitOk);
 }
 

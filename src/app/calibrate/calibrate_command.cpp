@@ -12,6 +12,7 @@
 #include "app/calibrate/scan_report.h"
 #include "app/shared/outputs.h"
 #include "app/shared/run_inputs.h"
+#include "app/shared/standard_streams.h"
 #include "app/track/track_command.h"
 #include "app/track/track_run.h"
 #include "core/format.h"
@@ -33,11 +34,6 @@ struct CalibrateOptions {
   TrackOptions track;
   std::string hand = "right", out;
 };
-
-int tell(const Error& error, int exit_code) {
-  std::cerr << "barehand calibrate: " << error.message() << std::endl;
-  return exit_code;
-}
 
 constexpr int kSettling = 60;                 // number of tracked frames before the first one that is kept
 constexpr int kMost = 128, kMostOfSkin = 64;  // largest numbers of frames that are kept; kMostOfSkin with fixed joints
@@ -159,14 +155,14 @@ int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, co
   if (!scan.profile) {
     page.done("No hand was tracked, so nothing is saved.", nullptr);
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
-    return tell({"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
+    return failed("calibrate", {"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
                 kExitFailure);
   }
 
   const auto result = measure(out, o, scan, config.tracker.skin_cell, page);
   if (!result) {
     page.done("The profile is not saved: " + result.error().message(), nullptr);
-    return tell(result.error(), kExitFailure);
+    return failed("calibrate", result.error(), kExitFailure);
   }
 
   // Report the measured profile.
@@ -181,14 +177,14 @@ int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, co
 int run(const CalibrateOptions& o) {
   // Check the input before the user starts to move.
   auto config = read_configuration(o.track.config);
-  if (!config) return tell(config.error(), kExitUsage);
+  if (!config) return failed("calibrate", config.error(), kExitUsage);
   config->tracker.shape_fit.enabled = true;
   config->tracker.shape_fit.scans = 0;  // no scans while tracking, since all frames are scanned at the end
   const auto hands = choose_hands({o.hand}, {});
-  if (!hands) return tell(hands.error(), kExitUsage);
+  if (!hands) return failed("calibrate", hands.error(), kExitUsage);
   if (hands->size() != 1)
-    return tell({"names two hands", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
-  if (const auto possible = check_profile_path(o.out); !possible) return tell(possible.error(), kExitUsage);
+    return failed("calibrate", {"names two hands", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
+  if (const auto possible = check_profile_path(o.out); !possible) return failed("calibrate", possible.error(), kExitUsage);
 
   // Track, and collect what the user shows.
   const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;
@@ -204,7 +200,7 @@ int run(const CalibrateOptions& o) {
   const HandProfile& start = *hands->front().profile;
   const auto shown = [&] { return view_scan(kHowTo, scan.report, start, scan.profile ? *scan.profile : start); };
   const auto tracked = track(track_options, *config, {}, std::move(sinks), shown);
-  if (!tracked) return tell(tracked.error().error, tracked.error().exit_code);
+  if (!tracked) return failed("calibrate", tracked.error().error, tracked.error().exit_code);
   return conclude(out, o, *config, start, scan, *tracked);
 }
 

@@ -217,19 +217,14 @@ Result<void> write(const EvalReport& report, const EvalOptions& o) {
   return {};
 }
 
-int fail_with(const Error& error, int code) {
-  std::fprintf(stderr, "barehand eval: %s\n", error.message().c_str());
-  return code;
-}
-
 int run(const EvalOptions& o) {
   const auto report = check(o).and_then([&] { return check_written(o); }).and_then([&] { return evaluate_all(o); });
-  if (!report) return fail_with(report.error(), kExitUsage);
+  if (!report) return failed("eval", report.error(), kExitUsage);
   say_untracked(*report);
   std::fputs(text_report(*report).c_str(), is_standard_output(o.json) ? stderr : stdout);
   const auto written = write(*report, o);
   if (written && o.json.empty() && o.plots.empty()) return printed(kExitOk);
-  return written ? kExitOk : fail_with(written.error(), kExitFailure);
+  return written ? kExitOk : failed("eval", written.error(), kExitFailure);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/experiment/experiment_run.h"
+#include "app/shared/standard_streams.h"
 #include "core/parallel/parallel.h"
 
 namespace barehand {
@@ -18,16 +19,11 @@ struct ExperimentArguments {
   ExperimentOptions options;
 };
 
-int fail_with(const TrackFailure& failure) {
-  std::cerr << "barehand experiment: " << failure.error.message() << std::endl;
-  return failure.exit_code;
-}
-
 int run(const ExperimentArguments& a) {
   const auto plan = plan_experiment(a.name, a.configs);
-  if (!plan) return fail_with({plan.error(), kExitUsage});
+  if (!plan) return failed("experiment", plan.error(), kExitUsage);
   const auto report = run_experiment(*plan, a.options);
-  if (!report) return fail_with(report.error());
+  if (!report) return failed("experiment", report.error().error, report.error().exit_code);
   std::cout << experiment_table(*report) << std::flush;
   return kExitOk;
 }

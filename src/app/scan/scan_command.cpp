@@ -11,6 +11,7 @@
 #include "app/scan/object_scan.h"
 #include "app/shared/outputs.h"
 #include "app/shared/run_inputs.h"
+#include "app/shared/standard_streams.h"
 #include "app/track/track_command.h"
 #include "app/track/track_run.h"
 #include "core/format.h"
@@ -33,11 +34,6 @@ struct ScanOptions {
   TrackOptions track;
   std::string out;
 };
-
-int complain(const Error& error, int exit_code) {
-  std::cerr << "barehand scan-object: " << error.message() << std::endl;
-  return exit_code;
-}
 
 /// What a mesh shows, for people: "object 1, 98 x 95 x 97 mm, 63 % of its surface seen".
 std::string described(const ObjectScan::Object& object, const ScannedMesh& scanned) {
@@ -80,7 +76,7 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
   const bool solid = !checked.triangles.empty() && repair_mesh(checked, o.out).has_value();
   if (!solid) {
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
-    return complain({object ? "too little of an object was seen" : "no object was seen in or near a hand",
+    return failed("scan-object", {object ? "too little of an object was seen" : "no object was seen in or near a hand",
                      o.track.source, "hold it before the sensor, and turn it; nothing is saved"},
                     kExitFailure);
   }
@@ -89,7 +85,7 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
   const auto& [name, vertices, triangles] = scanned.mesh;
   const std::vector<ObjGroup> groups = {{"seen", 0}, {"closed", scanned.lids}};
   if (const auto saved = save_obj(vertices, triangles, o.out, groups); !saved)
-    return complain(saved.error(), kExitFailure);
+    return failed("scan-object", saved.error(), kExitFailure);
   std::fprintf(out, "%s, held in %d of %d frames\n", described(*object, scanned).c_str(), object->held, scan.frames());
   if (object->held == 0) std::fputs("no object was held, so this is the one of which most was seen\n", out);
   if (scanned.seen < kLittle) std::fputs("little was seen of it; scan it again, and turn it before the sensor\n", out);
@@ -101,10 +97,10 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
 int run_scan(const ScanOptions& o) {
   // Check the input before the user starts to move.
   auto config = read_configuration(o.track.config);
-  if (!config) return complain(config.error(), kExitUsage);
+  if (!config) return failed("scan-object", config.error(), kExitUsage);
   config->contact.enabled = true;
   config->preprocess.margin_px = std::max(config->preprocess.margin_px, kScanMargin);
-  if (const auto possible = check_name(o.out); !possible) return complain(possible.error(), kExitUsage);
+  if (const auto possible = check_name(o.out); !possible) return failed("scan-object", possible.error(), kExitUsage);
 
   // Track, and look at the objects.
   ObjectScan scan;
@@ -117,7 +113,7 @@ int run_scan(const ScanOptions& o) {
   track_options.saved_later = o.out;
   std::cerr << kHowToScan << std::endl;
   const auto tracked = track(track_options, *config, {}, {}, {}, look);
-  if (!tracked) return complain(tracked.error().error, tracked.error().exit_code);
+  if (!tracked) return failed("scan-object", tracked.error().error, tracked.error().exit_code);
   return conclude(is_standard_output(o.track.overlay) ? stderr : stdout, o, scan, *tracked);
 }
 

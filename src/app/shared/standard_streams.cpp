@@ -37,4 +37,9 @@ int printed(int exit_code) {
   return kExitFailure;
 }
 
+int failed(const char* command, const Error& error, int exit_code) {
+  std::cerr << "barehand " << command << ": " << error.message() << std::endl;
+  return exit_code;
+}
+
 }  // namespace barehand

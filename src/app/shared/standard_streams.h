@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/error.h"
+
 namespace barehand {
 
 /// Call it first in the program. Descriptors 0 to 2 that are closed are connected to /dev/null: otherwise the next file
@@ -13,5 +15,8 @@ bool output_is_closed();
 /// Returns the exit code of a command that has printed something: `exit_code` if all of it was written, kExitBrokenPipe
 /// if its reader has gone, and kExitFailure, with a line on standard error, if it could not be written.
 int printed(int exit_code);
+
+/// Says on standard error what ended `barehand COMMAND`, and returns `exit_code`.
+int failed(const char* command, const Error& error, int exit_code);
 
 }  // namespace barehand

@@ -46,11 +46,6 @@ void print_list() {
               synthetic::synthetic_spec_help().c_str());
 }
 
-int fail_with(const Error& error, int code) {
-  std::fprintf(stderr, "barehand sim: %s\n", error.message().c_str());
-  return code;
-}
-
 int run(const SimArguments& a) {
   // Listing needs no further arguments.
   if (a.list) {
@@ -59,9 +54,9 @@ int run(const SimArguments& a) {
   }
 
   // Check the arguments.
-  if (a.name.empty()) return fail_with({"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
+  if (a.name.empty()) return failed("sim", {"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
-    return fail_with({"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog or .mcap"},
+    return failed("sim", {"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog or .mcap"},
                      kExitUsage);
 
   // Render the sequence. An error before the first frame means that an argument is wrong.
@@ -73,7 +68,7 @@ int run(const SimArguments& a) {
     done = now;
     return render_progress(now, all) && !stop;
   });
-  if (!frames) return fail_with(frames.error(), done > 0 ? kExitFailure : kExitUsage);
+  if (!frames) return failed("sim", frames.error(), done > 0 ? kExitFailure : kExitUsage);
   std::fprintf(told, "%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
   return stop ? kExitInterrupted : kExitOk;
 }

@@ -445,11 +445,6 @@ ConfigKeys keys_named(const std::string& name) {
   return name == "changed" ? ConfigKeys::changed : ConfigKeys::user;
 }
 
-int tell(const TrackFailure& failure) {
-  std::cerr << "barehand track: " << failure.error.message() << std::endl;
-  return failure.exit_code;
-}
-
 }  // namespace
 
 tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, const Config& config,
@@ -463,13 +458,13 @@ tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, cons
 
 int run_track(const TrackOptions& options) {
   const auto config = configuration(options);
-  if (!config) return tell({config.error(), kExitUsage});
+  if (!config) return failed("track", config.error(), kExitUsage);
   if (!options.print_config.empty()) {
     std::cout << print_config(*config, keys_named(options.print_config));
     return printed(kExitOk);
   }
   if (options.source.empty())
-    return tell({{"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage});
+    return failed("track", {"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage);
   // In a terminal, SIGHUP means that the terminal was closed. Without one, it reloads the configuration.
   const bool daemon = isatty(STDIN_FILENO) == 0;
   const auto reread = [&]() -> Result<Config> {
@@ -479,7 +474,7 @@ int run_track(const TrackOptions& options) {
   };
   std::ostream& told = writes_to_standard_output(options) ? std::cerr : std::cout;
   const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
-  if (!outcome) return tell(outcome.error());
+  if (!outcome) return failed("track", outcome.error().error, outcome.error().exit_code);
   told << summary(outcome->health, outcome->status, outcome->seconds) << std::flush;
   return outcome->exit_code;
 }
