@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Tests the synthetic training data: hands, grasps, scenes and sensors."""
+import dataclasses
 import json
 import re
 import unittest
@@ -7,15 +8,18 @@ import unittest
 import surroundings
 import torch
 from scenes.chance import Chance
-from scenes.grasps import Solids, grasps
+from scenes.grasps import grasps
+from scenes.lookalikes import FEET, lookalikes
+from scenes.lookalikes import KINDS as LOOKALIKES
 from scenes.mesh_hand import MeshRig
+from scenes.objects import objects
 from scenes.parametric_hand import DEVIATIONS, PROFILE, ParametricRig
 from scenes.poses import free_poses
 from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
 from scenes.sensors import measure
-from scenes.shapes import BOX, CAPSULE, ELLIPSOID, FAR, distance_to_solid, hit_solid
+from scenes.shapes import BOX, CAPSULE, CYLINDER, ELLIPSOID, FAR, NOTHING, distance_to_solid, hit_solid
 from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
-from scenes.views import full_view
+from scenes.views import crop_view, full_view
 
 CPU = torch.device("cpu")
 MESH = surroundings.HANDS / "right.glb"
@@ -86,24 +90,70 @@ class Grasps(unittest.TestCase):
         self.assertGreater((gap > -0.004).float().mean(), 0.9)
 
         # The same fingers do not touch an object that is displaced: the check above can fail.
-        elsewhere = Solids(solids.kind, solids.centre + 0.03, solids.rotation, solids.half)
+        elsewhere = dataclasses.replace(solids, centre=solids.centre + 0.03)
         tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, TIPS]
         wrong = (elsewhere.distance(tips) - hands.flesh[:, TIPS]).abs() < 0.005
         self.assertLess((wrong.sum(1) >= 2).float().mean(), 0.4)
 
     def test_distance_to_a_solid_is_zero_where_a_ray_hits_it(self):
-        kind = torch.tensor([BOX, ELLIPSOID, CAPSULE])
+        kind = torch.tensor([BOX, ELLIPSOID, CAPSULE, CYLINDER])
         chance = Chance(5)
-        centre = torch.tensor([[0.05, -0.03, 0.7]]).expand(3, 3)
-        half, rotation = torch.tensor([[0.09, 0.05, 0.05]]).expand(3, 3), chance.rotation(3)
-        rays = full_view(torch.ones(3)).rays()
+        centre = torch.tensor([[0.05, -0.03, 0.7]]).expand(4, 3)
+        half, rotation = torch.tensor([[0.09, 0.05, 0.05]]).expand(4, 3), chance.rotation(4)
+        rays = full_view(torch.ones(4)).rays()
         depth = hit_solid(rays, kind, centre, rotation, half)
-        for i in range(3):
+        for i in range(4):
             seen = depth[i] < FAR
             self.assertGreater(seen.sum(), 100)
             points = (rays[i] * depth[i][..., None])[seen]
             one = slice(i, i + 1)
             self.assertLess(distance_to_solid(points[None], kind[one], centre[one], rotation[one], half[one]).abs().max(), 1e-3)
+
+
+    def test_the_distance_from_an_object_is_that_from_its_nearest_part(self):
+        things = objects(Chance(12), 60)
+        self.assertEqual(set((things.kind != NOTHING).sum(1).tolist()), {1, 2, 3})
+        things.centre = torch.tensor([[0.0, 0.0, 0.8]]).expand(60, 3)
+        rays = full_view(torch.ones(60)).rays()
+        depth = torch.stack([hit_solid(rays, *part) for part in things.parts()]).amin(0)
+        for i in range(60):
+            seen = depth[i] < FAR
+            self.assertGreater(seen.sum(), 2)
+            points = torch.zeros(60, seen.sum(), 3)
+            points[i] = (rays[i] * depth[i][..., None])[seen]
+            self.assertLess(things.distance(points)[i].abs().max(), 2e-3)
+
+
+class Lookalikes(unittest.TestCase):
+    def test_each_thing_is_seen_where_it_is_put_and_nothing_elsewhere(self):
+        kind = torch.arange(-1, len(LOOKALIKES)).repeat_interleave(20)
+        place = torch.tensor([[0.1, -0.1, 0.6]]).expand(len(kind), 3)
+        view = crop_view(place, torch.full((len(kind),), 0.34))
+        depth = lookalikes(Chance(13), view.rays(), place, kind)
+        self.assertTrue((depth[kind < 0] == FAR).all())
+        seen = (depth < FAR).flatten(1).sum(1)
+        for index in range(len(LOOKALIKES)):
+            self.assertGreater((seen[kind == index] > 150).float().mean(), 0.7)
+        near = (depth[:, 32:64, 32:64] - 0.6).abs().flatten(1).amin(1)
+        self.assertGreater((near[kind >= 0] < 0.05).float().mean(), 0.8)
+
+    def test_toes_can_be_told_from_each_other(self):
+        # Where a bare foot is narrow enough to show its toes, rows of the image alternate between toe and background.
+        place = torch.tensor([[0.0, 0.0, 0.4]]).expand(80, 3)
+        view = crop_view(place, torch.full((80,), 0.34))
+        seen = lookalikes(Chance(14), view.rays(), place, torch.full((80,), FEET)) < 0.6
+        changes = torch.maximum((seen[:, :, 1:] != seen[:, :, :-1]).sum(2).amax(1), (seen[:, 1:] != seen[:, :-1]).sum(1).amax(1))
+        self.assertGreater((changes >= 6).float().mean(), 0.3)
+
+    def test_they_are_background_in_frames_and_windows_without_a_hand(self):
+        for kind in ("frames", "windows"):
+            scenes = getattr(Generator(Chance(15), None, 500), kind)(80)
+            alone = (scenes.lookalike >= 0) & (scenes.pixels.sum(1) == 0)
+            self.assertGreater(alone.sum(), 3)
+            self.assertFalse((scenes.label[alone] == HAND).any())
+            self.assertLess((scenes.label[alone] == ARM).flatten(1).any(1).float().mean(), 0.3)  # of hands that are hidden
+            shown = ((scenes.label[alone] == BACKGROUND) & (scenes.depth[alone] > 0)).flatten(1).any(1)
+            self.assertGreater(shown.float().mean(), 0.8)
 
 
 class Scenes(unittest.TestCase):

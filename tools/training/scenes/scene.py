@@ -8,13 +8,15 @@ from torch import Tensor
 from .chance import Chance
 from .grasps import grasps
 from .hands import Hands, joined
+from .lookalikes import KINDS, lookalikes
 from .mesh_hand import MeshRig
 from .parametric_hand import ParametricRig
+from .objects import Solids
 from .people import Stance, arms, bodies, stances
 from .poses import free_poses
 from .rotations import apply
 from .sensors import measure
-from .shapes import FAR, hit_solid, only
+from .shapes import FAR, NOTHING, hit_solid, only
 from .skeleton import MIDDLE_KNUCKLE, WRIST
 from .surroundings import clutter, occluders, planes
 from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
@@ -29,7 +31,8 @@ class Scenes:
 
     `depth` [B, H, W, m; 0: no depth]; `label` [B, H, W]; `joints` [B, 2, 21, 3, m, camera frame]; `uv` [B, 2, 21, 2,
     pixels]; `pixels` [B, 2]: number of pixels that show each hand, 0 if there is no such hand; `right` [B, 2]: whether
-    it is a right hand; `grasp` [B]: whether hand 0 holds an object; `sensor` [B]: index into sensors.KINDS.
+    it is a right hand; `grasp` [B]: whether hand 0 holds an object; `sensor` [B]: index into sensors.KINDS; `lookalike` [B]:
+    which thing that is no hand stands out, as an index into lookalikes.KINDS (-1: none).
     """
     view: View
     depth: Tensor
@@ -40,6 +43,7 @@ class Scenes:
     right: Tensor
     grasp: Tensor
     sensor: Tensor
+    lookalike: Tensor
     middle: Tensor  # the point at the centre of a window; in a whole frame, the palm of hand 0 [B, 3, m]
 
     def palms(self) -> Tensor:
@@ -62,23 +66,24 @@ class Generator:
         return joined([rig.people(self.chance, share) for rig, share in zip(self.rigs, shares) if share])
 
     def frames(self, count: int) -> Scenes:
-        """Whole frames with hands 0.18 to 1.6 m away; 16 % show no hand."""
+        """Whole frames with hands 0.16 to 1.6 m away; 22 % show no hand."""
         chance = self.chance
         view = full_view(chance.uniform(0.8, 1.15, count))
         rows, columns = view.size
-        z = chance.log_uniform(0.18, 1.6, count)
+        z = chance.log_uniform(0.16, 1.6, count)
         u, v = chance.uniform(0.08, 0.92, count) * columns, chance.uniform(0.08, 0.92, count) * rows
         place = torch.stack([(u - view.cx) * z / view.focal, (v - view.cy) * z / view.focal, z], 1)
-        return self._make(view, place, place, chance.flag(0.84, count), True)
+        return self._make(view, place, place, chance.flag(0.78, count), True)
 
     def windows(self, count: int) -> Scenes:
-        """Windows around palms, up to 4.5 cm off centre along each axis; 8 % show no hand."""
+        """Windows around palms, up to 4.5 cm off centre along each axis; 14 % show no hand, and most of these
+        something that is like one."""
         chance = self.chance
-        z = chance.log_uniform(0.18, 1.6, count)
+        z = chance.log_uniform(0.16, 1.6, count)
         place = torch.stack([chance.uniform(-0.5, 0.5, count) * z, chance.uniform(-0.4, 0.4, count) * z, z], 1)
         middle = place + chance.uniform(-0.045, 0.045, count, 3)
         view = crop_view(middle, CROP_ACROSS * chance.uniform(0.9, 1.12, count))
-        return self._make(view, place, middle, chance.flag(0.92, count), False)
+        return self._make(view, place, middle, chance.flag(0.86, count), False)
 
     def _make(self, view: View, place: Tensor, middle: Tensor, present: Tensor, whole: bool) -> Scenes:
         """`place` [B, 3]: position of hand 0's palm; `middle` [B, 3]: see Scenes; `present` [B]: whether there are
@@ -106,14 +111,14 @@ class Generator:
         arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
         other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)
         arm = torch.minimum(arm, only(both, other_arm))
-        arm = only(present | chance.flag(0.6, count), arm)
+        lookalike = _lookalike_kinds(chance, present)
+        arm = only(present | (lookalike < 0) & chance.flag(0.85, count), arm)
         rest = torch.minimum(only(chance.flag(0.55, count) & ~stance.egocentric, bodies(chance, rays, shoulder)),
                              planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1)))
         rest = torch.minimum(rest, clutter(chance, rays, place))
-        flip = _flip(right)
-        held = hit_solid(rays, solids.kind, apply(stance.rotation, flip * solids.centre) + origin,
-                         stance.rotation @ (flip[:, :, None] * solids.rotation), solids.half)
-        thing = torch.minimum(only(grasp & (present | chance.flag(0.3, count)), held), occluders(chance, rays, place))
+        rest = torch.minimum(rest, lookalikes(chance, rays, place + present[:, None] * _beside(chance, place, 0.25), lookalike))
+        shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
+        thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
         layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
                   (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
 
@@ -126,7 +131,7 @@ class Generator:
         every = torch.stack([joints, other_joints], 1)
         uv = view.project(every.flatten(1, 2)).reshape(count, 2, -1, 2)
         return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other_right], 1), grasp & present,
-                      sensor, middle)
+                      sensor, lookalike, middle)
 
 
 def only_joints(mask: Tensor, joints: Tensor, otherwise: Tensor) -> Tensor:
@@ -156,9 +161,29 @@ def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Ten
     return skin + origin[:, None], joints + origin[:, None], origin
 
 
-def _beside(chance: Chance, place: Tensor) -> Tensor:
-    """The vector [B, 3] from one palm to the other: 7 to 50 cm long, mostly across the view."""
+def _held(rays: Tensor, solids: Solids, shown: Tensor, right: Tensor, stance: Stance, origin: Tensor) -> Tensor:
+    """Depth of the objects in those hands for which `shown` [B] is true."""
+    flip, depth = _flip(right), None
+    for kind, centre, rotation, half in solids.parts():
+        kind = torch.where(shown, kind, torch.full_like(kind, NOTHING))
+        part = hit_solid(rays, kind, apply(stance.rotation, flip * centre) + origin,
+                         stance.rotation @ (flip[:, :, None] * rotation), half)
+        depth = part if depth is None else torch.minimum(depth, part)
+    return depth
+
+
+def _lookalike_kinds(chance: Chance, present: Tensor) -> Tensor:
+    """For every scene, which thing that is mistaken for a hand is in it, -1 for none: there is one in most scenes
+    without a hand and in a tenth of the others."""
+    count = len(present)
+    wanted = torch.where(present, chance.flag(0.1, count), chance.flag(0.6, count))
+    kind = chance.choice(list(KINDS.values()), count)
+    return torch.where(wanted, kind, torch.full_like(kind, -1))
+
+
+def _beside(chance: Chance, place: Tensor, least: float = 0.07) -> Tensor:
+    """The vector [B, 3] from one palm to the other: `least` to 0.5 m long, mostly across the view."""
     count = len(place)
     turn = chance.uniform(0, 6.3, count)
     way = torch.stack([torch.cos(turn), 0.6 * torch.sin(turn), chance.normal(0.35, count)], 1)
-    return torch.nn.functional.normalize(way, dim=1) * chance.log_uniform(0.07, 0.5, count, 1)
+    return torch.nn.functional.normalize(way, dim=1) * chance.log_uniform(least, 0.5, count, 1)
