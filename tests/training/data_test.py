@@ -12,11 +12,14 @@ from scenes.grasps import grasps
 from scenes.lookalikes import FEET, lookalikes
 from scenes.lookalikes import KINDS as LOOKALIKES
 from scenes.mesh_hand import MeshRig
+from scenes.motion import seen_in_motion
 from scenes.objects import objects
+from scenes.pairs import partners
 from scenes.parametric_hand import DEVIATIONS, PROFILE, ParametricRig
+from scenes.people import stances
 from scenes.poses import free_poses
 from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
-from scenes.sensors import measure
+from scenes.sensors import cut, measure
 from scenes.shapes import BOX, CAPSULE, CYLINDER, ELLIPSOID, FAR, NOTHING, distance_to_solid, hit_solid
 from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
 from scenes.views import crop_view, full_view
@@ -72,6 +75,16 @@ class Hands(unittest.TestCase):
             tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, 12]
             self.assertLess(tips[1, 1], tips[0, 1] - 0.05)
             self.assertLess(tips[2, 0], tips[0, 0] - 0.02)
+
+    def test_people_are_of_many_sizes_and_thicknesses(self):
+        for rig in (ParametricRig(10, CPU), MeshRig(MESH, 10, CPU)):
+            mean, hands = rig.people(NoChance(1), 1), rig.people(Chance(16), 600)
+            size = hands.bones.joint[:, 7].norm(dim=1) / mean.bones.joint[:, 7].norm(dim=1)  # the middle knuckle
+            thick = (hands.flesh / mean.flesh)[:, 5:].mean(1) / size
+            for values, low, high in ((size, 0.75, 1.22), (thick, 0.78, 1.35)):
+                self.assertLess(values.quantile(0.01), low)
+                self.assertGreater(values.quantile(0.99), high)
+                self.assertLess((values.median() - 1).abs(), 0.06)
 
     def test_free_poses_keep_the_limits_and_neighbours_move_together(self):
         poses = free_poses(Chance(1), 2000)
@@ -156,6 +169,29 @@ class Lookalikes(unittest.TestCase):
             self.assertGreater(shown.float().mean(), 0.8)
 
 
+class Pairs(unittest.TestCase):
+    def test_some_second_hands_grip_the_first_one_and_none_is_in_it(self):
+        place = torch.tensor([[0.0, 0.0, 0.6]]).expand(1000, 3)
+        apart = (partners(Chance(17), stances(Chance(18), 1000), torch.ones(1000, dtype=torch.bool), place).place - place).norm(dim=1)
+        self.assertTrue(100 < (apart < 0.069).sum() < 250)
+        self.assertGreater(apart.min(), 0.025)
+
+
+class Motion(unittest.TestCase):
+    def test_the_edge_of_a_quick_hand_frays_and_that_of_the_others_does_not(self):
+        layers = torch.full((200, 2, 60, 80), FAR)
+        layers[:, 0], layers[:, 1, 20:40, 30:50] = 1.2, 0.8
+        for farthest in (0.0, 8.0):
+            depth, winner = seen_in_motion(Chance(19), layers, torch.full((200,), farthest))
+            changed = (winner != layers.min(1)[1]).flatten(1).any(1)
+            self.assertTrue(10 < changed.sum() < 50 if farthest else not changed.any())
+            self.assertTrue((depth[~changed] == layers.amin(1)[~changed]).all())
+            self.assertTrue(((depth >= 0.8) & (depth <= 1.2001)).all())
+            self.assertEqual(((depth > 0.81) & (depth < 1.19)).any(), farthest > 0)  # some sensors mix two depths
+            self.assertTrue((winner[:, 32, 40] == 1).all())
+            self.assertTrue((winner[:, :10] == 0).all())
+
+
 class Scenes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -199,6 +235,15 @@ class Scenes(unittest.TestCase):
 
 
 class Sensors(unittest.TestCase):
+    def test_some_windows_reach_beyond_the_border_of_the_image(self):
+        beyond = cut(Chance(20), crop_view(torch.tensor([[0.0, 0.0, 0.5]]).expand(400, 3), torch.full((400,), 0.34)))
+        share = beyond.float().mean((1, 2))
+        self.assertTrue(25 < (share > 0).sum() < 80)
+        self.assertLess(share.max(), 0.42)
+        self.assertFalse(beyond[:, 48, 48].any())
+        for edge in (beyond[:, 0], beyond[:, -1], beyond[:, :, 0], beyond[:, :, -1]):
+            self.assertTrue(edge.all(1).any())
+
     def test_each_sensor_measures_a_wall_and_shadows_or_frays_its_edge(self):
         depth = torch.full((200, 60, 80), 1.2)
         depth[:, 15:45, 20:50] = 0.8

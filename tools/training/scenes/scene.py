@@ -11,11 +11,13 @@ from .hands import Hands, joined
 from .lookalikes import KINDS, lookalikes
 from .mesh_hand import MeshRig
 from .parametric_hand import ParametricRig
+from .motion import seen_in_motion
 from .objects import Solids
+from .pairs import beside, partners
 from .people import Stance, arms, bodies, stances
 from .poses import free_poses
 from .rotations import apply
-from .sensors import measure
+from .sensors import cut, measure
 from .shapes import FAR, NOTHING, hit_solid, only
 from .skeleton import MIDDLE_KNUCKLE, WRIST
 from .surroundings import clutter, occluders, planes
@@ -71,7 +73,7 @@ class Generator:
         view = full_view(chance.uniform(0.8, 1.15, count))
         rows, columns = view.size
         z = chance.log_uniform(0.16, 1.6, count)
-        u, v = chance.uniform(0.08, 0.92, count) * columns, chance.uniform(0.08, 0.92, count) * rows
+        u, v = chance.uniform(0.03, 0.97, count) * columns, chance.uniform(0.03, 0.97, count) * rows
         place = torch.stack([(u - view.cx) * z / view.focal, (v - view.cy) * z / view.focal, z], 1)
         return self._make(view, place, place, chance.flag(0.78, count), True)
 
@@ -98,39 +100,41 @@ class Generator:
         angles = torch.where(grasp[:, None], holding, free_poses(chance, count))
         right = chance.flag(0.5, count)
         skin, joints, origin = _put(hands, angles, right, stance, place)
-        beside = place + _beside(chance, place)
-        other_right = torch.where(chance.flag(0.85, count), ~right, right)
-        other_stance = Stance(torch.where(chance.flag(0.5, count)[:, None, None], stances(chance, count).rotation,
-                                          _mirrored(stance.rotation)), stance.egocentric)
-        other_hands = self.people(count)
-        other_skin, other_joints, _ = _put(other_hands, free_poses(chance, count), other_right, other_stance, beside)
-        both = present & chance.flag(0.3, count) & (beside[:, 2] > 0.15)
+        other = partners(chance, stance, right, place)
+        other_skin, other_joints, _ = _put(self.people(count), other.angles, other.right, other.stance, other.place)
+        both = present & chance.flag(0.3, count) & (other.place[:, 2] > 0.12)
 
         # Make the surfaces. In a window, the other hand counts as background.
         size = (joints[:, MIDDLE_KNUCKLE] - joints[:, WRIST]).norm(dim=1) / _MEAN_PALM
         arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
-        other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)
+        other_arm, _ = arms(chance, rays, other.stance, other_joints[:, WRIST], size)
         arm = torch.minimum(arm, only(both, other_arm))
         lookalike = _lookalike_kinds(chance, present)
         arm = only(present | (lookalike < 0) & chance.flag(0.85, count), arm)
         rest = torch.minimum(only(chance.flag(0.55, count) & ~stance.egocentric, bodies(chance, rays, shoulder)),
                              planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1)))
         rest = torch.minimum(rest, clutter(chance, rays, place))
-        rest = torch.minimum(rest, lookalikes(chance, rays, place + present[:, None] * _beside(chance, place, 0.25), lookalike))
+        rest = torch.minimum(rest, lookalikes(chance, rays, place + present[:, None] * beside(chance, place, 0.25), lookalike))
         shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
         thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
         layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
                   (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
 
-        # Find the nearest surface at every pixel, and simulate a sensor.
-        depth, winner = torch.stack([layer for layer, _ in layers], 1).min(1)
+        # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile.
+        motion = 0.03 * view.focal / place[:, 2]
+        depth, winner = seen_in_motion(chance, torch.stack([layer for layer, _ in layers], 1), motion)
         label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
-        label = torch.where(depth < FAR, label, torch.zeros_like(label))
+        visible = depth < FAR
         measured, sensor = measure(chance, depth, view)
-        pixels = torch.stack([(winner == 1).flatten(1).sum(1) * present, (winner == 2).flatten(1).sum(1) * both], 1)
+        if not whole:
+            inside = ~cut(chance, view)
+            measured, visible = measured * inside, visible & inside
+        label = torch.where(visible, label, torch.zeros_like(label))
+        shown = [((winner == 1 + hand) & visible).flatten(1).sum(1) for hand in range(2)]
+        pixels = torch.stack([shown[0] * present, shown[1] * both], 1)
         every = torch.stack([joints, other_joints], 1)
         uv = view.project(every.flatten(1, 2)).reshape(count, 2, -1, 2)
-        return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other_right], 1), grasp & present,
+        return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other.right], 1), grasp & present,
                       sensor, lookalike, middle)
 
 
@@ -143,12 +147,6 @@ def _flip(right: Tensor) -> Tensor:
     """Factors [B, 3] that mirror the x coordinates of left hands."""
     sign = torch.where(right, 1.0, -1.0)
     return torch.stack([sign, torch.ones_like(sign), torch.ones_like(sign)], 1)
-
-
-def _mirrored(rotation: Tensor) -> Tensor:
-    """The rotation of the other hand when both are held symmetrically: mirrored in the camera's and in the hand's x."""
-    flip = torch.tensor([-1.0, 1.0, 1.0], device=rotation.device)
-    return flip[:, None] * rotation * flip
 
 
 def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Tensor) -> tuple[Tensor, Tensor, Tensor]:
@@ -179,11 +177,3 @@ def _lookalike_kinds(chance: Chance, present: Tensor) -> Tensor:
     wanted = torch.where(present, chance.flag(0.1, count), chance.flag(0.6, count))
     kind = chance.choice(list(KINDS.values()), count)
     return torch.where(wanted, kind, torch.full_like(kind, -1))
-
-
-def _beside(chance: Chance, place: Tensor, least: float = 0.07) -> Tensor:
-    """The vector [B, 3] from one palm to the other: `least` to 0.5 m long, mostly across the view."""
-    count = len(place)
-    turn = chance.uniform(0, 6.3, count)
-    way = torch.stack([torch.cos(turn), 0.6 * torch.sin(turn), chance.normal(0.35, count)], 1)
-    return torch.nn.functional.normalize(way, dim=1) * chance.log_uniform(least, 0.5, count, 1)
