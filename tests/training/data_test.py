@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Tests the synthetic training data: hands, grasps, scenes and sensors."""
+import dataclasses
 import json
 import re
 import unittest
@@ -7,15 +8,21 @@ import unittest
 import surroundings
 import torch
 from scenes.chance import Chance
-from scenes.grasps import Solids, grasps
+from scenes.grasps import grasps
+from scenes.lookalikes import FEET, lookalikes
+from scenes.lookalikes import KINDS as LOOKALIKES
 from scenes.mesh_hand import MeshRig
+from scenes.motion import seen_in_motion
+from scenes.objects import objects
+from scenes.pairs import partners
 from scenes.parametric_hand import DEVIATIONS, PROFILE, ParametricRig
+from scenes.people import stances
 from scenes.poses import free_poses
 from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
-from scenes.sensors import measure
-from scenes.shapes import BOX, CAPSULE, ELLIPSOID, FAR, distance_to_solid, hit_solid
+from scenes.sensors import cut, measure
+from scenes.shapes import BOX, CAPSULE, CYLINDER, ELLIPSOID, FAR, NOTHING, distance_to_solid, hit_solid
 from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
-from scenes.views import full_view
+from scenes.views import crop_view, full_view
 
 CPU = torch.device("cpu")
 MESH = surroundings.HANDS / "right.glb"
@@ -69,6 +76,16 @@ class Hands(unittest.TestCase):
             self.assertLess(tips[1, 1], tips[0, 1] - 0.05)
             self.assertLess(tips[2, 0], tips[0, 0] - 0.02)
 
+    def test_people_are_of_many_sizes_and_thicknesses(self):
+        for rig in (ParametricRig(10, CPU), MeshRig(MESH, 10, CPU)):
+            mean, hands = rig.people(NoChance(1), 1), rig.people(Chance(16), 600)
+            size = hands.bones.joint[:, 7].norm(dim=1) / mean.bones.joint[:, 7].norm(dim=1)  # the middle knuckle
+            thick = (hands.flesh / mean.flesh)[:, 5:].mean(1) / size
+            for values, low, high in ((size, 0.75, 1.22), (thick, 0.78, 1.35)):
+                self.assertLess(values.quantile(0.01), low)
+                self.assertGreater(values.quantile(0.99), high)
+                self.assertLess((values.median() - 1).abs(), 0.06)
+
     def test_free_poses_keep_the_limits_and_neighbours_move_together(self):
         poses = free_poses(Chance(1), 2000)
         low, high = limits(CPU).T
@@ -86,24 +103,93 @@ class Grasps(unittest.TestCase):
         self.assertGreater((gap > -0.004).float().mean(), 0.9)
 
         # The same fingers do not touch an object that is displaced: the check above can fail.
-        elsewhere = Solids(solids.kind, solids.centre + 0.03, solids.rotation, solids.half)
+        elsewhere = dataclasses.replace(solids, centre=solids.centre + 0.03)
         tips = landmarks(hands.bones, forward_kinematics(hands.bones, angles))[:, TIPS]
         wrong = (elsewhere.distance(tips) - hands.flesh[:, TIPS]).abs() < 0.005
         self.assertLess((wrong.sum(1) >= 2).float().mean(), 0.4)
 
     def test_distance_to_a_solid_is_zero_where_a_ray_hits_it(self):
-        kind = torch.tensor([BOX, ELLIPSOID, CAPSULE])
+        kind = torch.tensor([BOX, ELLIPSOID, CAPSULE, CYLINDER])
         chance = Chance(5)
-        centre = torch.tensor([[0.05, -0.03, 0.7]]).expand(3, 3)
-        half, rotation = torch.tensor([[0.09, 0.05, 0.05]]).expand(3, 3), chance.rotation(3)
-        rays = full_view(torch.ones(3)).rays()
+        centre = torch.tensor([[0.05, -0.03, 0.7]]).expand(4, 3)
+        half, rotation = torch.tensor([[0.09, 0.05, 0.05]]).expand(4, 3), chance.rotation(4)
+        rays = full_view(torch.ones(4)).rays()
         depth = hit_solid(rays, kind, centre, rotation, half)
-        for i in range(3):
+        for i in range(4):
             seen = depth[i] < FAR
             self.assertGreater(seen.sum(), 100)
             points = (rays[i] * depth[i][..., None])[seen]
             one = slice(i, i + 1)
             self.assertLess(distance_to_solid(points[None], kind[one], centre[one], rotation[one], half[one]).abs().max(), 1e-3)
+
+
+    def test_the_distance_from_an_object_is_that_from_its_nearest_part(self):
+        things = objects(Chance(12), 60)
+        self.assertEqual(set((things.kind != NOTHING).sum(1).tolist()), {1, 2, 3})
+        things.centre = torch.tensor([[0.0, 0.0, 0.8]]).expand(60, 3)
+        rays = full_view(torch.ones(60)).rays()
+        depth = torch.stack([hit_solid(rays, *part) for part in things.parts()]).amin(0)
+        for i in range(60):
+            seen = depth[i] < FAR
+            self.assertGreater(seen.sum(), 2)
+            points = torch.zeros(60, seen.sum(), 3)
+            points[i] = (rays[i] * depth[i][..., None])[seen]
+            self.assertLess(things.distance(points)[i].abs().max(), 2e-3)
+
+
+class Lookalikes(unittest.TestCase):
+    def test_each_thing_is_seen_where_it_is_put_and_nothing_elsewhere(self):
+        kind = torch.arange(-1, len(LOOKALIKES)).repeat_interleave(20)
+        place = torch.tensor([[0.1, -0.1, 0.6]]).expand(len(kind), 3)
+        view = crop_view(place, torch.full((len(kind),), 0.34))
+        depth = lookalikes(Chance(13), view.rays(), place, kind)
+        self.assertTrue((depth[kind < 0] == FAR).all())
+        seen = (depth < FAR).flatten(1).sum(1)
+        for index in range(len(LOOKALIKES)):
+            self.assertGreater((seen[kind == index] > 150).float().mean(), 0.7)
+        near = (depth[:, 32:64, 32:64] - 0.6).abs().flatten(1).amin(1)
+        self.assertGreater((near[kind >= 0] < 0.05).float().mean(), 0.8)
+
+    def test_toes_can_be_told_from_each_other(self):
+        # Where a bare foot is narrow enough to show its toes, rows of the image alternate between toe and background.
+        place = torch.tensor([[0.0, 0.0, 0.4]]).expand(80, 3)
+        view = crop_view(place, torch.full((80,), 0.34))
+        seen = lookalikes(Chance(14), view.rays(), place, torch.full((80,), FEET)) < 0.6
+        changes = torch.maximum((seen[:, :, 1:] != seen[:, :, :-1]).sum(2).amax(1), (seen[:, 1:] != seen[:, :-1]).sum(1).amax(1))
+        self.assertGreater((changes >= 6).float().mean(), 0.3)
+
+    def test_they_are_background_in_frames_and_windows_without_a_hand(self):
+        for kind in ("frames", "windows"):
+            scenes = getattr(Generator(Chance(15), None, 500), kind)(80)
+            alone = (scenes.lookalike >= 0) & (scenes.pixels.sum(1) == 0)
+            self.assertGreater(alone.sum(), 3)
+            self.assertFalse((scenes.label[alone] == HAND).any())
+            self.assertLess((scenes.label[alone] == ARM).flatten(1).any(1).float().mean(), 0.3)  # of hands that are hidden
+            shown = ((scenes.label[alone] == BACKGROUND) & (scenes.depth[alone] > 0)).flatten(1).any(1)
+            self.assertGreater(shown.float().mean(), 0.8)
+
+
+class Pairs(unittest.TestCase):
+    def test_some_second_hands_grip_the_first_one_and_none_is_in_it(self):
+        place = torch.tensor([[0.0, 0.0, 0.6]]).expand(1000, 3)
+        apart = (partners(Chance(17), stances(Chance(18), 1000), torch.ones(1000, dtype=torch.bool), place).place - place).norm(dim=1)
+        self.assertTrue(100 < (apart < 0.069).sum() < 250)
+        self.assertGreater(apart.min(), 0.025)
+
+
+class Motion(unittest.TestCase):
+    def test_the_edge_of_a_quick_hand_frays_and_that_of_the_others_does_not(self):
+        layers = torch.full((200, 2, 60, 80), FAR)
+        layers[:, 0], layers[:, 1, 20:40, 30:50] = 1.2, 0.8
+        for farthest in (0.0, 8.0):
+            depth, winner = seen_in_motion(Chance(19), layers, torch.full((200,), farthest))
+            changed = (winner != layers.min(1)[1]).flatten(1).any(1)
+            self.assertTrue(10 < changed.sum() < 50 if farthest else not changed.any())
+            self.assertTrue((depth[~changed] == layers.amin(1)[~changed]).all())
+            self.assertTrue(((depth >= 0.8) & (depth <= 1.2001)).all())
+            self.assertEqual(((depth > 0.81) & (depth < 1.19)).any(), farthest > 0)  # some sensors mix two depths
+            self.assertTrue((winner[:, 32, 40] == 1).all())
+            self.assertTrue((winner[:, :10] == 0).all())
 
 
 class Scenes(unittest.TestCase):
@@ -149,6 +235,15 @@ class Scenes(unittest.TestCase):
 
 
 class Sensors(unittest.TestCase):
+    def test_some_windows_reach_beyond_the_border_of_the_image(self):
+        beyond = cut(Chance(20), crop_view(torch.tensor([[0.0, 0.0, 0.5]]).expand(400, 3), torch.full((400,), 0.34)))
+        share = beyond.float().mean((1, 2))
+        self.assertTrue(25 < (share > 0).sum() < 80)
+        self.assertLess(share.max(), 0.42)
+        self.assertFalse(beyond[:, 48, 48].any())
+        for edge in (beyond[:, 0], beyond[:, -1], beyond[:, :, 0], beyond[:, :, -1]):
+            self.assertTrue(edge.all(1).any())
+
     def test_each_sensor_measures_a_wall_and_shadows_or_frays_its_edge(self):
         depth = torch.full((200, 60, 80), 1.2)
         depth[:, 15:45, 20:50] = 0.8

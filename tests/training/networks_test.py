@@ -4,6 +4,7 @@ import unittest
 
 import surroundings  # first: skips without PyTorch
 import torch
+from evaluate import evaluate
 from examples import MAP_OFFSET, MAP_STEP, crop_input, full_input, generator_for, make_examples
 from losses import LOSSES, joint_errors_mm
 from network import make_network
@@ -53,10 +54,24 @@ class Figures(unittest.TestCase):
         for wrong in ((maps.roll(1, 3), labels, side), (maps, labels.roll(1, 1), side), (maps, labels, -side)):
             self.assertGreater(LOSSES["crop"](wrong, windows), right + 0.1)
 
+    def test_a_decided_side_costs_more_where_there_is_no_hand(self):
+        windows = make_examples(generator_for(3, "cpu", None, 500), "crop", 24)
+        windows.seen = torch.zeros_like(windows.seen)
+        maps, labels = perfect_maps(windows), torch.zeros(24, 4, 48, 48)
+        undecided, *decided = (LOSSES["crop"]((maps, labels, torch.full((24, 1), side)), windows) for side in (0.0, 4.0, -4.0))
+        self.assertLess(undecided + 0.1, min(decided))
+
     def test_windows_show_right_hands_mostly(self):
         share = self.windows.right.float().mean()
         self.assertGreater(share, 0.6)
         self.assertLess(share, 1)
+
+
+    def test_false_palms_on_feet_are_counted(self):
+        for logit, share in ((9.0, 100.0), (-9.0, 0.0)):
+            network = lambda image: (torch.full((len(image), 2, 30, 40), logit), torch.zeros(len(image), 4, 60, 80), None)
+            figures = evaluate(network, "full", generator_for(4, "cpu", None, 500), 1, 120)
+            self.assertEqual(figures["frames of feet with a false palm"], share)
 
 
 class Networks(unittest.TestCase):

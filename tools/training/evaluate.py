@@ -16,6 +16,7 @@ from export import opencv_network
 from hands_folder import add_hands_option, right_hand
 from losses import joint_errors_mm
 from network import LABELS
+from scenes.lookalikes import FEET
 from scenes.scene import Generator
 from scenes.sensors import KINDS
 
@@ -75,7 +76,9 @@ def _palms(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
     found = (heat[:, None] * near).amax(2)[truth.seen] > _LEAST_PALM
     far = (heat * ~near.any(1)).amax(1) > _LEAST_PALM
     none = truth.scenes.pixels.sum(1) == 0
-    return {"palms found": found, "frames with a false palm": far, "frames without a hand with a false palm": far[none]}
+    feet = none & (truth.scenes.lookalike == FEET)
+    return {"palms found": found, "frames with a false palm": far, "frames without a hand with a false palm": far[none],
+            "frames of feet with a false palm": far[feet]}
 
 
 def _joints(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:

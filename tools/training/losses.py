@@ -60,10 +60,12 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     bumps = bumps / bumps.sum((2, 3), keepdim=True).clamp_min(1e-6)
     peaked = mean(-(bumps * (share + 1e-9).log()).sum((2, 3)))
 
-    # Compute the loss of left against right hands; left hands are rarer, so they get a larger weight.
-    seen = truth.seen[:, 0].float()
-    rarer = torch.where(truth.right, 0.25, 1.0) * seen
-    sides = functional.binary_cross_entropy_with_logits(side[:, 0], truth.right.float(), reduction="none")
+    # Compute the loss of left against right hands; left hands are rarer, so they get a larger weight. Without a hand the
+    # network should be undecided: the program takes a decided side as evidence of a hand.
+    seen = truth.seen[:, 0]
+    rarer = torch.where(truth.right | ~seen, 0.25, 1.0)
+    target = torch.where(seen, truth.right.float(), torch.full_like(rarer, 0.5))
+    sides = functional.binary_cross_entropy_with_logits(side[:, 0], target, reduction="none")
     sides = (sides * rarer).sum() / rarer.sum().clamp_min(1)
     return across + 4 * ahead + 0.1 * peaked + _label_loss(labels, truth.label) + 0.3 * sides
 

@@ -1,13 +1,11 @@
 """Grasps: an object is placed in the hand, and the fingers close until their skin touches it. Hand frame, metres."""
-from dataclasses import dataclass
-
 import torch
 from torch import Tensor
 
 from .chance import Chance
 from .hands import Hands
-from .rotations import about, frame_along, unit
-from .shapes import BOX, CAPSULE, ELLIPSOID, distance_to_solid
+from .objects import Solids, objects
+from .rotations import about, apply, frame_along, unit
 from .skeleton import KNUCKLES, TIPS, forward_kinematics, landmarks, limits
 
 _STEPS = 10  # number of steps in which a finger closes; all of them are tested at once
@@ -19,36 +17,6 @@ _STAGES = [
     {0: [(2, 0.6), (4, 0.9)], 1: [(7, 1.0), (8, 0.5)]},
     {0: [(4, 0.6)], 1: [(8, 0.6)]},
 ]
-
-
-@dataclass
-class Solids:
-    """One object for each of B hands: `kind` [B] (see shapes.py), `centre` [B, 3], `rotation` [B, 3, 3], `half` [B,
-    3]."""
-    kind: Tensor
-    centre: Tensor
-    rotation: Tensor
-    half: Tensor
-
-    def distance(self, points: Tensor) -> Tensor:
-        return distance_to_solid(points, self.kind, self.centre, self.rotation, self.half)
-
-    def repeated(self, times: int) -> "Solids":
-        return Solids(*(v.repeat_interleave(times, 0) for v in (self.kind, self.centre, self.rotation, self.half)))
-
-
-def objects(chance: Chance, count: int) -> Solids:
-    """Boxes, ellipsoids, balls and bars, about 1.4 to 13 cm thick and some of them long, at the origin."""
-    thick = chance.log_uniform(0.007, 0.065, count, 1)
-    half = thick * chance.uniform(0.8, 1.25, count, 3)
-    half[:, 0] *= torch.where(chance.flag(0.5, count), chance.uniform(1, 6, count), torch.ones(count, device=chance.device))
-    half[:, 0] = half[:, 0].clamp_max(0.16)
-    ball = chance.flag(0.25, count)
-    half = torch.where(ball[:, None], half[:, 1:2].expand(-1, 3), half)
-    kind = torch.where(ball, torch.full_like(chance.choice([1], count), ELLIPSOID), chance.choice([0.4, 0.2, 0.4], count))
-    kind[kind == CAPSULE] = CAPSULE
-    where = torch.zeros(count, 3, device=chance.device)
-    return Solids(kind, where, chance.rotation(count), half)
 
 
 def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) -> Tensor:
@@ -64,6 +32,10 @@ def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) ->
     solids.rotation = frame_along(torch.where(chance.flag(0.8, count)[:, None], wobble, chance.direction(count)))
     solids.rotation = solids.rotation @ about("x", chance.uniform(0, 6.3, count))
 
+    # Turn those parts that are not gripped away from the palm.
+    inwards = apply(solids.rotation, solids.offset.mean(1))[:, 1] > 0
+    solids.rotation = solids.rotation @ about("x", torch.where(inwards, torch.pi, 0.0))
+
     # Choose the position: below the knuckles, or where thumb and fingers meet.
     share = chance.uniform(0.1, 0.75, count, 1)
     on_palm = knuckles[:, 1] * (1 - 0.5 * share) + 0.15 * (knuckles[:, 3] - knuckles[:, 0]) * chance.normal(1, count, 1)
@@ -73,7 +45,7 @@ def _place(chance: Chance, hands: Hands, open_angles: Tensor, solids: Solids) ->
     # Move the object along the palm's normal until it touches the palm's skin from outside.
     away = torch.tensor([0.0, -1.0, 0.0], device=chance.device)
     flesh = torch.where(against_palm, 1.25 * hands.flesh[:, 9], 0.5 * hands.flesh[:, 7])
-    solids.centre = spot + 0.5 * away * solids.half.amin(1, keepdim=True)
+    solids.centre = spot + 0.5 * away * solids.half[:, 0].amin(1, keepdim=True)
     for _ in range(8):
         gap = (solids.distance(spot[:, None])[:, 0] - flesh).clamp(-0.04, 0.04)
         solids.centre = solids.centre - away * torch.where(against_palm, gap, gap.clamp_max(0) * 0.5)[:, None]

@@ -1,9 +1,11 @@
 """Batches of right hands of different people: each has a skeleton, and points on the skin that follow it."""
+import math
 from dataclasses import dataclass
 
 import torch
 from torch import Tensor
 
+from .chance import Chance
 from .skeleton import Bones, forward_kinematics, landmarks
 
 
@@ -40,3 +42,12 @@ def joined(parts: list[Hands]) -> Hands:
         return torch.cat([getattr(part, name) for part in parts])
     bones = Bones(*(torch.cat([getattr(part.bones, name) for part in parts]) for name in ("turn", "joint", "tip")))
     return Hands(bones, cat("segment"), cat("weight"), cat("local"), cat("flesh"))
+
+
+def unusual(chance: Chance, count: int) -> tuple[Tensor, Tensor]:
+    """Logarithms of factors of size and of thickness [B, 1], 0 for two of three people: small children's hands, large
+    ones, thin ones, and hands in thick gloves."""
+    rare = chance.flag(0.33, count, 1)
+    size = chance.normal(0.17, count, 1).clamp(math.log(0.7), math.log(1.25))
+    flesh = chance.normal(0.17, count, 1).clamp(math.log(0.75), math.log(1.4))
+    return rare * size, rare * flesh

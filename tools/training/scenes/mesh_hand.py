@@ -8,7 +8,7 @@ from torch import Tensor
 
 from .chance import Chance
 from .gltf import JOINTS, RiggedMesh, read_hand
-from .hands import Hands
+from .hands import Hands, unusual
 from .skeleton import PARENT, SEGMENTS, Bones
 
 # The rigid segment that moves with each of the 25 joints, and the joint of each segment.
@@ -58,11 +58,13 @@ class MeshRig:
 
     def people(self, chance: Chance, count: int) -> Hands:
         """Hands of `count` people."""
-        size = torch.exp(chance.normal(0.1, count, 1))
+        other_size, other_flesh = unusual(chance, count)
+        size = torch.exp(chance.normal(0.1, count, 1) + other_size)
         finger = torch.exp(chance.normal(0.05, count, 5)).repeat_interleave(3, 1)
         long = size * torch.cat([torch.exp(chance.normal(0.05, count, 1)),
                                  finger * torch.exp(chance.normal(0.04, count, 15))], 1)
-        thick = size * torch.exp(chance.normal(0.1, count, 1) + chance.normal(0.04, count, SEGMENTS))
+        fingers = torch.tensor([0.5] + 15 * [1.0], device=chance.device)  # the palm's thickness varies less
+        thick = size * torch.exp(other_flesh * fingers + chance.normal(0.1, count, 1) + chance.normal(0.04, count, SEGMENTS))
         wide = thick * torch.exp(chance.normal(0.04, count, 1))
         wide[:, 0] = size[:, 0] * torch.exp(chance.normal(0.06, count))
         scale = torch.stack([wide, thick, long], -1)  # factors along x, y, z of each segment [count, 16, 3]

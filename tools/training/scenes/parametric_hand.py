@@ -8,7 +8,7 @@ import torch
 from torch import Tensor
 
 from .chance import Chance
-from .hands import Hands
+from .hands import Hands, unusual
 from .skeleton import PARENT, SEGMENTS, Bones
 
 PROFILE = Path(__file__).resolve().parents[3] / "configs/hands/adult_right.json"
@@ -51,7 +51,8 @@ class ParametricRig:
         """Hands of `count` people."""
         dev = DEVIATIONS
         draw = lambda name, *shape: chance.normal(dev[name], count, *shape)
-        size, fold = draw("size"), 3
+        other_size, other_flesh = unusual(chance, count)
+        size, fold = draw("size") + other_size[:, 0], 3
 
         # Change the lengths of the bones.
         longer = torch.exp(size[:, None] + draw("finger_length", 5).repeat_interleave(fold, 1) + draw("bone_length", 15))
@@ -65,10 +66,10 @@ class ParametricRig:
         joint[:, roots] = joint[:, roots] * palm[:, None] + shift
 
         # Change the sections: width and thickness at both ends of each segment.
-        wider = size[:, None] + draw("fingers_thickness", 1) + draw("finger_thickness", 5).repeat_interleave(fold, 1)
+        wider = size[:, None] + other_flesh + draw("fingers_thickness", 1) + draw("finger_thickness", 5).repeat_interleave(fold, 1)
         wider[:, 0] += draw("thenar_thickness")
         flat = torch.stack([wider, wider + draw("flatness", 1)], -1)
-        palm_section = torch.stack([palm[:, 0].log(), size + draw("palm_thickness")], -1)
+        palm_section = torch.stack([palm[:, 0].log(), size + 0.5 * other_flesh[:, 0] + draw("palm_thickness")], -1)
         factor = torch.exp(torch.cat([palm_section[:, None], flat], 1))[..., None]  # [count, 16, 2, 1]
         half, offset = self.half * factor, self.offset * factor
         root = torch.exp(draw("knuckle_thickness"))[:, None, None]

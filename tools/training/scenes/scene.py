@@ -8,13 +8,17 @@ from torch import Tensor
 from .chance import Chance
 from .grasps import grasps
 from .hands import Hands, joined
+from .lookalikes import KINDS, lookalikes
 from .mesh_hand import MeshRig
 from .parametric_hand import ParametricRig
+from .motion import seen_in_motion
+from .objects import Solids
+from .pairs import beside, partners
 from .people import Stance, arms, bodies, stances
 from .poses import free_poses
 from .rotations import apply
-from .sensors import measure
-from .shapes import FAR, hit_solid, only
+from .sensors import cut, measure
+from .shapes import FAR, NOTHING, hit_solid, only
 from .skeleton import MIDDLE_KNUCKLE, WRIST
 from .surroundings import clutter, occluders, planes
 from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
@@ -29,7 +33,8 @@ class Scenes:
 
     `depth` [B, H, W, m; 0: no depth]; `label` [B, H, W]; `joints` [B, 2, 21, 3, m, camera frame]; `uv` [B, 2, 21, 2,
     pixels]; `pixels` [B, 2]: number of pixels that show each hand, 0 if there is no such hand; `right` [B, 2]: whether
-    it is a right hand; `grasp` [B]: whether hand 0 holds an object; `sensor` [B]: index into sensors.KINDS.
+    it is a right hand; `grasp` [B]: whether hand 0 holds an object; `sensor` [B]: index into sensors.KINDS; `lookalike` [B]:
+    which thing that is no hand stands out, as an index into lookalikes.KINDS (-1: none).
     """
     view: View
     depth: Tensor
@@ -40,6 +45,7 @@ class Scenes:
     right: Tensor
     grasp: Tensor
     sensor: Tensor
+    lookalike: Tensor
     middle: Tensor  # the point at the centre of a window; in a whole frame, the palm of hand 0 [B, 3, m]
 
     def palms(self) -> Tensor:
@@ -62,23 +68,24 @@ class Generator:
         return joined([rig.people(self.chance, share) for rig, share in zip(self.rigs, shares) if share])
 
     def frames(self, count: int) -> Scenes:
-        """Whole frames with hands 0.18 to 1.6 m away; 16 % show no hand."""
+        """Whole frames with hands 0.16 to 1.6 m away; 22 % show no hand."""
         chance = self.chance
         view = full_view(chance.uniform(0.8, 1.15, count))
         rows, columns = view.size
-        z = chance.log_uniform(0.18, 1.6, count)
-        u, v = chance.uniform(0.08, 0.92, count) * columns, chance.uniform(0.08, 0.92, count) * rows
+        z = chance.log_uniform(0.16, 1.6, count)
+        u, v = chance.uniform(0.03, 0.97, count) * columns, chance.uniform(0.03, 0.97, count) * rows
         place = torch.stack([(u - view.cx) * z / view.focal, (v - view.cy) * z / view.focal, z], 1)
-        return self._make(view, place, place, chance.flag(0.84, count), True)
+        return self._make(view, place, place, chance.flag(0.78, count), True)
 
     def windows(self, count: int) -> Scenes:
-        """Windows around palms, up to 4.5 cm off centre along each axis; 8 % show no hand."""
+        """Windows around palms, up to 4.5 cm off centre along each axis; 14 % show no hand, and most of these
+        something that is like one."""
         chance = self.chance
-        z = chance.log_uniform(0.18, 1.6, count)
+        z = chance.log_uniform(0.16, 1.6, count)
         place = torch.stack([chance.uniform(-0.5, 0.5, count) * z, chance.uniform(-0.4, 0.4, count) * z, z], 1)
         middle = place + chance.uniform(-0.045, 0.045, count, 3)
         view = crop_view(middle, CROP_ACROSS * chance.uniform(0.9, 1.12, count))
-        return self._make(view, place, middle, chance.flag(0.92, count), False)
+        return self._make(view, place, middle, chance.flag(0.86, count), False)
 
     def _make(self, view: View, place: Tensor, middle: Tensor, present: Tensor, whole: bool) -> Scenes:
         """`place` [B, 3]: position of hand 0's palm; `middle` [B, 3]: see Scenes; `present` [B]: whether there are
@@ -93,40 +100,42 @@ class Generator:
         angles = torch.where(grasp[:, None], holding, free_poses(chance, count))
         right = chance.flag(0.5, count)
         skin, joints, origin = _put(hands, angles, right, stance, place)
-        beside = place + _beside(chance, place)
-        other_right = torch.where(chance.flag(0.85, count), ~right, right)
-        other_stance = Stance(torch.where(chance.flag(0.5, count)[:, None, None], stances(chance, count).rotation,
-                                          _mirrored(stance.rotation)), stance.egocentric)
-        other_hands = self.people(count)
-        other_skin, other_joints, _ = _put(other_hands, free_poses(chance, count), other_right, other_stance, beside)
-        both = present & chance.flag(0.3, count) & (beside[:, 2] > 0.15)
+        other = partners(chance, stance, right, place)
+        other_skin, other_joints, _ = _put(self.people(count), other.angles, other.right, other.stance, other.place)
+        both = present & chance.flag(0.3, count) & (other.place[:, 2] > 0.12)
 
         # Make the surfaces. In a window, the other hand counts as background.
         size = (joints[:, MIDDLE_KNUCKLE] - joints[:, WRIST]).norm(dim=1) / _MEAN_PALM
         arm, shoulder = arms(chance, rays, stance, joints[:, WRIST], size)
-        other_arm, _ = arms(chance, rays, other_stance, other_joints[:, WRIST], size)
+        other_arm, _ = arms(chance, rays, other.stance, other_joints[:, WRIST], size)
         arm = torch.minimum(arm, only(both, other_arm))
-        arm = only(present | chance.flag(0.6, count), arm)
+        lookalike = _lookalike_kinds(chance, present)
+        arm = only(present | (lookalike < 0) & chance.flag(0.85, count), arm)
         rest = torch.minimum(only(chance.flag(0.55, count) & ~stance.egocentric, bodies(chance, rays, shoulder)),
                              planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1)))
         rest = torch.minimum(rest, clutter(chance, rays, place))
-        flip = _flip(right)
-        held = hit_solid(rays, solids.kind, apply(stance.rotation, flip * solids.centre) + origin,
-                         stance.rotation @ (flip[:, :, None] * solids.rotation), solids.half)
-        thing = torch.minimum(only(grasp & (present | chance.flag(0.3, count)), held), occluders(chance, rays, place))
+        rest = torch.minimum(rest, lookalikes(chance, rays, place + present[:, None] * beside(chance, place, 0.25), lookalike))
+        shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
+        thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
         layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
                   (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
 
-        # Find the nearest surface at every pixel, and simulate a sensor.
-        depth, winner = torch.stack([layer for layer, _ in layers], 1).min(1)
+        # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile.
+        motion = 0.03 * view.focal / place[:, 2]
+        depth, winner = seen_in_motion(chance, torch.stack([layer for layer, _ in layers], 1), motion)
         label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
-        label = torch.where(depth < FAR, label, torch.zeros_like(label))
+        visible = depth < FAR
         measured, sensor = measure(chance, depth, view)
-        pixels = torch.stack([(winner == 1).flatten(1).sum(1) * present, (winner == 2).flatten(1).sum(1) * both], 1)
+        if not whole:
+            inside = ~cut(chance, view)
+            measured, visible = measured * inside, visible & inside
+        label = torch.where(visible, label, torch.zeros_like(label))
+        shown = [((winner == 1 + hand) & visible).flatten(1).sum(1) for hand in range(2)]
+        pixels = torch.stack([shown[0] * present, shown[1] * both], 1)
         every = torch.stack([joints, other_joints], 1)
         uv = view.project(every.flatten(1, 2)).reshape(count, 2, -1, 2)
-        return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other_right], 1), grasp & present,
-                      sensor, middle)
+        return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other.right], 1), grasp & present,
+                      sensor, lookalike, middle)
 
 
 def only_joints(mask: Tensor, joints: Tensor, otherwise: Tensor) -> Tensor:
@@ -140,12 +149,6 @@ def _flip(right: Tensor) -> Tensor:
     return torch.stack([sign, torch.ones_like(sign), torch.ones_like(sign)], 1)
 
 
-def _mirrored(rotation: Tensor) -> Tensor:
-    """The rotation of the other hand when both are held symmetrically: mirrored in the camera's and in the hand's x."""
-    flip = torch.tensor([-1.0, 1.0, 1.0], device=rotation.device)
-    return flip[:, None] * rotation * flip
-
-
 def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Tensor) -> tuple[Tensor, Tensor, Tensor]:
     """Places the hands with their palms' centres at `place` [B, 3]. Returns skin, joints and the origins of the hands'
     frames, all in the camera's frame [m]."""
@@ -156,9 +159,21 @@ def _put(hands: Hands, angles: Tensor, right: Tensor, stance: Stance, place: Ten
     return skin + origin[:, None], joints + origin[:, None], origin
 
 
-def _beside(chance: Chance, place: Tensor) -> Tensor:
-    """The vector [B, 3] from one palm to the other: 7 to 50 cm long, mostly across the view."""
-    count = len(place)
-    turn = chance.uniform(0, 6.3, count)
-    way = torch.stack([torch.cos(turn), 0.6 * torch.sin(turn), chance.normal(0.35, count)], 1)
-    return torch.nn.functional.normalize(way, dim=1) * chance.log_uniform(0.07, 0.5, count, 1)
+def _held(rays: Tensor, solids: Solids, shown: Tensor, right: Tensor, stance: Stance, origin: Tensor) -> Tensor:
+    """Depth of the objects in those hands for which `shown` [B] is true."""
+    flip, depth = _flip(right), None
+    for kind, centre, rotation, half in solids.parts():
+        kind = torch.where(shown, kind, torch.full_like(kind, NOTHING))
+        part = hit_solid(rays, kind, apply(stance.rotation, flip * centre) + origin,
+                         stance.rotation @ (flip[:, :, None] * rotation), half)
+        depth = part if depth is None else torch.minimum(depth, part)
+    return depth
+
+
+def _lookalike_kinds(chance: Chance, present: Tensor) -> Tensor:
+    """For every scene, which thing that is mistaken for a hand is in it, -1 for none: there is one in most scenes
+    without a hand and in a tenth of the others."""
+    count = len(present)
+    wanted = torch.where(present, chance.flag(0.1, count), chance.flag(0.6, count))
+    kind = chance.choice(list(KINDS.values()), count)
+    return torch.where(wanted, kind, torch.full_like(kind, -1))

@@ -11,7 +11,7 @@ KINDS = ("structured light", "time of flight", "stereo", "clean")
 _SHARES = (0.33, 0.3, 0.27, 0.1)  # probabilities of the KINDS
 
 
-def _smooth(image: Tensor, size: int) -> Tensor:
+def smooth(image: Tensor, size: int) -> Tensor:
     """The mean over size x size pixels around every pixel."""
     return avg_pool2d(image[:, None], size, 1, size // 2, count_include_pad=False)[:, 0]
 
@@ -38,7 +38,7 @@ def _structured_light(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor
     step = chance.log_uniform(0.0003, 0.003, count)[:, None, None]  # step of depth at a distance of 1 m [m]
     noise = step * depth ** 2
     jagged = _edges(depth)[0] & chance.flag(0.4, *depth.shape)
-    measured = depth + noise * (_smooth(chance.normal(1, *depth.shape), 3) * 2 + chance.normal(0.4, *depth.shape))
+    measured = depth + noise * (smooth(chance.normal(1, *depth.shape), 3) * 2 + chance.normal(0.4, *depth.shape))
     inverse = (1 / measured.clamp_min(0.05) / step).round() * step
     return 1 / inverse.clamp_min(1e-3), shadow | jagged
 
@@ -50,7 +50,7 @@ def _time_of_flight(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
     edge, lowest, highest = _edges(depth)
     flying = edge & (chance.uniform(0, 1, *depth.shape) < chance.uniform(0, 0.6, count)[:, None, None])
     between = lowest + (highest.clamp_max(3) - lowest).clamp_min(0) * chance.uniform(0, 1, *depth.shape)
-    reflected = chance.uniform(0, 0.25, count)[:, None, None] * (_smooth(depth.clamp_max(3), 9) - depth).clamp(-0.05, 0.05)
+    reflected = chance.uniform(0, 0.25, count)[:, None, None] * (smooth(depth.clamp_max(3), 9) - depth).clamp(-0.05, 0.05)
     deviation = chance.uniform(0.0005, 0.004, count)[:, None, None] * (0.3 + depth.clamp_max(4) ** 2)
     measured = torch.where(flying, between, depth + reflected) + deviation * chance.normal(1, *depth.shape)
     return measured, edge & chance.flag(0.12, *depth.shape)
@@ -62,9 +62,9 @@ def _stereo(chance: Chance, depth: Tensor) -> tuple[Tensor, Tensor]:
     count = len(depth)
     fat = -max_pool2d(-depth[:, None], 3, 1, 1)[:, 0]
     grown = torch.where((chance.uniform(0, 1, count) < 0.6)[:, None, None] & chance.flag(0.8, *depth.shape), fat, depth)
-    wobble = _smooth(_smooth(chance.normal(1, *depth.shape), 7), 7) * 11
+    wobble = smooth(smooth(chance.normal(1, *depth.shape), 7), 7) * 11
     measured = grown + chance.uniform(0.001, 0.006, count)[:, None, None] * depth.clamp_max(3) ** 1.5 * wobble
-    blobs = _smooth(_smooth(chance.normal(1, *depth.shape), 7), 5)
+    blobs = smooth(smooth(chance.normal(1, *depth.shape), 7), 5)
     holes = blobs > chance.uniform(0.14, 0.4, count)[:, None, None]
     return measured, holes | (_edges(depth)[0] & chance.flag(0.25, *depth.shape))
 
@@ -100,3 +100,15 @@ def measure(chance: Chance, depth: Tensor, view: View) -> tuple[Tensor, Tensor]:
     unit = torch.where(chance.flag(0.7, count), 1e-3, 1e-4)[:, None, None]
     measured = (measured / unit).round() * unit
     return _coarse(chance, torch.where(missing, torch.zeros_like(measured), measured)), kind
+
+
+def cut(chance: Chance, view: View) -> Tensor:
+    """The pixels [B, H, W] of windows that lie beyond the border of the sensor's image: up to two fifths of every eighth
+    window."""
+    rows, columns = view.size
+    count, device = len(view.focal), view.focal.device
+    u = torch.linspace(0, 1, columns, device=device).expand(rows, columns)
+    v = torch.linspace(0, 1, rows, device=device)[:, None].expand(rows, columns)
+    border = torch.stack([u, 1 - u, v, 1 - v])[chance.choice([1, 1, 1, 1], count)]
+    beyond = chance.uniform(0.03, 0.4, count) * chance.flag(0.125, count)
+    return border < beyond[:, None, None]

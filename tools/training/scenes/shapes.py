@@ -56,6 +56,14 @@ def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, 
     return _seen(hit, t)
 
 
+def hit_capsules(rays: Tensor, capsules: Tensor) -> Tensor:
+    """K capsules [B, K, 2, 4] per sample: point and radius of both ends."""
+    samples, (rows, columns) = capsules.shape[:2], rays.shape[1:3]
+    many = rays[:, None].expand(-1, samples[1], -1, -1, -1).reshape(-1, rows, columns, 3)
+    start, end = capsules.flatten(0, 1).unbind(1)
+    return hit_capsule(many, start[:, :3], end[:, :3], start[:, 3], end[:, 3]).reshape(*samples, rows, columns).amin(1)
+
+
 def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
     """A box with half edges `half` [B, 3] along the columns of `rotation` [B, 3, 3]."""
     origin = -apply(rotation.transpose(1, 2), centre)[:, None, None]
@@ -82,21 +90,46 @@ def hit_plane(rays: Tensor, point: Tensor, normal: Tensor) -> Tensor:
     return _seen(slope < -1e-3, (point * normal).sum(1)[:, None, None] / slope.clamp_max(-1e-3))
 
 
-BOX, ELLIPSOID, CAPSULE = 0, 1, 2
+def hit_cylinder(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """A cylinder with flat ends along the first column of `rotation`: half its length is half[:, 0], its radius half[:,
+    1]."""
+    origin = -apply(rotation.transpose(1, 2), centre)[:, None, None]
+    slope = torch.einsum("bji,bhwj->bhwi", rotation, rays)
+
+    # The ray is inside the round surface between two depths, and between the flat ends as in a box.
+    a, b = (slope[..., 1:] ** 2).sum(-1).clamp_min(1e-9), (slope[..., 1:] * origin[..., 1:]).sum(-1)
+    c = (origin[..., 1:] ** 2).sum(-1) - half[:, None, None, 1] ** 2
+    root = b * b - a * c
+    width = torch.sqrt(root.clamp_min(0))
+    inverse = 1 / torch.where(slope[..., 0].abs() < 1e-6, torch.full_like(b, 1e-6), slope[..., 0])
+    ends = [(side * half[:, None, None, 0] - origin[..., 0]) * inverse for side in (-1, 1)]
+    enter = torch.maximum((-b - width) / a, torch.minimum(*ends))
+    leave = torch.minimum((-b + width) / a, torch.maximum(*ends))
+    return _seen((root > 0) & (enter < leave), enter)
+
+
+def _hit_bar(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
+    """A capsule along the first column of `rotation` with the radius half[:, 1]."""
+    end = rotation[:, :, 0] * (half[:, :1] - half[:, 1:2]).clamp_min(1e-3)
+    return hit_capsule(rays, centre - end, centre + end, half[:, 1], half[:, 1])
+
+
+BOX, ELLIPSOID, CAPSULE, CYLINDER, NOTHING = range(5)
 
 
 def hit_solid(rays: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """One solid per sample, of `kind` [B]: box, ellipsoid or capsule (along the first axis, with radius half[:, 1])."""
-    end = rotation[:, :, 0] * (half[:, :1] - half[:, 1:2]).clamp_min(1e-3)
-    depth = hit_box(rays, centre, rotation, half)
-    depth = torch.where((kind == ELLIPSOID)[:, None, None], hit_ellipsoid(rays, centre, rotation, half), depth)
-    capsule = hit_capsule(rays, centre - end, centre + end, half[:, 1], half[:, 1])
-    return torch.where((kind == CAPSULE)[:, None, None], capsule, depth)
+    """One solid per sample, of `kind` [B]: box, ellipsoid, capsule or cylinder (both along the first axis, with radius
+    half[:, 1]), or nothing."""
+    depth = torch.full(rays.shape[:3], FAR, device=rays.device)
+    for index, hit in enumerate((hit_box, hit_ellipsoid, _hit_bar, hit_cylinder)):
+        mine = (kind == index).nonzero()[:, 0]
+        depth[mine] = hit(rays[mine], centre[mine], rotation[mine], half[mine])
+    return depth
 
 
 def distance_to_solid(points: Tensor, kind: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
-    """Signed distances [B, N] of `points` [B, N, 3] from the solids of hit_solid(); the distance from an ellipsoid is a
-    first-order approximation."""
+    """Signed distances [B, N] of `points` [B, N, 3] from the solids of hit_solid(), FAR from nothing; the distance from
+    an ellipsoid is a first-order approximation."""
     local = torch.einsum("bji,bnj->bni", rotation, points - centre[:, None])
     half = half[:, None]
 
@@ -108,6 +141,8 @@ def distance_to_solid(points: Tensor, kind: Tensor, centre: Tensor, rotation: Te
     nearest = torch.maximum(torch.minimum(local[..., 0], reach), -reach)
     aside = torch.stack([local[..., 0] - nearest, local[..., 1], local[..., 2]], -1)
     capsule = aside.norm(dim=-1) - half[..., 1]
+    over = torch.stack([over[..., 0], local[..., 1:].norm(dim=-1) - half[..., 1]], -1)
+    cylinder = over.clamp_min(0).norm(dim=-1) + over.amax(-1).clamp_max(0)
 
-    kind = kind[:, None]
-    return torch.where(kind == BOX, box, torch.where(kind == ELLIPSOID, ellipsoid, capsule))
+    every = torch.stack([box, ellipsoid, capsule, cylinder, torch.full_like(box, FAR)], 1)
+    return every[torch.arange(len(kind), device=kind.device), kind]

@@ -4,7 +4,7 @@ from torch import Tensor
 
 from .chance import Chance
 from .rotations import unit
-from .shapes import hit_ellipsoid, hit_plane, hit_solid, only
+from .shapes import NOTHING, hit_ellipsoid, hit_plane, hit_solid, only
 
 
 def planes(chance: Chance, rays: Tensor, joints: Tensor) -> Tensor:
@@ -34,8 +34,9 @@ def clutter(chance: Chance, rays: Tensor, centre: Tensor, things: int = 3) -> Te
         offset[:, 2] += 0.2
         place = centre + offset
         clear = (offset.norm(dim=1) > 0.15 + half.amax(1)) & (place[:, 2] > 0.1 + half.amax(1))
-        thing = hit_solid(rays, chance.choice([0.4, 0.3, 0.3], count), place, chance.rotation(count), half)
-        thing = only(clear & chance.flag(0.4, count), thing)
+        kind = chance.choice([0.4, 0.2, 0.2, 0.2], count)
+        kind[~(clear & chance.flag(0.4, count))] = NOTHING
+        thing = hit_solid(rays, kind, place, chance.rotation(count), half)
         depth = thing if depth is None else torch.minimum(depth, thing)
     return depth
 
