@@ -72,14 +72,19 @@ def _crop(generator: Generator, count: int) -> Examples:
                     scenes.right[:, 0] != mirror, 1e3 * scenes.middle[:, 2] / scenes.view.focal, scenes)
 
 
+def shuffled(examples: Examples) -> Examples:
+    """The same examples in another order, which PyTorch's own generator of random numbers decides."""
+    return _rows(examples, torch.randperm(len(examples.image), device=examples.image.device))
+
+
 def parts(examples: Examples, size: int) -> Iterator[Examples]:
     """Divides `examples` into batches of `size`."""
     for first in range(0, len(examples.image), size):
         yield _rows(examples, slice(first, first + size))
 
 
-def _rows(value: Any, rows: slice) -> Any:
-    """The `rows` of each tensor in a dataclass or a tuple of batches; what is no tensor is kept."""
+def _rows(value: Any, rows: slice | Tensor) -> Any:
+    """The `rows` of each tensor in a dataclass; what is no tensor is kept."""
     if isinstance(value, Tensor):
         return value[rows]
     if is_dataclass(value):

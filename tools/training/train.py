@@ -15,7 +15,7 @@ from typing import Iterator
 import torch
 
 from evaluate import UNSEEN_SEED, evaluate
-from examples import Examples, generator_for, make_examples, parts
+from examples import Examples, generator_for, make_examples, parts, shuffled
 from export import SIZES, export, greatest_difference, write_manifest
 from hands_folder import add_hands_option, right_hand
 from losses import LOSSES
@@ -24,7 +24,9 @@ from scenes.scene import Generator
 
 _SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
 _BATCH = {"full": 160, "crop": 256}
-_AT_ONCE = 6  # number of batches that are made at once, because a GPU makes many images in hardly more time than few
+# Number of batches that are made at once, because a GPU makes many images in hardly more time than few, and how often
+# the network sees them, because it learns from an image in less time than it takes to make it.
+_AT_ONCE, _PASSES = 6, 3
 _SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
 _VALIDATION_SEED = 1_000_003  # seed whose people and scenes are in no batch of the training
 
@@ -51,7 +53,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     """Trains the network `name` and returns it. Prints the loss on scenes that are not part of the training."""
     torch.manual_seed(options.seed)
     device, mesh = options.device, right_hand(options.hands)
-    network = make_network(name).to(device)
+    network = make_network(name).to(device, memory_format=torch.channels_last)
     if options.resume:
         network.load_state_dict(torch.load(options.resume / f"{name}.pt", map_location=device))
     optimiser = torch.optim.AdamW(network.parameters(), 2e-3, weight_decay=1e-3)
@@ -67,7 +69,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
         network.train()
         examples = next(batches)
         with torch.autocast(device, torch.bfloat16, enabled=device == "cuda"):
-            output = network(examples.image)
+            output = network(examples.image.contiguous(memory_format=torch.channels_last))
         loss = LOSSES[name](output, examples)
         optimiser.zero_grad()
         loss.backward()
@@ -87,7 +89,9 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
 
 def _batches(generator: Generator, name: str, size: int, at_once: int) -> Iterator[Examples]:
     while True:
-        yield from parts(make_examples(generator, name, size * at_once), size)
+        examples = make_examples(generator, name, size * at_once)
+        for _ in range(_PASSES):
+            yield from parts(shuffled(examples), size)
 
 
 def _loss(network: HandNetwork, name: str, examples) -> float:

@@ -3,6 +3,9 @@
 `rays` [B, H, W, 3] start at the origin and have z = 1. Each `hit_` function gives the depth z [B, H, W] of the nearest
 surface in front of the camera, or FAR if the ray hits nothing.
 """
+from functools import wraps
+from typing import Callable
+
 import torch
 from torch import Tensor
 
@@ -10,6 +13,22 @@ from .rotations import apply
 
 FAR = 1e3  # depth of a ray that hits nothing [m]
 NEAR = 0.05  # surfaces nearer to the camera than this are not seen [m]
+
+
+def _fused(function: Callable[..., Tensor]) -> Callable[..., Tensor]:
+    """The `function` of rays, compiled on a GPU, where each of its many steps would otherwise read and write whole
+    images."""
+    compiled: list[Callable[..., Tensor]] = []
+
+    @wraps(function)
+    def call(rays: Tensor, *rest: Tensor) -> Tensor:
+        if not rays.is_cuda:
+            return function(rays, *rest)
+        if not compiled:
+            compiled.append(torch.compile(function, dynamic=True))
+        return compiled[0](rays, *rest)
+
+    return call
 
 
 def _seen(hit: Tensor, t: Tensor) -> Tensor:
@@ -21,22 +40,27 @@ def only(mask: Tensor, depth: Tensor) -> Tensor:
     return torch.where(mask[:, None, None], depth, torch.full_like(depth, FAR))
 
 
+def _dot(rays: Tensor, vector: Tensor) -> Tensor:
+    """The dot products [B, H, W] of the rays with `vector` [B, 3]."""
+    x, y, z = vector[:, :, None, None].unbind(1)
+    return rays[..., 0] * x + rays[..., 1] * y + z
+
+
+@_fused
 def hit_capsule(rays: Tensor, start: Tensor, end: Tensor, start_radius: Tensor, end_radius: Tensor) -> Tensor:
     """A capsule from `start` to `end` [B, 3] whose radius [B] changes linearly between them."""
-    along = (end - start)[:, None, None]
-    start, start_radius, end_radius = start[:, None, None], start_radius[:, None, None], end_radius[:, None, None]
-
-    rr, ra, aa = (rays * rays).sum(-1), (rays * along).sum(-1), (along * along).sum(-1)
-    rs, sa = (rays * start).sum(-1), (start * along).sum(-1)
+    along, scalar = end - start, lambda values: values[:, None, None]
+    start_radius, end_radius = scalar(start_radius), scalar(end_radius)
+    aa, sa, ss = scalar((along * along).sum(1)), scalar((start * along).sum(1)), scalar((start * start).sum(1))
+    rr, ra, rs = rays[..., 0] ** 2 + rays[..., 1] ** 2 + 1, _dot(rays, along), _dot(rays, start)
 
     def ball(share: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Intersects the rays with the ball around the point at the fraction `share` of the axis. Returns, in units of
         the ray: the middle of the chord, its squared half length (negative: a miss), and the point where the ray
         enters."""
-        centre = start + share[..., None] * along
         radius = start_radius + share.clamp(0, 1) * (end_radius - start_radius)
-        middle = (rays * centre).sum(-1) / rr
-        chord = (radius * radius - (centre * centre).sum(-1)) / rr + middle * middle
+        middle = (rs + share * ra) / rr
+        chord = (radius * radius - ss - share * (2 * sa + share * aa)) / rr + middle * middle
         return middle, chord, middle - torch.sqrt(chord.clamp_min(0))
 
     # Find the rays that hit: those that hit the ball around the point of the axis that is nearest to the ray.
@@ -64,6 +88,7 @@ def hit_capsules(rays: Tensor, capsules: Tensor) -> Tensor:
     return hit_capsule(many, start[:, :3], end[:, :3], start[:, 3], end[:, 3]).reshape(*samples, rows, columns).amin(1)
 
 
+@_fused
 def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
     """A box with half edges `half` [B, 3] along the columns of `rotation` [B, 3, 3]."""
     origin = -apply(rotation.transpose(1, 2), centre)[:, None, None]
@@ -75,6 +100,7 @@ def hit_box(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Ten
     return _seen(enter < leave, enter)
 
 
+@_fused
 def hit_ellipsoid(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) -> Tensor:
     """An ellipsoid with half axes `half` [B, 3] along the columns of `rotation`."""
     origin = (-apply(rotation.transpose(1, 2), centre) / half)[:, None, None]
@@ -84,6 +110,7 @@ def hit_ellipsoid(rays: Tensor, centre: Tensor, rotation: Tensor, half: Tensor) 
     return _seen(root > 0, (-b - torch.sqrt(root.clamp_min(0))) / a)
 
 
+@_fused
 def hit_plane(rays: Tensor, point: Tensor, normal: Tensor) -> Tensor:
     """A plane through `point` [B, 3], visible only from the side to which `normal` [B, 3] points."""
     slope = (rays * normal[:, None, None]).sum(-1)

@@ -32,7 +32,7 @@ class View:
         v, u = torch.meshgrid(torch.arange(rows, device=device), torch.arange(columns, device=device), indexing="ij")
         x = (u - self.cx[:, None, None]) / self.focal[:, None, None]
         y = (v - self.cy[:, None, None]) / self.focal[:, None, None]
-        return torch.stack([x, y, torch.ones_like(x)], -1)
+        return torch.stack([x, y, torch.ones_like(x)]).permute(1, 2, 3, 0)  # x, y and z each lie together in memory
 
     def project(self, points: Tensor) -> Tensor:
         """Pixel coordinates [B, N, 2] of points [B, N, 3] in the camera's frame [m]."""
