@@ -150,12 +150,14 @@ Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSi
 /// Makes a profile from the frames of the run, saves it, and reports the result. Returns the exit code.
 int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, const HandProfile& start,
              const ScanSink::Scan& scan, const TrackOutcome& tracked) {
-  // Report it if no hand was tracked, so that there is nothing to measure.
+  // Show on the page what was scanned.
   ViewState state;
   state.source = o.track.source;
   state.T_world_camera = world_from(config.world).value_or(std::nullopt);
   state.scan = view_scan(kHowTo, scan.report, start, start);
   ScanPage page(tracked.page ? &tracked.page->server() : nullptr, std::move(state));
+
+  // Report it if no hand was tracked, so that there is nothing to measure.
   if (!scan.profile) {
     page.done("No hand was tracked, so nothing is saved.", nullptr);
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
@@ -201,6 +203,8 @@ int run(const CalibrateOptions& o) {
   track_options.hands = {o.hand};
   track_options.saved_later = o.out;
   std::cerr << kHowTo << std::endl;
+
+  // Let the page show what has been measured so far.
   const HandProfile& start = *hands->front().profile;
   const auto shown = [&] { return view_scan(kHowTo, scan.report, start, scan.profile ? *scan.profile : start); };
   const auto tracked = track(track_options, *config, {}, std::move(sinks), shown);

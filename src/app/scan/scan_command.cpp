@@ -78,6 +78,7 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
   const ScannedMesh scanned = object ? scanned_mesh(object->surface, kFine) : ScannedMesh();
   ObjectMesh checked = scanned.mesh;
   const bool solid = !checked.triangles.empty() && repair_mesh(checked, o.out).has_value();
+
   if (!solid) {
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
     return complain({object ? "too little of an object was seen" : "no object was seen in or near a hand",
@@ -90,6 +91,8 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
   const std::vector<ObjGroup> groups = {{"seen", 0}, {"closed", scanned.lids}};
   if (const auto saved = save_obj(vertices, triangles, o.out, groups); !saved)
     return complain(saved.error(), kExitFailure);
+
+  // Say how much was seen.
   std::fprintf(out, "%s, held in %d of %d frames\n", described(*object, scanned).c_str(), object->held, scan.frames());
   if (object->held == 0) std::fputs("no object was held, so this is the one of which most was seen\n", out);
   if (scanned.seen < kLittle) std::fputs("little was seen of it; scan it again, and turn it before the sensor\n", out);
@@ -113,6 +116,7 @@ int run_scan(const ScanOptions& o) {
     scan.add(objects);
     advice.give(scan);
   };
+
   TrackOptions track_options = o.track;
   track_options.saved_later = o.out;
   std::cerr << kHowToScan << std::endl;
@@ -128,12 +132,16 @@ void add_scan_command(CLI::App& app, int& exit_code) {
   ScanOptions& o = *options;
   o.track.no_publish = true;
   o.track.threads = available_cores();
+
+  // Add options for input and output.
   CLI::App* scan =
       app.add_subcommand("scan-object", "Save the shape of an object that a hand turns as a mesh for track --object");
   add_input_options(*scan, o.track);
   scan->get_option("--source")->required();
   scan->add_option("--out", o.out, "mesh to write (OBJ, metres)")->required();
   scan->add_option("--overlay", o.track.overlay, "as for track");
+
+  // Add options for the page, and for how the run is computed.
   add_view_options(*scan, o.track);
   add_overwrite_option(*scan, o.track.overwrite);
   scan->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");
