@@ -71,6 +71,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   const auto components = static_cast<std::size_t>(links_.components());
   count_.assign(components, 0);
   for (const SurfacePoint& point : points) ++count_[point.component];
+
   near_.assign(tracks_.size() * components, 0);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (!tracks_[t].modelled()) continue;
@@ -99,6 +100,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       most = near_[t * components + i];
       owner_[i] = static_cast<int>(t);
     }
+
     if (owner_[i] < 0) continue;
     tracks_[owner_[i]].seen = utime;
     tracks_[owner_[i]].placed = true;
@@ -125,6 +127,8 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
     Cluster* best = nullptr;
     std::size_t best_track = 0;
     double least = 1;
+
+    // Compare all pairs by their distance relative to the largest allowed one.
     for (Cluster& cluster : clusters_) {
       if (cluster.count < kSpeck || cluster.track >= 0) continue;
       for (std::size_t t = 0; t < known; ++t) {

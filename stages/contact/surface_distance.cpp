@@ -87,6 +87,8 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
     f += w * close_[i].n.dot(x - close_[i].p);
     normal += w * close_[i].n;
   }
+
+  // Normals that cancel each other define no plane.
   if (normal.squaredNorm() < 1e-6f) return false;
   plane = {&close_[best], std::sqrt(least_sq), f / weights, normal.normalized()};
   return true;

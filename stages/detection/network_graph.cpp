@@ -110,6 +110,7 @@ class OnnxReader {
     require(equal(kernel, 2) && equal(strides, 2) && equal(pads, 4) && kernel[0] > 0 && strides[0] > 0 &&
                 std::ranges::all_of(dilations, [](std::int64_t d) { return d == 1; }),
             "a convolution with unequal sides");
+
     step.kernel = static_cast<int>(kernel[0]);
     step.stride = static_cast<int>(strides[0]);
     step.pad = static_cast<int>(pads[0]);

@@ -37,6 +37,8 @@ Result<std::vector<int>> read_classes(const json_fields::Object& file, std::size
     classes.push_back(type ? 1 + *type : 0);
     present[static_cast<std::size_t>(classes.back())] = true;
   }
+
+  // Report a grasp without a row.
   for (int k = 0; k < kGraspCount; ++k)
     if (!present[static_cast<std::size_t>(k)])
       return fail("\"classes\" lacks " + std::string(grasp_name(k)), file.where, kRemedy);
@@ -81,6 +83,7 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
   out.bias_.resize(rows);
   Eigen::Matrix<double, kGraspFeatureCount, 1> deviation;
   Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::RowMajor> weights(rows, kGraspFeatureCount);
+
   numbers("mean", -kLargest, kLargest, out.mean_);
   numbers("deviation", 1e-6, kLargest, deviation);
   numbers("weights", -kLargest, kLargest, weights);

@@ -37,6 +37,8 @@ Eigen::Matrix<double, kGraspFeatureCount, 1> values_of(const Shape& shape, doubl
     add(v.y());
     add(v.z());
   };
+
+  // Measure lengths as fractions of the palm's length, so that they do not depend on the size of the hand.
   const HandPose& pose = shape.pose;
   const SE3& palm = pose[kPalm];
   const double size = (pose[segment_of(kMiddle, 0)].t - palm.t).norm();

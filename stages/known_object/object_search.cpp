@@ -68,6 +68,7 @@ PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, con
     ++within;
     on_surface += std::abs(object.grid.distance(p)) < kOnSurface;
   }
+
   quality.explained = on_surface / std::max(1.0, static_cast<double>(within));
   return quality;
 }

@@ -93,6 +93,7 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
       tree.H_self[s] += 2 * information * row * row.transpose();
       tree.g[s] -= information * overlap * row;
     };
+
     push(a.segment, p_a, away);
     push(b.segment, p_b, -away);
   });
