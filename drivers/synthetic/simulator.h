@@ -69,7 +69,7 @@ struct HandTruth {
 struct SimulatedFrame {
   FramePtr frame;
   std::vector<HandTruth> hands;       ///< in the order of Simulator::hands()
-  std::optional<ObjectTruth> object;  ///< of Simulator::grasped(); none if there is none
+  std::optional<ObjectTruth> object;  ///< truth of Simulator::grasped(); none if nothing is grasped
 };
 
 /// Renders a sequence: up to two animated hand meshes with sleeves, bodies and objects, as a range camera sees them.

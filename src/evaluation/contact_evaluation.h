@@ -35,10 +35,10 @@ Result<ContactTruth> read_contact_truth(const std::string& path);
 struct StatedContact {
   bool known = false;                               ///< false: the state is UNKNOWN
   bool touching = false;                            ///< the state is TOUCHING
-  double probability = 0;                           ///< of a touch; meaningless unless known
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the surface that is touched, camera frame [m]
+  double probability = 0;                           ///< probability of a touch; meaningless unless known
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< point on the touched surface, camera frame [m]
 };
-/// By the time of the frame [us].
+/// The stated contacts by the time of their frames [us].
 using StatedContacts = std::map<std::int64_t, std::array<StatedContact, kSegmentCount>>;
 
 /// How often touches were stated rightly. A segment of unknown state counts as one of which no touch is stated, and so

@@ -25,11 +25,11 @@ struct Contact {
   ContactState state = ContactState::unknown;
   /// The segment is not seen in this frame but follows from what is known.
   bool inferred = false;
-  double probability = kUnknown;  ///< that the distance is below ContactParams::touch_distance
-  double distance = kUnknown;     ///< from the segment's skin to the surface; negative inside
+  double probability = kUnknown;  ///< probability that the distance is below ContactParams::touch_distance
+  double distance = kUnknown;     ///< distance from the segment's skin to the surface; negative inside
   double deviation = kUnknown;    ///< standard deviation of the distance
-  Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);   ///< on the surface, nearest to the segment
-  Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< of the surface there, outward
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);  ///< point on the surface that is nearest to the segment
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< outward normal of the surface at this point
   std::int32_t partner = -1;  ///< ObjectEstimate::id, or HandEstimate::hand_id of the other hand; -1: none
   std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface is no hand's
 };
@@ -44,11 +44,11 @@ struct HandContacts {
 struct ObjectEstimate {
   std::int32_t id = 0;  ///< stays with one object for as long as it is seen
   SE3 T_camera_object;
-  Vector6d velocity = Vector6d::Constant(Contact::kUnknown);  ///< [m/s, rad/s], of the object's origin; NaN: not known
-  Matrix6d covariance = Matrix6d::Identity();                 ///< of the boxplus twist (translation, rotation)
-  Eigen::Vector3d extent = Eigen::Vector3d::Zero();           ///< size of its known surface along its own axes [m]
-  bool held = false;                                          ///< it moves with a palm
-  std::int32_t hand_id = -1;                                  ///< the hand that holds it; -1: none
+  Vector6d velocity = Vector6d::Constant(Contact::kUnknown);  ///< velocity of its origin [m/s, rad/s]; NaN: not known
+  Matrix6d covariance = Matrix6d::Identity();        ///< covariance of the boxplus twist (translation, rotation)
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< size of its known surface along its own axes [m]
+  bool held = false;                                 ///< it moves with a palm
+  std::int32_t hand_id = -1;                         ///< the hand that holds it; -1: none
   std::int64_t since = 0;  ///< time of the frame since which it is held, or is not [us since the epoch]
 };
 

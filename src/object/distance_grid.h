@@ -40,7 +40,7 @@ class DistanceGrid {
            static_cast<std::size_t>(x);
   }
 
-  Eigen::Vector3f origin_, last_;  // of the first node; largest place in units of cells
+  Eigen::Vector3f origin_, last_;  // position of the first node; largest position, in cells
   Eigen::Vector3i nodes_;
   double cell_;
   std::vector<float> value_;

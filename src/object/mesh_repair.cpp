@@ -20,7 +20,7 @@ using Edge = std::pair<Index, Index>;
 
 constexpr float kSamePlace = 1e-5f;    // vertices this near to each other are one, as a fraction of the object's size
 constexpr double kSmallHole = 0.25;    // holes up to this width are closed, as a fraction of the object's size
-constexpr double kLeastVolume = 1e-6;  // of a solid, as a fraction of the cube around it
+constexpr double kLeastVolume = 1e-6;  // smallest volume of a solid, as a fraction of the cube around it
 constexpr const char* kRemedy =
     "close the mesh with a modelling program, for example Blender (3D-Print Toolbox) or MeshLab (Close Holes)";
 

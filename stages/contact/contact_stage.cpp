@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
+constexpr double kSkinDeviation = 0.0015;  // standard deviation of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
 // Fitted to simulated grasps: towards a touch, the error of the distance is smaller, since skin does not enter objects;
 // and some objects are too thin or too dark to be seen.

@@ -20,10 +20,10 @@ constexpr float kTrusted = 2;      // weight of a surfel that counts as known
 constexpr int kTrustedEmpty = 3;   // frames that saw a cell empty before it counts as such
 constexpr float kAround = 0.024f;  // how far around the surface empty cells are remembered [m]
 constexpr std::size_t kMostSurfels = 8000;
-constexpr int kMostCells = 20'000;  // that are looked at in one frame
+constexpr int kMostCells = 20'000;  // number of cells that are tested for emptiness in one frame
 constexpr int kIterations = 4, kMostPoints = 250;
 constexpr double kOutlier = 0.005;  // distance to a surfel's plane at which a point has lost most of its weight [m]
-constexpr double kPointDeviation = 0.0015, kIndependent = 20;  // of a point [m]; number of independent ones
+constexpr double kPointDeviation = 0.0015, kIndependent = 20;  // deviation of a point [m]; how many are independent
 constexpr double kShift = 0.003, kTurn = 0.05;                 // deviations of the predicted pose [m, rad]
 
 /// A pose in single precision.

@@ -8,10 +8,10 @@ namespace {
 
 constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) are no object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
-constexpr double kOpenPlace = 0.2;   // and the middle of what is seen of a table [m]
+constexpr double kOpenPlace = 0.2;   // the same for the middle of the visible part of a table [m]
 constexpr double kOverlap = 0.4;     // fraction of a component on the model of an object that makes it a part of it
-constexpr double kGone = 0.25;       // contradiction of a model at its place by which it is no longer there
-constexpr double kSame = 0.7;        // fraction of it on a second model that makes both the same object
+constexpr double kGone = 0.25;       // contradiction of a model from which on it is no longer at its place
+constexpr double kSame = 0.7;        // fraction of a model on a second one from which on both are the same object
 // Time after which an object that is not seen is forgotten, and one that is held [us].
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
 constexpr double kLongest = 0.25;  // time between two frames that still gives a velocity [s]

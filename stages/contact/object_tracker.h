@@ -31,7 +31,7 @@ class ObjectTracker {
   /// All surfaces of one object in this frame that are linked and on no model.
   struct Cluster {
     int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of the points
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // sum of the points
     bool open = false;
     int track = -1;  // index into tracks_; -1: a speck
     Eigen::Vector3d centre() const { return sum / count; }
@@ -44,8 +44,8 @@ class ObjectTracker {
 
   SurfaceLinks links_;
   std::vector<const SurfacePoint*> all_;   // points of the frame
-  std::vector<int> count_, near_, owner_;  // of each component: points; points on each model; the model's track or -1
-  std::vector<Cluster> clusters_;          // by first component; those of the other components are empty
+  std::vector<int> count_, near_, owner_;  // for each component: points, points on each model, track of its model or -1
+  std::vector<Cluster> clusters_;          // indexed by the first component; those of the other components are empty
   std::vector<ObjectTrack> tracks_;
   std::int64_t last_ = 0;  // time of the last frame [us]
   std::int32_t next_id_;

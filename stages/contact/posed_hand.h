@@ -31,8 +31,8 @@ class PosedHand {
   bool owns(const SurfacePoint& point) const;
 
  private:
-  std::shared_ptr<const HandProfile> profile_;  // of the skin
-  HandSurface surface_;                         // in the frames of the segments
+  std::shared_ptr<const HandProfile> profile_;  // profile from which the skin was made
+  HandSurface surface_;                         // skin in the frames of the segments
   std::optional<HandCapsules> capsules_;
   std::array<PosedSkin, kSegmentCount> skin_;
   HandPose pose_;

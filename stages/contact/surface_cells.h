@@ -29,11 +29,11 @@ class SurfaceCells {
   void grow(std::vector<bool>& open);
   bool fit(int c, int r, SurfacePoint& point) const;
 
-  int step_ = 1;                            // pixels per cell
-  Image<Eigen::Vector3f> place_;            // of each cell that is no hand and no arm, camera frame [m]; z = 0: none
-  Image<Eigen::Vector3f> fitted_, normal_;  // of its plane; the normal is zero where there is none
+  int step_ = 1;                  // pixels per cell
+  Image<Eigen::Vector3f> place_;  // position of each cell that is no hand and no arm, camera frame [m]; z = 0: none
+  Image<Eigen::Vector3f> fitted_, normal_;  // position and normal of each cell's plane; zero normal: no plane
   Image<std::uint8_t> beyond_;              // 1: a surface that is too far away to be looked at
-  Image<std::int32_t> component_;           // of each cell; kSeed: object, kOther: not reached yet
+  Image<std::int32_t> component_;           // component of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
 };
 

@@ -15,10 +15,10 @@ constexpr float kBandwidth = 0.006f;  // h: distance over which planes are avera
 // behind a surface whose far side is unknown [m].
 constexpr float kAside = 0.004f, kBehind = 0.006f;
 constexpr float kInside = 0.001f;  // how far skin enters a surface at most [m]
-constexpr float kStep = 0.002f;    // along an unseen surface, from one place to the next [m]
+constexpr float kStep = 0.002f;    // distance from one tested place to the next along an unseen surface [m]
 constexpr float kDepth = 0.03f;    // how far an object may go on along the ray behind its edge [m]
-// The bend of a surface where nothing is known of it [1/m], the deviation of a single normal over that of bends,
-// squared [m^2], the most that is believed [1/m], and the distance over which it is measured [m].
+// The curvature of a surface where nothing is known of it [1/m], the deviation of a single normal over that of the
+// curvature, squared [m^2], the largest accepted curvature [1/m], and the distance over which it is measured [m].
 constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kAround = 0.012f;
 constexpr float kSpread = 0.25f;  // error of an unseen surface by its distance from what is seen
 

@@ -20,7 +20,7 @@ struct PosedSkin {
 /// The surface nearest to a segment's skin.
 struct NearestSurface {
   float distance = 0;   ///< signed, negative inside [m]
-  float deviation = 0;  ///< of the distance, because the surface is only known nearby [m]
+  float deviation = 0;  ///< standard deviation of the distance, because the surface is only known nearby [m]
   Eigen::Vector3f point, normal;
   std::int32_t object = -1;
 };
@@ -58,7 +58,7 @@ class SurfaceDistance {
   NearestSurface extend(const Eigen::Vector3f& x, const Plane& plane, const SeenEmpty& empty) const;
   float bend(const SurfacePoint& p, const Eigen::Vector3f& direction) const;
 
-  std::vector<SurfacePoint> close_;             // to the segment
+  std::vector<SurfacePoint> close_;             // known points close to the segment
   std::vector<float> x_, y_, z_, distance_sq_;  // their places, and their distances from a skin point, squared
 };
 

@@ -32,10 +32,10 @@ class SurfaceLinks {
   template <class Act>
   void for_neighbours(const Act& act) const;
 
-  DisjointSets sets_;          // of the components of one object
-  std::vector<Voxel> voxels_;  // by key, then component
+  DisjointSets sets_;          // components that belong to one object
+  std::vector<Voxel> voxels_;  // sorted by key, then by component
   std::vector<bool> open_;
-  std::vector<int> flush_;  // of each component, places where it is flush with an open one, less the others
+  std::vector<int> flush_;  // for each component: places where it is flush with an open one, minus the other places
 };
 
 }  // namespace barehand

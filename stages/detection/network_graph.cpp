@@ -243,7 +243,7 @@ class OnnxReader {
   const onnx::GraphProto& onnx_;
   NetworkGraph graph_;
   std::map<std::string, const onnx::TensorProto*> constants_;
-  std::map<std::string, int> values_, uses_, means_;           // by the names in the file
+  std::map<std::string, int> values_, uses_, means_;           // indexed by the names in the file
   std::map<std::string, std::vector<std::int64_t>> integers_;  // small tensors of integers
   std::map<std::string, Enlarged> enlarged_;
   std::map<int, int> convolutions_;  // index of the step that computes a value

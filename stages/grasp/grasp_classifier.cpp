@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kInterface = 1;  // of the file
+constexpr int kInterface = 1;  // version of the file's format that this program reads
 constexpr double kLargest = 1e3;
 constexpr double kLeast = 1e-30;  // probability
 constexpr const char* kRemedy = "use the file that came with this version of Barehand";

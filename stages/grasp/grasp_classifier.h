@@ -35,7 +35,7 @@ class GraspClassifier {
   static constexpr int kMaxRows = 64;
 
   Eigen::Matrix<double, kGraspFeatureCount, 1> mean_, scale_;  // scale: one over the deviation
-  std::vector<int> classes_;                                   // of the rows
+  std::vector<int> classes_;                                   // class of each row
   Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::ColMajor, kMaxRows> weights_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows> bias_;
   double spread_ = 1;

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2;
-constexpr double kStep = 1e-3;                  // of an angle, for derivatives [rad]
-constexpr double kFullFlexion = 285 * kDegree;  // of knuckle, PIP and DIP joint together [rad]
+constexpr double kStep = 1e-3;                  // step of an angle for numerical derivatives [rad]
+constexpr double kFullFlexion = 285 * kDegree;  // sum over knuckle, PIP and DIP joint of a closed finger [rad]
 
 /// A pose as the features see it.
 struct Shape {

@@ -23,7 +23,7 @@ class GraspFilter {
  private:
   double memory_;
   bool empty_ = true;
-  std::array<double, kGraspCount> mean_{};  // of the logarithms
+  std::array<double, kGraspCount> mean_{};  // mean of the logarithms
   GraspProbabilities probabilities_{};
   int grasp_ = 0;
 };

@@ -32,7 +32,7 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
   const ObservedDepth view(observations);
 
   // Count the points of each object, to know later which share of them a known object claimed.
-  std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by id: points, and those that were claimed
+  std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by object id: points, and claimed ones
   for (const SurfacePoint& point : points) ++claimed[point.object].first;
 
   // Track one after the other; what one claims, no other can be.

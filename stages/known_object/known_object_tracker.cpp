@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kPoints = 2000;  // of the depth that a pose is refined on
-constexpr std::size_t kFew = 200;      // of the depth that predictions are compared with
+constexpr std::size_t kPoints = 2000;  // number of depth points on which a pose is refined
+constexpr std::size_t kFew = 200;      // number of depth points with which predictions are compared
 constexpr int kIterations = 15;
 constexpr double kReach = 0.02;      // distance from the prediction of points that may be the object's [m]
 constexpr double kModel = 0.001;     // deviation of the mesh from the object [m]

@@ -42,11 +42,11 @@ class KnownObjectTracker {
   KnownObjectPtr object_;
   ObjectSearch search_;
   Holding holding_;
-  std::optional<SE3> T_;  // in the frame before; predicted if it was not seen there
+  std::optional<SE3> T_;  // T_camera_object in the previous frame; predicted if the object was not seen there
   Vector6d velocity_ = Vector6d::Zero();
   Matrix6d covariance_ = Matrix6d::Identity();
-  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the frame before
-  std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
+  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the previous frame
+  std::int64_t utime_ = 0, seen_ = 0;  // times of the previous frame and of the last one that showed the object [us]
   int wait_ = 0, searches_ = 0;        // frames until the next search; searches so far
   std::vector<Eigen::Vector3f> points_;
 };

@@ -10,8 +10,8 @@ namespace barehand {
 /// The signed distance of a point of the camera frame from the surface of a posed object [m].
 struct SurfaceResidual {
   double value = 0;
-  Vector6d gradient = Vector6d::Zero();              ///< by the boxplus twist of the object's pose
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface nearby, outward, camera frame
+  Vector6d gradient = Vector6d::Zero();  ///< derivative with respect to the boxplus twist of the object's pose
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward normal of the nearest surface, camera frame
 };
 SurfaceResidual surface_residual(const DistanceGrid& grid, const SE3& T_camera_object, const Eigen::Vector3f& point);
 
@@ -24,7 +24,7 @@ struct PosePrior {
 /// A pose that fits points.
 struct FittedPose {
   SE3 T_camera_object;
-  Matrix6d covariance = Matrix6d::Identity();  ///< from the normal equations, of the boxplus twist
+  Matrix6d covariance = Matrix6d::Identity();  ///< covariance of the boxplus twist, from the normal equations
 };
 
 /// Fits the pose of an object to points of its surface by Gauss-Newton iterations:

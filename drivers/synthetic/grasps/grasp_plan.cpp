@@ -143,7 +143,7 @@ Vector3d way_out(const GraspPlanner& planner, const PlannedGrasp& plan, const Si
     }
 
     // Keep the direction if it is clearly better.
-    if (least <= most + 0.001) continue;  // of equal ones, the first
+    if (least <= most + 0.001) continue;  // keeps the first of equally good ones
     most = least;
     best = direction.normalized();
   }

@@ -19,7 +19,7 @@ struct Hold {
   HoldKind kind = HoldKind::ball;
   SE3 T_object_hold;
   double width = 0;   ///< extent along y [m]
-  double length = 0;  ///< of a rod or slab: largest extent across y [m]
+  double length = 0;  ///< for a rod or slab: largest extent across y [m]
 };
 
 }  // namespace barehand::synthetic

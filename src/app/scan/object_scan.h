@@ -15,7 +15,7 @@ class ObjectScan {
   struct Object {
     std::int32_t id = 0;
     int held = 0;                        ///< number of frames in which it was held
-    std::vector<SurfaceSample> surface;  ///< in its own frame [m]
+    std::vector<SurfaceSample> surface;  ///< surface in the object's own frame [m]
   };
 
   /// Takes over what is known of the objects after a frame.

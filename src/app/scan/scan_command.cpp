@@ -25,8 +25,8 @@ namespace {
 constexpr const char* kHowToScan =
     "Hold the object with your fingertips, and turn it slowly until every side has faced the sensor. Change the grip,\n"
     "so that the fingers uncover what they hide. Ctrl-C ends a live scan; what was seen until then is saved.";
-constexpr double kFine = 0.003, kCoarse = 0.006;  // sizes of the triangles of what is saved, and of what is said [m]
-constexpr int kScanMargin = 80;                   // px, how far around the hand the object is looked at, at least
+constexpr double kFine = 0.003, kCoarse = 0.006;  // triangle sizes for the saved mesh and for messages [m]
+constexpr int kScanMargin = 80;                   // least margin around the hand in which the object is observed [px]
 constexpr double kLittle = 0.3;                   // share of the surface below which a mesh is hardly of use
 
 struct ScanOptions {

@@ -230,7 +230,7 @@ Step TrackRun::await_readers() {
   // The pipe of a file is opened here and passed on by its descriptor.
   for (const auto file : TrackOptions::kFiles) {
     std::string& path = options_.*file;
-    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // which is written at the end
+    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // the hand is saved at the end
     const auto opened = wait(path, patient ? PipeReaders::Behind::wait : PipeReaders::Behind::leave_out);
     if (!opened) return stopped("stopped while waiting for a reader of " + path);
     if (*opened != path) log_.logger().info("the pipe {} is written as {}", path, *opened);

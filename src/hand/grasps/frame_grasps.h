@@ -24,7 +24,7 @@ struct HandGrasp {
   GraspProbabilities probabilities{};
   int grasp = 0;               ///< 0: none, otherwise 1 + the index in grasp_types()
   std::int64_t since = 0;      ///< time of the frame since which `grasp` is what it is [us since the epoch]
-  double aperture = kUnknown;  ///< from the thumb's tip to the middle of the tips of virtual finger 2 [m]
+  double aperture = kUnknown;  ///< distance from the thumb's tip to the mean of the tips of virtual finger 2 [m]
   double closure = kUnknown;   ///< mean flexion of the fingers over their range: 0 flat, 1 fist
 };
 

@@ -22,8 +22,9 @@ struct GraspType {
   GraspKind kind;
   Opposition opposition;
   ThumbPosition thumb;
-  int first_finger, last_finger;  ///< of virtual finger 2, which opposes the thumb or the palm; 2: index, 5: little
-  std::string_view example;       ///< grasps of the taxonomy that it unites
+  /// The fingers that oppose the thumb or the palm ("virtual finger 2"); 2: index, 5: little.
+  int first_finger, last_finger;
+  std::string_view example;  ///< grasps of the taxonomy that it unites
 };
 
 inline constexpr int kGraspTypeCount = 17;
