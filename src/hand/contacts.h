@@ -55,7 +55,7 @@ struct ObjectEstimate {
 /// What the hands of one frame touch. Immutable once shared.
 struct FrameContacts {
   FrameVector<HandContacts> hands;      ///< in the order of the frame's estimates
-  FrameVector<ObjectEstimate> objects;  ///< by id
+  FrameVector<ObjectEstimate> objects;  ///< in the order of their ids
 };
 using FrameContactsPtr = std::shared_ptr<const FrameContacts>;
 

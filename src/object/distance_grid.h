@@ -23,8 +23,8 @@ class DistanceGrid {
   /// `lower` and `upper`: the bounding box of the mesh; `cell`: distance of the nodes [m].
   DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell);
 
-  /// The signed distance of `p`. Outside the grid it is that of the nearest place in it plus the way there, an upper
-  /// bound.
+  /// The signed distance of `p`. Outside the grid it is that of the nearest place in it plus the distance to it, an
+  /// upper bound.
   float distance(const Eigen::Vector3f& p) const { return sample(p).distance; }
   /// The same with the gradient. Outside the grid the gradient is that of the nearest place in it.
   Sample sample(const Eigen::Vector3f& p) const;

@@ -26,7 +26,7 @@ constexpr const char* kRemedy =
 
 float size_of(const ObjectMesh& mesh) { return bounding_box(mesh).sizes().maxCoeff(); }
 
-/// Leaves out the vertices that no triangle has: they would count as a part of the object's size.
+/// Leaves out the vertices that belong to no triangle: they would count as a part of the object's size.
 void remove_unused(ObjectMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Triangle& t : mesh.triangles)
@@ -67,7 +67,7 @@ void merge_vertices(ObjectMesh& mesh, MeshRepair& repair) {
     index[i] = found;
     if (found < kept.size()) continue;
 
-    // It is a new place.
+    // Otherwise keep the vertex at its new place.
     const Eigen::Vector3i own = (v / cell).array().floor().cast<int>();
     cells[{own.x(), own.y(), own.z()}].push_back(found);
     kept.push_back(v);
@@ -214,7 +214,7 @@ Eigen::AlignedBox3f bounding_box(const ObjectMesh& mesh) {
 }
 
 Result<MeshRepair> repair_mesh(ObjectMesh& mesh, const std::string& where) {
-  // Merge what is one place, and remove what is no triangle.
+  // Merge vertices at the same place, and remove triangles without area and duplicates.
   MeshRepair repair;
   if (mesh.triangles.empty()) return fail("holds no triangles", where, "export the object's surface as triangles");
   remove_unused(mesh);

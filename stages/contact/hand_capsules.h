@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// The nearest places of two capsules. Camera frame [m].
+/// The nearest points of two capsules. Camera frame [m].
 struct CapsuleDistance {
   double distance = 0;         ///< between the skins, negative if they overlap
   Eigen::Vector3d on_a, on_b;  ///< nearest points on the two skins

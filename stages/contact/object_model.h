@@ -28,13 +28,13 @@ class ObjectModel {
   /// the points at places that were seen to be empty, whichever is larger.
   double contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
                        const ObservedSpace& space) const;
-  /// A predicted pose, moved so that the middle of what would be seen of the surface is that of the points.
+  /// The predicted pose, shifted so that the mean of the visible surface coincides with the mean of the points.
   SE3 centred(const SE3& predicted, std::span<const SurfacePoint* const> points, const ObservedSpace& space) const;
   /// The pose near a predicted one at which the points lie on the model's surface, by point-to-plane ICP. Directions in
-  /// which the surface slides over itself stay as predicted. `covariance`: of the pose's boxplus twist.
+  /// which the surface slides along itself stay as predicted. `covariance`: that of the pose's boxplus twist.
   SE3 align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const;
   /// Adds the points of a frame, if the pose is `credible`, and the space that is seen to be empty, and removes surfels
-  /// that are there.
+  /// in this space.
   void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const ObservedSpace& space,
             bool credible = true);
   /// Appends the surfels that are hidden in this frame, in the camera frame.

@@ -21,7 +21,7 @@ constexpr double kLongest = 0.25;  // time between two frames that still gives a
 void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
                             const std::vector<bool>& open, std::vector<SurfacePoint>& points,
                             FrameVector<ObjectEstimate>& objects) {
-  // Tell the objects apart, with what is known of them.
+  // Assign the points to objects, by the models of the objects so far.
   links_.link(open, points);
   all_.clear();
   for (const SurfacePoint& point : points) all_.push_back(&point);
@@ -31,7 +31,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
   merge(utime);
   give_points(points);
 
-  // Update them, and forget what was not seen for long.
+  // Update the objects, and forget those that have not been seen for long.
   const double elapsed = 1e-6 * static_cast<double>(utime - last_);
   last_ = utime;
   for (ObjectTrack& track : tracks_) track.update(utime, std::abs(elapsed) < kLongest ? elapsed : 0, estimates, space);
@@ -39,7 +39,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
     return std::abs(utime - track.seen) > (track.state.held ? kForgottenHeld : kForgotten);
   });
 
-  // State what is there, and what is known of it but hidden.
+  // Output the objects that are seen or held, and the hidden points of their models.
   for (const ObjectTrack& track : tracks_) {
     if (track.seen == utime || track.state.held) objects.push_back(track.state);
     if (!track.open) track.model.append_hidden(track.state.T_camera_object, space, track.state.id, points);
@@ -81,7 +81,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       near_[t * components + point.component] += tracks_[t].model.near(R * (point.p - origin));
   }
 
-  // What stands on a table that it is connected with is still there.
+  // An object on a table may be in one component with it. Its model shows whether it is still there.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
     if (links_.open(static_cast<std::int32_t>(i)) && count_[i] >= kSpeck) {
@@ -107,9 +107,9 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   }
 }
 
-/// Gives every other object the track that was nearest, or a new one.
+/// Assigns every object on no model to the nearest track, or to a new one.
 void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points) {
-  // Add up the objects.
+  // Add up the points of each object that is on no model, and find the objects that continue out of view.
   clusters_.assign(static_cast<std::size_t>(links_.components()), {});
   for (std::int32_t i = 0; i < links_.components(); ++i)
     if (links_.open(i)) clusters_[links_.root(i)].open = true;
@@ -145,7 +145,7 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
     tracks_[best_track].seen = utime;
   }
 
-  // Begin new tracks.
+  // Start new tracks.
   for (Cluster& cluster : clusters_) {
     if (cluster.count < kSpeck || cluster.track >= 0) continue;
     cluster.track = static_cast<int>(tracks_.size());
@@ -156,7 +156,7 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
   }
 }
 
-/// Forgets tracks of which nothing is seen but what belongs to another one: both are the same object, which keeps the
+/// Removes tracks whose only visible points belong to another track: both are the same object, which keeps the
 /// older id.
 void ObjectTracker::merge(std::int64_t utime) {
   const auto components = static_cast<std::size_t>(links_.components());
@@ -179,7 +179,7 @@ void ObjectTracker::merge(std::int64_t utime) {
   }
 }
 
-/// Tells the points whose they are, and the tracks which points they have.
+/// Assigns the points to the tracks, in both directions.
 void ObjectTracker::give_points(std::vector<SurfacePoint>& points) {
   for (SurfacePoint& point : points) {
     const int owner = owner_[point.component], t = owner >= 0 ? owner : clusters_[links_.root(point.component)].track;

@@ -24,11 +24,11 @@ class ObjectTracker {
   std::span<const ObjectTrack> tracks() const { return tracks_; }
   /// Takes note of what the hands touch in this frame: it probably moves with them.
   void note_touches(std::span<const HandContacts> hands);
-  /// Whether a place (camera frame [m]) was seen to be empty of this object when nothing covered it.
+  /// Whether a place (camera frame [m]) was seen to be empty, not part of this object, while nothing covered it.
   bool seen_empty(std::int32_t object, const Eigen::Vector3f& p) const;
 
  private:
-  /// All surfaces of one object in this frame that are linked and on no model.
+  /// The linked surfaces of one object in this frame that lie on no model.
   struct Cluster {
     int count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // sum of the points

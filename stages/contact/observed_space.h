@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// What the rays of a frame say about places in space. Up to the surface that a ray met, space is empty; behind it, and
+/// Which places in space a frame shows to be empty. Up to the surface that a ray met, space is empty; behind it, and
 /// where nothing was measured, there may be anything.
 class ObservedSpace {
  public:

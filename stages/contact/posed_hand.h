@@ -26,8 +26,8 @@ class PosedHand {
 
   /// Whether a place is on or in the skin, or behind the wrist (camera frame [m]).
   bool contains(const Eigen::Vector3f& p) const;
-  /// Whether a point of a surface is the hand's own skin: near to it, and facing the same way. What touches skin faces
-  /// it.
+  /// Whether a point of a surface is the hand's own skin: near to it, and facing the same way. A touching object faces
+  /// the skin.
   bool owns(const SurfacePoint& point) const;
 
  private:

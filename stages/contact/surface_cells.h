@@ -16,8 +16,8 @@ class SurfaceCells {
  public:
   /// Appends the points of observation `k`, whose estimate must have a pose. Components are numbered from the size of
   /// `open` on; for each one `open` gets whether it continues out of the hand's region, as a table or a body does.
-  /// `on_skin`: whether a place is on the hand's skin; what preprocessing took for the hand and is not on its skin, is
-  /// an object of the colour of skin.
+  /// `on_skin`: whether a place is on the hand's skin. What preprocessing labelled as hand but is not on the skin is
+  /// an object that has the colour of skin.
   void collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
                const std::function<bool(const Eigen::Vector3f&)>& on_skin, std::vector<SurfacePoint>& points,
                std::vector<bool>& open);

@@ -44,7 +44,7 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
     Plane plane;
     if (!find_plane(x, plane)) continue;
 
-    // Where the nearest point lies aside, extend the surface towards the skin.
+    // If the nearest point lies to the side, extend the surface towards the skin.
     const float height = plane.height, aside_sq = plane.apart * plane.apart - height * height;
     if (aside_sq >= kAside * kAside) {
       if (nearest && std::max(height, 0.f) >= nearest->distance) continue;
@@ -53,7 +53,8 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
       continue;
     }
 
-    // The surface is seen right here. Skin that seems to be inside touches it, or is behind something thin.
+    // Otherwise the surface is seen at this place. Skin that seems to be inside touches it, or is behind something
+    // thin.
     if (height < -kBehind) continue;
     const float distance = std::max(height, -kInside);
     if (!nearest || distance < nearest->distance)
@@ -81,7 +82,7 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
   float weights = 0, f = 0;
   Vector3f normal = Vector3f::Zero();
   for (std::size_t i = 0; i < close_.size(); ++i) {
-    if (distance_sq_[i] > least_sq + 7 * kBandwidth * kBandwidth) continue;  // it has no weight
+    if (distance_sq_[i] > least_sq + 7 * kBandwidth * kBandwidth) continue;  // its weight is negligible
     const float w = fast_exp((least_sq - distance_sq_[i]) / (kBandwidth * kBandwidth));
     weights += w;
     f += w * close_[i].n.dot(x - close_[i].p);
@@ -94,7 +95,7 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
   return true;
 }
 
-/// The distance of x from a surface that is seen some way aside only.
+/// The distance of x from a surface that is only seen some way to the side.
 NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, const SeenEmpty& empty) const {
   // Walk towards the foot of x until a place is seen to be empty.
   const Vector3f& p = plane.nearest->p;
@@ -120,7 +121,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
     break;
   }
 
-  // It bends away on the way, but the last point that is known is part of it.
+  // The surface curves away from its plane, but its nearest known point is certain.
   const float unseen = (end - p).norm(),
               sag = 0.5f * bend(*plane.nearest, way / std::max(length, 1e-6f)) * unseen * unseen;
   const float distance = std::min(0.5f * (least + most) + sag, plane.apart);
@@ -128,7 +129,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
   return {distance, deviation, end - std::min(sag, plane.apart) * plane.normal, plane.normal, plane.nearest->object};
 }
 
-/// How much the surface around a point bends away along a direction [1/m]: the slope of its normals.
+/// Curvature of the surface around a point along a direction [1/m]: the slope of its normals.
 float SurfaceDistance::bend(const SurfacePoint& p, const Vector3f& direction) const {
   float count = 0, s = 0, n = 0, ss = 0, sn = 0;
   for (const SurfacePoint& point : close_) {

@@ -13,7 +13,7 @@ class SurfaceLinks {
  public:
   /// `open`: whether each component continues out of view.
   void link(const std::vector<bool>& open, const std::vector<SurfacePoint>& points);
-  /// The first component of those that a component is joined with.
+  /// The first of the components that are joined with this one.
   std::int32_t root(std::int32_t component) { return sets_.root(component); }
   /// Whether a component continues out of view, or is a piece of something that does.
   bool open(std::int32_t component) const { return open_[component]; }

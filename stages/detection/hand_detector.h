@@ -69,7 +69,7 @@ class HandDetector {
   std::vector<ExpectedHand> places_;                                // places of these palms
   std::array<Result<std::optional<DetectedHand>>, kAtOnce> found_;  // hands found at these places
   Image<float> depth_;                                              // the depth image, resampled for the first network
-  NetworkInput input_;                                              // its input
+  NetworkInput input_;                                              // input of the first network
 };
 
 }  // namespace barehand

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kInterface = 1;  // version of the file's format that this program reads
 constexpr double kLargest = 1e3;
-constexpr double kLeast = 1e-30;  // probability
+constexpr double kLeast = 1e-30;  // least probability of a class
 constexpr const char* kRemedy = "use the file that came with this version of Barehand";
 
 /// Reads the class of each row, and checks that the file is about the classes of this program.

@@ -1,4 +1,4 @@
-// Computes the features by which grasps are told apart from the pose of a hand.
+// Computes, from the pose of a hand, the features by which grasps are classified.
 #include "stages/grasp/grasp_features.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr int kThumb = 0, kIndex = 1, kMiddle = 2;
 constexpr double kStep = 1e-3;                  // step of an angle for numerical derivatives [rad]
 constexpr double kFullFlexion = 285 * kDegree;  // sum over knuckle, PIP and DIP joint of a closed finger [rad]
 
-/// A pose as the features see it.
+/// The part of a pose on which the features depend.
 struct Shape {
   HandPose pose;
   std::array<Vector3d, kFingerCount> tips;

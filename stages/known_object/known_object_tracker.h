@@ -21,8 +21,8 @@ class KnownObjectTracker {
  public:
   explicit KnownObjectTracker(KnownObjectPtr object) : object_(std::move(object)) {}
 
-  /// The object in this frame; none: it was not found. `points`: of the objects near the hands that are
-  /// no other known object.
+  /// The object in this frame; none: it was not found. `points`: those near the hands that no other known object has
+  /// claimed.
   std::optional<ObjectEstimate> process(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
                                         std::span<const Eigen::Vector3f> points);
   const KnownObjectPtr& object() const { return object_; }

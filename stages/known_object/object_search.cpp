@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr int kOrientations = 500;            // about 20 degrees apart
-constexpr std::size_t kFew = 80;              // points and samples that orientations are compared with
-constexpr std::size_t kLeastPoints = 25;      // around a place that is searched
+constexpr std::size_t kFew = 80;              // number of points and samples with which orientations are compared
+constexpr std::size_t kLeastPoints = 25;      // least number of points around a place that is searched
 constexpr int kShifts = 4;                    // steps by which an orientation is moved into place
 constexpr int kCompared = 60, kRefined = 12;  // orientations that are compared with free space, and refined
 constexpr int kFewIterations = 6, kIterations = 12;

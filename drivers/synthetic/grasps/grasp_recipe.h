@@ -26,7 +26,8 @@ struct Fit {
 /// back of the hand, -z towards the fingers.
 struct GraspRecipe {
   std::vector<Fit> fits;
-  HandAngles comfortable;  ///< the hand as it would like to be; for palm opposition: as it approaches the object
+  HandAngles comfortable;  ///< relaxed hand, near which the grasp is searched; for palm opposition: as it approaches
+                           ///< the object
   Eigen::Vector3d along = -Eigen::Vector3d::UnitX();  ///< direction of the hold's x axis, as far as it is free
 
   // For palm opposition.

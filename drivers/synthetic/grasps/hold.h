@@ -6,7 +6,7 @@
 
 namespace barehand::synthetic {
 
-/// What a part of an object looks like to the fingers that hold it.
+/// The shape of the part of an object by which fingers hold it.
 enum class HoldKind {
   rod,   ///< round, held across its axis x
   slab,  ///< two parallel faces, held across y
