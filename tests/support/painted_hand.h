@@ -39,6 +39,7 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
   observation->depth.reset(camera.width, camera.height, static_cast<float>(wall));
   observation->label.reset(camera.width, camera.height, PixelLabel::background);
   observation->normal.reset(camera.width, camera.height, Eigen::Vector3f::Zero());
+
   for (std::size_t i = 0; i < rendered.vertex.size(); ++i) {
     if (rendered.vertex[i] < 0) continue;
     observation->depth[i] = rendered.depth[i];
@@ -46,6 +47,8 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
     observation->normal[i] = rendered.normal[rendered.vertex[i]];
     observation->hand_pixels.push_back(static_cast<std::int32_t>(i));
   }
+
+  // Add the distance transform and a thinned point cloud.
   observation->nearest_hand = nearest_in(rendered.vertex);
   for (std::size_t i = 0; i < observation->hand_pixels.size(); i += 7)
     observation->cloud.push_back(observation->point(observation->hand_pixels[i]));
