@@ -28,7 +28,7 @@ struct TrueContact {
 };
 /// By the time of the frame [us].
 using ContactTruth = std::map<std::int64_t, std::array<TrueContact, kSegmentCount>>;
-/// Reads a contact table (docs/formats.md). Errors name the line: an unknown segment, a number that is none.
+/// Reads a contact table (docs/formats.md). Errors name the line: an unknown segment, a malformed number.
 Result<ContactTruth> read_contact_truth(const std::string& path);
 
 /// What a result states about one segment.

@@ -21,7 +21,7 @@ inline constexpr std::int64_t kClosingUs = 600'000;
 
 /// The grasp in each frame, by its time [us]: 0: none, otherwise 1 + the index in grasp_types().
 using GraspTruth = std::map<std::int64_t, int>;
-/// Reads a table of grasps (docs/formats.md). Errors name the line: an unknown class, a number that is none.
+/// Reads a table of grasps (docs/formats.md). Errors name the line: an unknown class, a malformed number.
 Result<GraspTruth> read_grasp_truth(const std::string& path);
 
 /// The grasp that a log of hand states contains for one frame.

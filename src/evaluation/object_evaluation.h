@@ -22,7 +22,7 @@ struct ObjectTruthTable {
   std::string name;
   ObjectPoses poses;
 };
-/// Reads a table of object poses (docs/formats.md). Errors name the line: a number that is none, another object.
+/// Reads a table of object poses (docs/formats.md). Errors name the line: a malformed number, another object.
 Result<ObjectTruthTable> read_object_truth(const std::string& path);
 
 /// Stated against true poses of one object.

@@ -23,7 +23,7 @@ struct Contact {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   ContactState state = ContactState::unknown;
-  /// The segment is not seen in this frame but follows from what is known.
+  /// The segment is not seen in this frame; the contact is inferred.
   bool inferred = false;
   double probability = kUnknown;  ///< probability that the distance is below ContactParams::touch_distance
   double distance = kUnknown;     ///< distance from the segment's skin to the surface; negative inside
@@ -31,7 +31,7 @@ struct Contact {
   Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);  ///< point on the surface that is nearest to the segment
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< outward normal of the surface at this point
   std::int32_t partner = -1;  ///< ObjectEstimate::id, or HandEstimate::hand_id of the other hand; -1: none
-  std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface is no hand's
+  std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface does not belong to a hand
 };
 using SegmentContacts = std::array<Contact, kSegmentCount>;
 
@@ -40,7 +40,7 @@ struct HandContacts {
   SegmentContacts object, own, other_hand;
 };
 
-/// Something in or near a hand that is no hand. Camera frame, metres.
+/// An object in or near a hand. Camera frame, metres.
 struct ObjectEstimate {
   std::int32_t id = 0;  ///< stays with one object for as long as it is seen
   SE3 T_camera_object;

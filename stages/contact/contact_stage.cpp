@@ -31,7 +31,7 @@ double variance(const SegmentState& segment, const Vector3d& point, const Vector
   return variance(segment.T_camera_segment, segment.covariance, point, direction);
 }
 
-/// States that no segment is near anything; what is not seen is inferred.
+/// States that no segment is near anything; for segments that are not seen, this is inferred.
 void all_apart(const HandEstimate& estimate, SegmentContacts& contacts) {
   for (int s = 0; s < kSegmentCount; ++s) {
     contacts[s].state = ContactState::none;
@@ -52,7 +52,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   out->hands.resize(estimates.size());
   hands_.resize(estimates.size());
 
-  // Collect the surfaces around the tracked hands, and tell the objects apart.
+  // Collect the surfaces around the tracked hands.
   space_.observe(observations);
   points_.clear();
   open_.clear();
@@ -151,7 +151,7 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
       return space_.empty(p) || objects_.seen_empty(object, p);
     });
     if (!nearest) {
-      // Nothing is near what is seen; whether something is near what is not seen is unknown.
+      // If nothing is near a visible segment, the state is none; of a hidden segment it is unknown.
       if (segment.seen && segment.visible >= kVisible) {
         contact.state = ContactState::none;
         contact.probability = kOverlooked;
@@ -168,7 +168,7 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     contact.inferred = !segment.seen;
     contact.partner = nearest->object;
 
-    // Where little of the segment is seen, there may be something nearer than what was found.
+    // If little of the segment is seen, something unseen may be nearer than the surface that was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
     set_state(contact, visible && below > 0 ? kNearer * below : below);

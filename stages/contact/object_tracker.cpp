@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) are no object
+constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) do not make an object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
 constexpr double kOpenPlace = 0.2;   // the same for the middle of the visible part of a table [m]
 constexpr double kOverlap = 0.4;     // fraction of a component on the model of an object that makes it a part of it

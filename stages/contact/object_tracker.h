@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Tells objects apart, keeps their ids from frame to frame, and fuses what is seen of each into a model of it.
+/// Distinguishes objects, keeps their ids from frame to frame, and fuses the visible surface of each into a model.
 /// Surfaces that lie on the model of an object belong to it; others are one object if they are linked. An object is
 /// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {

@@ -15,8 +15,8 @@ constexpr double kSkinChange = 0.0005;  // change of a bone or a section for whi
 constexpr float kWrist = 0.02f;         // skin of the palm nearer to the wrist than this lies on the sleeve [m]
 constexpr float kCuff = 0.035f;         // points nearer to the wrist than this belong to the hand or to a sleeve [m]
 constexpr float kOwn = 0.004f;          // points this near to skin that faces the same way are the hand's own [m]
-// What is farther from the skin than kOff is no hand. Palm and thumb bulge, and their points are some way apart: there,
-// it must be farther than kBulge from the skin around it, up to kApart away [m].
+// Points farther from the skin than kOff are not hand. Palm and thumb bulge, and their points are sparse: there,
+// a point must be farther than kBulge from the skin around it, up to kApart away [m].
 constexpr float kOff = 0.009f, kBulge = 0.015f, kApart = 0.025f;
 
 /// Whether the skins of two profiles differ by no more than fractions of a millimetre.

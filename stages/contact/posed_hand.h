@@ -16,7 +16,7 @@ namespace barehand {
 /// no time to make.
 class PosedHand {
  public:
-  /// Takes over the pose of a tracked hand. The skin is made anew if the profile has changed by more than fractions of
+  /// Takes over the pose of a tracked hand. The skin is made again if the profile has changed by more than fractions of
   /// a millimetre.
   void pose(const HandEstimate& estimate);
 

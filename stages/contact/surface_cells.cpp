@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 
 constexpr float kSpacing = 0.0035f;    // size of a cell [m]
 constexpr float kStep = 0.008f;        // largest difference in depth of neighbouring cells of one surface [m]
-constexpr float kSurroundings = 0.2f;  // how far from the middle of the hand surfaces are looked at [m]
+constexpr float kSurroundings = 0.2f;  // radius around the middle of the hand in which surfaces are observed [m]
 constexpr float kCrease = 0.35f;       // normals that converge by more than this from cell to cell show a crease
 constexpr int kWindow = 2;             // cells to each side that a plane is fitted to
 constexpr int kFewest = 6;             // cells that a plane needs

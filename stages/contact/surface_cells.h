@@ -30,9 +30,9 @@ class SurfaceCells {
   bool fit(int c, int r, SurfacePoint& point) const;
 
   int step_ = 1;                  // pixels per cell
-  Image<Eigen::Vector3f> place_;  // position of each cell that is no hand and no arm, camera frame [m]; z = 0: none
+  Image<Eigen::Vector3f> place_;  // position of each cell that is not hand or arm, camera frame [m]; z = 0: none
   Image<Eigen::Vector3f> fitted_, normal_;  // position and normal of each cell's plane; zero normal: no plane
-  Image<std::uint8_t> beyond_;              // 1: a surface that is too far away to be looked at
+  Image<std::uint8_t> beyond_;              // 1: a surface that is too far from the hand to be observed
   Image<std::int32_t> component_;           // component of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
 };

@@ -11,16 +11,16 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kBandwidth = 0.006f;  // h: distance over which planes are averaged [m]
-// The surface is known where a point of it is no farther aside than this. Skin that is farther inside than kBehind is
-// behind a surface whose far side is unknown [m].
+// The surface is known where one of its points is within kAside to the side. Skin that is farther inside than kBehind
+// is behind a surface whose far side is unknown [m].
 constexpr float kAside = 0.004f, kBehind = 0.006f;
 constexpr float kInside = 0.001f;  // how far skin enters a surface at most [m]
 constexpr float kStep = 0.002f;    // distance from one tested place to the next along an unseen surface [m]
-constexpr float kDepth = 0.03f;    // how far an object may go on along the ray behind its edge [m]
+constexpr float kDepth = 0.03f;    // how far an object may continue along the ray behind its edge [m]
 // The curvature of a surface where nothing is known of it [1/m], the deviation of a single normal over that of the
 // curvature, squared [m^2], the largest accepted curvature [1/m], and the distance over which it is measured [m].
 constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kAround = 0.012f;
-constexpr float kSpread = 0.25f;  // error of an unseen surface by its distance from what is seen
+constexpr float kSpread = 0.25f;  // error of an unseen surface, as a fraction of its distance from the visible surface
 
 }  // namespace
 
@@ -113,7 +113,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
       continue;
     }
 
-    // The object ends here, or goes on along the ray behind this place.
+    // The object ends here, or continues along the ray behind this place.
     const Vector3f ray = end.normalized();
     const float behind = std::clamp((x - end).dot(ray), 0.f, kDepth);
     most = (x - end).norm();

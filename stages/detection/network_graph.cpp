@@ -76,7 +76,7 @@ class OnnxReader {
     require(node.output_size() == 1, type + " with several outputs");
     require(node.input_size() >= (type == "Constant" ? 0 : type == "Slice" ? 3 : 1), type + " without inputs");
 
-    // Read the node by its type; what is no layer must compute a size.
+    // Read the node by its type; a node that is not a layer must compute a size.
     if (type == "Conv")
       add_convolution(node);
     else if (type == "Relu" || type == "Add")

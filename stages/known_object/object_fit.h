@@ -15,7 +15,7 @@ struct SurfaceResidual {
 };
 SurfaceResidual surface_residual(const DistanceGrid& grid, const SE3& T_camera_object, const Eigen::Vector3f& point);
 
-/// What is known of a pose before the points are looked at: normally distributed, with this inverse covariance.
+/// What is known of a pose before the points are used: a normal distribution with this inverse covariance.
 struct PosePrior {
   SE3 T_camera_object;
   Matrix6d information = Matrix6d::Zero();

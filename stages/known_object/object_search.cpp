@@ -129,7 +129,7 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const O
   const Vector3d middle = gather(object, points, seed).cast<double>();
   if (around_.size() < kLeastPoints) return std::nullopt;
 
-  // Try the orientations; compare the better ones with what is seen through them, too.
+  // Try the orientations; check for the better ones also whether the camera sees through them.
   std::vector<std::pair<double, SE3>> tried;
   for (const Eigen::Matrix3d& R : orientations_) {
     const SE3 T = place(object, R, middle);

@@ -138,7 +138,7 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
       if (metres > kRing || (metres > 0 && (p - wrist).dot(arm) > 0)) continue;
       const float weight = std::clamp(1.f - metres / kBlur * (1.f - kOutside), kOutside, 1.f);
 
-      // Store it, and sum up what is inside.
+      // Store the weight, and add up the weights inside.
       out.weight.at(u, v) = weight;
       out.z.at(u, v) = row_.z[u];
       if (weight <= 0) continue;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFewestColours = 30;  // fewer pixels do not determine a distribution
 constexpr double kLeastSpread = 0.35;  // smallest assumed deviation of skin's log brightness, since skin may get shaded
-constexpr double kUsualSpread = 2;     // brightness is no evidence down to this many standard deviations below the mean
+constexpr double kUsualSpread = 2;  // brightness down to this many standard deviations below the mean is not evidence
 
 /// Generic density of skin over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of
 /// fingertips and of shaded folds.

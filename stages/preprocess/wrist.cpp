@@ -64,7 +64,7 @@ Eigen::Vector3f hand_direction(const std::vector<Cell>& cells, const Eigen::Vect
       return (a.p - contact).squaredNorm() < (b.p - contact).squaredNorm();
     });
 
-    // Its direction leads from there to the centre of what is within a hand's length of the tip.
+    // The direction leads from there to the mean of the cells within a hand's length of the tip.
     Eigen::Vector3f hand = Eigen::Vector3f::Zero();
     int count = 0;
     for (const Cell& c : cells)

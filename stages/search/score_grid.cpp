@@ -126,7 +126,7 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
     }
   }
 
-  // Compute what is derived from them.
+  // Find the hand in the grid, and compute the distance of every cell from it.
   locate_hand(grid);
   grid.hand_distance = distance_to(grid.label, [](PixelLabel l) { return l == PixelLabel::hand; });
   for (std::size_t i = 0; i < grid.hand_distance.size(); ++i) grid.hand_distance[i] *= static_cast<float>(grid.cell);

@@ -64,7 +64,7 @@ HandAngles varied(const HandAngles& angles, KeyedRandom& random, double size) {
   return sum(angles, offsets, 1);
 }
 
-/// Turns that leave a hold as it is: around the axis of a rod, or any of a ball.
+/// Rotations that do not change a hold: around the axis of a rod, or any rotation of a ball.
 Eigen::Matrix3d spin(const Hold& hold, KeyedRandom& random) {
   const double a = random.uniform(0, 2 * std::numbers::pi), b = random.uniform(-1, 1), c = random.uniform(-3, 3);
   if (hold.kind == HoldKind::slab) return Eigen::Matrix3d::Identity();

@@ -28,7 +28,7 @@ struct GraspRecipe {
   std::vector<Fit> fits;
   HandAngles comfortable;  ///< relaxed hand, near which the grasp is searched; for palm opposition: as it approaches
                            ///< the object
-  Eigen::Vector3d along = -Eigen::Vector3d::UnitX();  ///< direction of the hold's x axis, as far as it is free
+  Eigen::Vector3d along = -Eigen::Vector3d::UnitX();  ///< preferred direction of the hold's x axis
 
   // For palm opposition.
   Eigen::Vector3d at_palm = Eigen::Vector3d::Zero();  ///< position from which the object approaches the palm

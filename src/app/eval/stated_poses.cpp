@@ -70,7 +70,7 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
       return fail("frame " + std::to_string(state->frame_number) + " occurs twice", log_path,
                   "give the log of a single run on a single recording");
 
-    // Read the segments, and refuse numbers that are no pose.
+    // Read the segments, and refuse numbers that do not form a pose.
     auto& segments = frame->second;
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))

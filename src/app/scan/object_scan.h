@@ -18,7 +18,7 @@ class ObjectScan {
     std::vector<SurfaceSample> surface;  ///< surface in the object's own frame [m]
   };
 
-  /// Takes over what is known of the objects after a frame.
+  /// Stores the state of the objects after a frame.
   void add(std::span<const ObjectTrack> tracks);
   /// The object that was held in the most frames, of those that may be a solid; if none was held, the one with the most
   /// surface. Null: there is none.

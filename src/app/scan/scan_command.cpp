@@ -27,7 +27,7 @@ constexpr const char* kHowToScan =
     "so that the fingers uncover what they hide. Ctrl-C ends a live scan; what was seen until then is saved.";
 constexpr double kFine = 0.003, kCoarse = 0.006;  // triangle sizes for the saved mesh and for messages [m]
 constexpr int kScanMargin = 80;                   // least margin around the hand in which the object is observed [px]
-constexpr double kLittle = 0.3;                   // share of the surface below which a mesh is hardly of use
+constexpr double kLittle = 0.3;                   // a mesh of which less than this fraction was seen is hardly useful
 
 struct ScanOptions {
   TrackOptions track;
@@ -73,7 +73,7 @@ Result<void> check_name(const std::string& path) {
 
 /// Makes a mesh of what was seen, and saves it. Returns the exit code.
 int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const TrackOutcome& tracked) {
-  // Refuse what is no solid.
+  // Refuse to save anything that is not a solid.
   const ObjectScan::Object* object = scan.object();
   const ScannedMesh scanned = object ? scanned_mesh(object->surface, kFine) : ScannedMesh();
   ObjectMesh checked = scanned.mesh;
@@ -109,7 +109,7 @@ int run_scan(const ScanOptions& o) {
   config->preprocess.margin_px = std::max(config->preprocess.margin_px, kScanMargin);
   if (const auto possible = check_name(o.out); !possible) return complain(possible.error(), kExitUsage);
 
-  // Track, and look at the objects.
+  // Track, and collect the objects.
   ObjectScan scan;
   ScanAdvice advice;
   const auto look = [&](std::span<const ObjectTrack> objects) {

@@ -331,7 +331,7 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
 /// Starts the server of the live page. The page is optional: if the server cannot be started, tracking continues
 /// without.
 Step TrackRun::open_view() {
-  // The page is only a view: tracking goes on if the page cannot be served.
+  // The page is only a view: tracking continues if the page cannot be served.
   auto page = LivePage::open(options_, log_.shared_logger());
   if (!page) {
     log_.logger().error("{}; tracking goes on without the page", page.error().message());
@@ -465,7 +465,7 @@ int TrackRun::exit_code_of_frames(const PipelineHealth& health) {
     return kExitFailure;
   }
 
-  // A run without any hand is no failure, but the user may have wanted something else.
+  // A run without any hand is not a failure, but the user may have expected a hand.
   const auto tracked = [](const StatusCounts& hand) { return hand.of(TrackStatus::tracking) > 0; };
   if (const auto& hands = progress_->counts(); health.published > 0 && std::ranges::none_of(hands, tracked))
     log_.logger().warn("no hand was found in any of {} frames", health.published);
