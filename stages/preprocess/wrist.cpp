@@ -37,7 +37,7 @@ std::vector<Cell> cells_of(const CoarseGrid& grid, const Components& surfaces, i
     for (int u = 0; u < id.width(); ++u) {
       if (id.at(u, v) != part) continue;
 
-      // Count the neighbours that are not on it.
+      // Count the neighbours that do not belong to the surface.
       const bool inside = u > 0 && v > 0 && u + 1 < id.width() && v + 1 < id.height();
       int gaps = 0;
       if (inside)
