@@ -49,7 +49,8 @@ struct ObjectEstimate {
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< size of its known surface along its own axes [m]
   bool held = false;                                 ///< it moves with a palm
   std::int32_t hand_id = -1;                         ///< the hand that holds it; -1: none
-  std::int64_t since = 0;  ///< time of the frame in which `held` changed last [us since the epoch]
+  /// Time of the frame in which `held` changed last, or the object appeared [us since the epoch].
+  std::int64_t since = 0;
 };
 
 /// What the hands of one frame touch. Immutable once shared.

@@ -6,7 +6,7 @@
 
 namespace barehand::test {
 
-/// An ideal camera that sees one object before a wall; a hand may cover part of the image.
+/// An ideal camera that sees one object in front of a wall; a hand may cover part of the image.
 struct ObjectScene {
   static constexpr double kWall = 0.9;  // distance of the wall [m]
   Intrinsics camera{200, 150, 330, 330, 99.5, 74.5};

@@ -21,9 +21,9 @@ inline Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
   return result;
 }
 
-/// The observation of an ideal camera that sees a posed skin before a wall at `wall` [m]; the whole image is the region
-/// of interest. Use it for unit tests of single stages only: accuracy is measured on hands that the tracker does not
-/// know.
+/// The observation of an ideal camera that sees a posed skin in front of a wall at `wall` [m]; the whole image is the
+/// region of interest. Use it for unit tests of single stages only: accuracy is measured on hands that the tracker does
+/// not know.
 inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const HandPose& pose, double wall = 1.2) {
   // Render the skin.
   const Intrinsics camera = small_camera();

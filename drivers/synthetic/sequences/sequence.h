@@ -67,7 +67,7 @@ const std::vector<SequenceInfo>& sequence_list();
 /// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
-/// What the sequence `grasp` shows, by name; what is empty is drawn by the seed.
+/// What the sequence `grasp` shows, by name; an empty name is drawn by the seed.
 struct GraspChoice {
   std::string object, type;
 };

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Chooses the object that a person turns before the sensor, and keeps what has been seen of it.
+/// Chooses the object that a person turns in front of the sensor, and keeps what has been seen of it.
 class ObjectScan {
  public:
   /// What has been seen of one object.
