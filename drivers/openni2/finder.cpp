@@ -43,7 +43,7 @@ Result<std::string> OpenNiFinder::find() {
   if (!library_)
     if (auto loaded = load(); !loaded) return tl::unexpected(loaded.error());
 
-  // Forget what was unplugged before.
+  // Forget the sensors that were unplugged before this search.
   {
     const std::lock_guard lock(mutex_);
     gone_.clear();

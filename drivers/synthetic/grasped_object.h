@@ -25,7 +25,7 @@ struct ObjectTruth {
   bool held = false;  ///< moves with the hand
 };
 
-/// The object that a hand grasps, as it is rendered: of a left hand it is the mirror image, in the plane x = 0 of its
+/// The object that a hand grasps, as it is rendered: for a left hand it is the mirror image, in the plane x = 0 of its
 /// own frame, of the object that the sequence was made with.
 class GraspedObject {
  public:

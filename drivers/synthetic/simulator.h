@@ -41,7 +41,7 @@ void visit(V& v, SimulatorParams& p) {
   v("frames", p.frames, 0, 10000000, "number of frames; 0: the whole sequence");
   v("speed", p.speed, 0.05, 20.0, "factor on the speed of the motion");
 
-  // These set what is seen of the hand and the forearm.
+  // These set which hand and which forearm are seen.
   v("hand", p.hand, {"right", "left"},
     "which hand is shown, in sequences with one hand; a left hand is a mirror image");
   v("sleeve", p.sleeve, {"blue", "skin", "none"},
@@ -69,7 +69,7 @@ struct HandTruth {
 struct SimulatedFrame {
   FramePtr frame;
   std::vector<HandTruth> hands;       ///< in the order of Simulator::hands()
-  std::optional<ObjectTruth> object;  ///< of Simulator::grasped(); none if there is none
+  std::optional<ObjectTruth> object;  ///< truth of Simulator::grasped(); none if nothing is grasped
 };
 
 /// Renders a sequence: up to two animated hand meshes with sleeves, bodies and objects, as a range camera sees them.
@@ -86,8 +86,8 @@ class Simulator {
   /// Renders the frame with this number.
   SimulatedFrame render(std::int64_t number);
 
-  /// The contacts of a hand of a rendered frame with the grasped object; none if there is none. Measured on request,
-  /// since it takes milliseconds.
+  /// The contacts of a hand of a rendered frame with the grasped object; none without such an object. Measured on
+  /// request, since it takes milliseconds.
   std::optional<HandContacts> contacts(const SimulatedFrame& frame, std::size_t hand) const;
 
   std::int64_t frame_count() const { return frame_count_; }
@@ -111,7 +111,7 @@ class Simulator {
   std::vector<Material> materials() const;
   // Adds the sensor's noise to an ideal depth image.
   Image<float> add_noise(const RenderedView& view, std::int64_t number) const;
-  // The truth about the grasped object; none if there is none.
+  // The truth about the grasped object; none if nothing is grasped.
   std::optional<ObjectTruth> object_of(const SceneState& state) const;
   // The truth table of one hand; none if it is not in the image.
   std::optional<TableFrame> table_of(std::size_t hand, const RenderedView& view, const SceneGeometry& geometry,

@@ -37,7 +37,7 @@ class SyntheticSource : public FrameSource {
   const std::vector<SimulatedHand>& hands() const { return hands_; }
   /// The object that a hand grasps; null: there is none.
   const GraspedObject* grasped() const { return simulator_.grasped(); }
-  /// The state of the grasped object in the frame that was delivered last; none if there is none.
+  /// The state of the grasped object in the frame that was delivered last; none if nothing is grasped.
   const std::optional<ObjectTruth>& object() const { return last_.object; }
   /// The contacts of a hand with the grasped object in that frame, see Simulator::contacts().
   std::optional<HandContacts> contacts(std::size_t hand) const { return simulator_.contacts(last_, hand); }

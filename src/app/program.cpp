@@ -25,6 +25,8 @@ namespace barehand {
 
 int run_program(int argc, char** argv) {
   prepare_standard_streams();
+
+  // Describe what concerns the program as a whole; each command describes itself.
   CLI::App app("Tracks a bare hand that handles objects, and publishes glove-like hand states over LCM.", "barehand");
   app.set_version_flag("--version", BAREHAND_VERSION);
   app.require_subcommand(1);
@@ -33,6 +35,8 @@ int run_program(int argc, char** argv) {
       "files, 130 interrupted, 141 the reader of the output has gone.\n"
       "barehand COMMAND --help says more.");
   cv::setNumThreads(1);  // prevents OpenCV from starting threads of its own in addition to those of Workers
+
+  // Add the commands; the one that runs sets the exit code.
   int exit_code = kExitOk;
   add_track_command(app, exit_code);
   add_sim_command(app, exit_code);
@@ -40,12 +44,15 @@ int run_program(int argc, char** argv) {
   add_convert_command(app, exit_code);
   add_eval_command(app, exit_code);
   add_calibrate_command(app, exit_code);
+
   add_scan_command(app, exit_code);
   add_experiment_command(app, exit_code);
   add_listen_command(app, exit_code);
   add_view_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_doctor_command(app, exit_code);
+
+  // Run the command. No exception may leave the program without a message.
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

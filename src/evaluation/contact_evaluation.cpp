@@ -78,7 +78,7 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
         const bool touches = is->second[s].distance <= kTouchDistance;
         StatedContact contact = said->second[s];
 
-        // A touch of something else than the object of the truth is none of that object.
+        // A touch of something other than the object of the truth does not count as a touch of it.
         const bool of_other =
             !touches && contact.touching && (contact.point - is->second[s].point).norm() > kSameSurface;
         if (of_other) contact = {true, false, 0, contact.point};

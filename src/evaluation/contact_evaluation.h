@@ -18,7 +18,7 @@ namespace barehand {
 /// Skin at most this far from an object touches it [m].
 inline constexpr double kTouchDistance = 0.005;
 
-/// A touch that is stated this far from the nearest place of the object is one of something else [m].
+/// A touch that is stated farther than this from the object's nearest place is a touch of something else [m].
 inline constexpr double kSameSurface = 0.02;
 
 /// How near one segment is to the object.
@@ -26,26 +26,26 @@ struct TrueContact {
   double distance = 0;    ///< signed, of the segment's skin [m]
   Eigen::Vector3d point;  ///< the nearest place of the object, camera frame [m]
 };
-/// By the time of the frame [us].
+/// The true contacts by the time of their frames [us].
 using ContactTruth = std::map<std::int64_t, std::array<TrueContact, kSegmentCount>>;
-/// Reads a contact table (docs/formats.md). Errors name the line: an unknown segment, a number that is none.
+/// Reads a contact table (docs/formats.md). Errors name the line: an unknown segment, a malformed number.
 Result<ContactTruth> read_contact_truth(const std::string& path);
 
 /// What a result states about one segment.
 struct StatedContact {
   bool known = false;                               ///< false: the state is UNKNOWN
   bool touching = false;                            ///< the state is TOUCHING
-  double probability = 0;                           ///< of a touch; meaningless unless known
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the surface that is touched, camera frame [m]
+  double probability = 0;                           ///< probability of a touch; meaningless unless known
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< point on the touched surface, camera frame [m]
 };
-/// By the time of the frame [us].
+/// The stated contacts by the time of their frames [us].
 using StatedContacts = std::map<std::int64_t, std::array<StatedContact, kSegmentCount>>;
 
-/// How often touches were stated rightly. A segment of unknown state counts as one of which no touch is stated, and so
-/// does one that touches something else.
+/// How often touches were stated correctly. A segment of unknown state counts as one of which no touch is stated, and
+/// so does one that touches something else.
 struct TouchCounts {
   std::size_t right = 0;    ///< touches that were stated
-  std::size_t wrong = 0;    ///< stated touches that are none
+  std::size_t wrong = 0;    ///< stated touches that are not true
   std::size_t missed = 0;   ///< touches that were not stated
   std::size_t none = 0;     ///< neither
   std::size_t unknown = 0;  ///< segments of unknown state; part of `missed` and `none`

@@ -22,15 +22,15 @@ struct ObjectTruthTable {
   std::string name;
   ObjectPoses poses;
 };
-/// Reads a table of object poses (docs/formats.md). Errors name the line: a number that is none, another object.
+/// Reads a table of object poses (docs/formats.md). Errors name the line: a malformed number, another object.
 Result<ObjectTruthTable> read_object_truth(const std::string& path);
 
 /// Stated against true poses of one object.
 struct ObjectEvaluation {
   std::string name;
-  std::size_t frames = 0;  ///< of the truth
-  std::size_t stated = 0;  ///< with a stated pose
-  std::size_t lost = 0;    ///< without one, after the first one
+  std::size_t frames = 0;  ///< number of frames in the truth
+  std::size_t stated = 0;  ///< number of frames with a stated pose
+  std::size_t lost = 0;    ///< number of frames without a stated pose, after the first one
   Distribution position;   ///< distance of the origins [m]
   Distribution rotation;   ///< angle between the orientations [rad]
   Distribution surface;    ///< mean distance of the stated surface's points from the true surface [m], as ADD-S

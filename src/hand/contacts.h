@@ -23,15 +23,15 @@ struct Contact {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   ContactState state = ContactState::unknown;
-  /// The segment is not seen in this frame but follows from what is known.
+  /// The segment is not seen in this frame; the contact is inferred.
   bool inferred = false;
-  double probability = kUnknown;  ///< that the distance is below ContactParams::touch_distance
-  double distance = kUnknown;     ///< from the segment's skin to the surface; negative inside
+  double probability = kUnknown;  ///< probability that the distance is below ContactParams::touch_distance
+  double distance = kUnknown;     ///< distance from the segment's skin to the surface; negative inside
   double deviation = kUnknown;    ///< standard deviation of the distance
-  Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);   ///< on the surface, nearest to the segment
-  Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< of the surface there, outward
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);  ///< point on the surface that is nearest to the segment
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< outward normal of the surface at this point
   std::int32_t partner = -1;  ///< ObjectEstimate::id, or HandEstimate::hand_id of the other hand; -1: none
-  std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface is no hand's
+  std::int8_t segment = -1;   ///< the nearest segment of a hand; -1: the surface does not belong to a hand
 };
 using SegmentContacts = std::array<Contact, kSegmentCount>;
 
@@ -40,22 +40,23 @@ struct HandContacts {
   SegmentContacts object, own, other_hand;
 };
 
-/// Something in or near a hand that is no hand. Camera frame, metres.
+/// An object in or near a hand. Camera frame, metres.
 struct ObjectEstimate {
   std::int32_t id = 0;  ///< stays with one object for as long as it is seen
   SE3 T_camera_object;
-  Vector6d velocity = Vector6d::Constant(Contact::kUnknown);  ///< [m/s, rad/s], of the object's origin; NaN: not known
-  Matrix6d covariance = Matrix6d::Identity();                 ///< of the boxplus twist (translation, rotation)
-  Eigen::Vector3d extent = Eigen::Vector3d::Zero();           ///< size of its known surface along its own axes [m]
-  bool held = false;                                          ///< it moves with a palm
-  std::int32_t hand_id = -1;                                  ///< the hand that holds it; -1: none
-  std::int64_t since = 0;  ///< time of the frame since which it is held, or is not [us since the epoch]
+  Vector6d velocity = Vector6d::Constant(Contact::kUnknown);  ///< velocity of its origin [m/s, rad/s]; NaN: not known
+  Matrix6d covariance = Matrix6d::Identity();        ///< covariance of the boxplus twist (translation, rotation)
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< size of its known surface along its own axes [m]
+  bool held = false;                                 ///< it moves with a palm
+  std::int32_t hand_id = -1;                         ///< the hand that holds it; -1: none
+  /// Time of the frame in which `held` changed last, or the object appeared [us since the epoch].
+  std::int64_t since = 0;
 };
 
 /// What the hands of one frame touch. Immutable once shared.
 struct FrameContacts {
   FrameVector<HandContacts> hands;      ///< in the order of the frame's estimates
-  FrameVector<ObjectEstimate> objects;  ///< by id
+  FrameVector<ObjectEstimate> objects;  ///< in the order of their ids
 };
 using FrameContactsPtr = std::shared_ptr<const FrameContacts>;
 

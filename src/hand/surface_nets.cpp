@@ -109,7 +109,7 @@ TriangleMesh extract_surface(const Distance& distance, const Vector3d& lower, co
   // Every grid edge that crosses the surface joins the vertices of the four cells around it.
   for_each_cell([&](const Vector3i& n) {
     for (int axis = 0; axis < 3; ++axis) {
-      // An edge at the lower border has no four cells around it.
+      // Skip an edge at the lower border, which does not have four cells around it.
       const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
       if (n[(axis + 1) % 3] == 0 || n[(axis + 2) % 3] == 0) continue;
 

@@ -14,7 +14,7 @@ class FileLock {
   /// Creates the file `path`, which names the holder while the lock is held and is then removed; a file that a killed
   /// process left does not prevent locking. Waits for up to `patience` while another one holds the lock. Errors:
   /// another one still holds it; the file cannot be created. If the file system does not support locks or has no room
-  /// for the file, nothing is locked, which is no error.
+  /// for the file, nothing is locked, which is not an error.
   static Result<FileLock> take(const std::string& path, std::chrono::milliseconds patience);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

@@ -16,7 +16,7 @@ Result<void> save_obj(std::span<const Eigen::Vector3f> vertices,
   constexpr double kStep = 1e-7;
   std::string text = "# metres\n";
   std::map<std::array<long long, 3>, std::size_t> known;
-  std::vector<std::size_t> number;  // of every vertex in the file, from 1
+  std::vector<std::size_t> number;  // number of every vertex in the file, counted from 1
   for (const Eigen::Vector3f& v : vertices) {
     // Vertices at the same place share one line of the file.
     const std::array<long long, 3> steps = {std::llround(v.x() / kStep), std::llround(v.y() / kStep),

@@ -20,7 +20,7 @@ class MeshDistance {
 
   /// The place on the surface that is nearest to a point.
   struct Nearest {
-    double distance = std::numeric_limits<double>::max();  ///< from the point, without sign
+    double distance = std::numeric_limits<double>::max();  ///< unsigned distance from the point
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     std::uint32_t triangle = 0;
     Eigen::Vector3d weights = Eigen::Vector3d::Zero();  ///< barycentric coordinates in the triangle
@@ -38,9 +38,9 @@ class MeshDistance {
   struct Node {
     Eigen::Vector3d lower, upper;        // bounding box
     Eigen::Vector3d centre, area;        // area-weighted centroid; sum of area times normal
-    double radius = 0;                   // of the smallest ball about the centroid that holds the triangles
-    std::uint32_t first = 0, count = 0;  // of a leaf: its triangles
-    std::uint32_t right = 0;             // of an inner node: its right child
+    double radius = 0;                   // radius of the smallest ball about the centroid that holds the triangles
+    std::uint32_t first = 0, count = 0;  // in a leaf: range of its triangles
+    std::uint32_t right = 0;             // in an inner node: its right child
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const;

@@ -77,7 +77,7 @@ DistanceGrid::Sample DistanceGrid::sample(const Vector3f& p) const {
   const float x01 = v[dz] + f.x() * (v[dz + 1] - v[dz]), x11 = v[dz + dy] + f.x() * (v[dz + dy + 1] - v[dz + dy]);
   const float y0 = x00 + f.y() * (x10 - x00), y1 = x01 + f.y() * (x11 - x01);
 
-  // Differentiate that.
+  // Differentiate the interpolation.
   const float gx0 = v[1] - v[0] + f.y() * (v[dy + 1] - v[dy] - v[1] + v[0]);
   const float gx1 = v[dz + 1] - v[dz] + f.y() * (v[dz + dy + 1] - v[dz + dy] - v[dz + 1] + v[dz]);
   const float gx = gx0 + f.z() * (gx1 - gx0), gy = x10 - x00 + f.z() * (x11 - x01 - x10 + x00);

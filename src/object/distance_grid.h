@@ -23,8 +23,8 @@ class DistanceGrid {
   /// `lower` and `upper`: the bounding box of the mesh; `cell`: distance of the nodes [m].
   DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell);
 
-  /// The signed distance of `p`. Outside the grid it is that of the nearest place in it plus the way there, an upper
-  /// bound.
+  /// The signed distance of `p`. Outside the grid it is that of the nearest place in it plus the distance to it, an
+  /// upper bound.
   float distance(const Eigen::Vector3f& p) const { return sample(p).distance; }
   /// The same with the gradient. Outside the grid the gradient is that of the nearest place in it.
   Sample sample(const Eigen::Vector3f& p) const;
@@ -40,7 +40,7 @@ class DistanceGrid {
            static_cast<std::size_t>(x);
   }
 
-  Eigen::Vector3f origin_, last_;  // of the first node; largest place in units of cells
+  Eigen::Vector3f origin_, last_;  // position of the first node; largest position, in cells
   Eigen::Vector3i nodes_;
   double cell_;
   std::vector<float> value_;

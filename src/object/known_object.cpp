@@ -60,7 +60,7 @@ KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
   DistanceGrid grid(distance, lower.cast<double>(), upper.cast<double>(), cell);
   std::vector<SurfaceSample> samples = sample_surface(mesh);
 
-  // Leave out what one part of the object has within another one.
+  // Leave out the samples of one part of the object that lie inside another part.
   std::erase_if(samples, [&](const SurfaceSample& sample) { return grid.distance(sample.p) < -cell; });
   return std::make_shared<KnownObject>(
       KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius});

@@ -16,10 +16,10 @@ struct SurfaceSample {
 /// An object whose shape is known. Immutable once made.
 struct KnownObject {
   std::string name;
-  std::int32_t id = 0;                 ///< ObjectEstimate::id of it
+  std::int32_t id = 0;                 ///< its ObjectEstimate::id
   DistanceGrid grid;                   ///< signed distances
   std::vector<SurfaceSample> samples;  ///< spread evenly over the surface, in random order
-  Eigen::Vector3d centre;              ///< of the bounding box
+  Eigen::Vector3d centre;              ///< centre of the bounding box
   Eigen::Vector3d extent;              ///< size of the bounding box [m]
   double radius = 0;                   ///< all of the surface is within this distance of the centre [m]
 };
@@ -36,7 +36,7 @@ std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh);
 struct PosedObject {
   KnownObjectPtr object;
   SE3 T_camera_object;
-  Matrix6d covariance = Matrix6d::Identity();  ///< of the boxplus twist (translation, rotation)
+  Matrix6d covariance = Matrix6d::Identity();  ///< covariance of the boxplus twist (translation, rotation)
   std::int32_t hand_id = -1;                   ///< the hand that holds it; -1: none
 };
 

@@ -20,13 +20,13 @@ using Edge = std::pair<Index, Index>;
 
 constexpr float kSamePlace = 1e-5f;    // vertices this near to each other are one, as a fraction of the object's size
 constexpr double kSmallHole = 0.25;    // holes up to this width are closed, as a fraction of the object's size
-constexpr double kLeastVolume = 1e-6;  // of a solid, as a fraction of the cube around it
+constexpr double kLeastVolume = 1e-6;  // smallest volume of a solid, as a fraction of the cube around it
 constexpr const char* kRemedy =
     "close the mesh with a modelling program, for example Blender (3D-Print Toolbox) or MeshLab (Close Holes)";
 
 float size_of(const ObjectMesh& mesh) { return bounding_box(mesh).sizes().maxCoeff(); }
 
-/// Leaves out the vertices that no triangle has: they would count as a part of the object's size.
+/// Leaves out the vertices that belong to no triangle: they would count as a part of the object's size.
 void remove_unused(ObjectMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Triangle& t : mesh.triangles)
@@ -67,7 +67,7 @@ void merge_vertices(ObjectMesh& mesh, MeshRepair& repair) {
     index[i] = found;
     if (found < kept.size()) continue;
 
-    // It is a new place.
+    // Otherwise keep the vertex at its new place.
     const Eigen::Vector3i own = (v / cell).array().floor().cast<int>();
     cells[{own.x(), own.y(), own.z()}].push_back(found);
     kept.push_back(v);
@@ -214,7 +214,7 @@ Eigen::AlignedBox3f bounding_box(const ObjectMesh& mesh) {
 }
 
 Result<MeshRepair> repair_mesh(ObjectMesh& mesh, const std::string& where) {
-  // Merge what is one place, and remove what is no triangle.
+  // Merge vertices at the same place, and remove triangles without area and duplicates.
   MeshRepair repair;
   if (mesh.triangles.empty()) return fail("holds no triangles", where, "export the object's surface as triangles");
   remove_unused(mesh);

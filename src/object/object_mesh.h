@@ -24,7 +24,7 @@ struct MeshRepair {
   std::size_t merged = 0;   ///< vertices that coincided with another one
   std::size_t removed = 0;  ///< triangles without area, or given twice
   std::size_t flipped = 0;  ///< triangles that faced inwards
-  std::size_t closed = 0;   ///< holes
+  std::size_t closed = 0;   ///< holes that were closed
 };
 
 /// Makes a mesh the closed surface of a solid: merges vertices, turns the triangles outwards and closes holes narrower

@@ -44,7 +44,7 @@ double growth_of_end(const Skin& before, const Skin& now, int segment, const Vec
   return end / weight;
 }
 
-// The end of a fingertip's bone in the frame that the bone had at the start of the scan. Also sets the bone's radius
+// Where the bone of a fingertip ends, in the frame that the bone had at the start of the scan. Also sets its radius
 // there: the skin ends one radius beyond the bone. If the profile's joints are known, so is the radius, except for the
 // growth of the skin.
 Vector3d tip_of(const ScanModel& start_model, const ScanModel& model, int segment, SegmentProfile& bone) {

@@ -34,7 +34,7 @@ Reload::Changes Reload::apply(const Config& wanted) {
     (fixed(key) ? changes.for_restart : changes.made).push_back(key + ": " + old + " -> " + value);
   }
 
-  // Merge the groups that may change into the configuration in force.
+  // Merge the groups that may change into the present configuration.
   Config next = in_force_;
   next.preprocess = wanted.preprocess;
   next.tracker = wanted.tracker;

@@ -15,7 +15,7 @@ constexpr double kDistance = 0.5, kWall = 1.0;  // distances of the hand and of 
 constexpr double kDepthUnit = 1e-4;             // length of one unit of the depth image [m]
 const Intrinsics kCamera{640, 480, 525, 525, 319.5, 239.5};
 
-/// Renders a depth image of the hand before a wall.
+/// Renders a depth image of the hand in front of a wall.
 FramePtr render_frame(const Skin& skin, const HandPose& pose) {
   auto frame = std::make_shared<RgbdFrame>();
   frame->camera = kCamera;

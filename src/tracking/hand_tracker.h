@@ -23,7 +23,7 @@ struct StartAt {
 struct ResetTracker {};
 /// Forget the hand, and search for that of another person.
 struct UseProfile {
-  std::shared_ptr<const HandProfile> profile;  ///< of the other person
+  std::shared_ptr<const HandProfile> profile;  ///< profile of the other person
 };
 /// Continue with the same hand, from its last pose and with the person learnt so far, but with other parameters.
 struct UseParams {
@@ -37,12 +37,12 @@ using TrackRequest = std::variant<StartAt, ResetTracker, UseProfile, UseParams, 
 
 /// The state of a track between two frames, for code outside the tracker.
 struct TrackView {
-  TrackStatus status;                          ///< as of the last observation
+  TrackStatus status;                          ///< status after the last observation
   bool tentative;                              ///< a lost hand may have been found; the next frame must confirm it
   bool size_mismatch;                          ///< the hand in view seems to have another size than its profile
   bool start_is_given;                         ///< a pose given by StartAt waits for the next observation
   const HandPose* expected_pose;               ///< last or given pose, near which the hand is expected; null: unknown
-  std::shared_ptr<const HandProfile> profile;  ///< as fitted to the person so far
+  std::shared_ptr<const HandProfile> profile;  ///< profile as it was fitted to the person so far
   Effort effort;                               ///< effort of the next search
   int full_attempts;                           ///< number of attempts of a full search
 

@@ -168,7 +168,7 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
   }
   if (!best) return std::nullopt;
 
-  // Confirm the size, and count refuted sizes anew.
+  // Confirm the size, and start to count refuted sizes from 0 again.
   size_refuted_ = 0;
   confirmed_size_ = best;
   return best;

@@ -22,11 +22,14 @@ struct LossParams {
 
 template <class V>
 void visit(V& v, LossParams& p) {
+  // Declare the keys for the score of a frame.
   v.user("lost_score", p.lost_score, 1e-4, 0.1, "m, a frame with a higher global score is bad (for a hand of 190 mm)");
   v("recovered_score", p.recovered_score, 1e-4, 0.1,
     "m, a frame with a lower global score is good; between the two thresholds nothing changes");
   v("noise_factor", p.noise_factor, 0.0, 10.0,
     "standard deviations of the sensor noise that are added to both thresholds in quadrature");
+
+  // Declare the keys for how long a state lasts.
   v("bad_frames", p.bad_frames, 1, 1000, "consecutive bad frames after which the hand is lost");
   v("good_frames", p.good_frames, 1, 1000,
     "consecutive good frames after which a hand that was searched for is tracked");

@@ -11,10 +11,10 @@ namespace barehand {
 /// Tracks one hand, or the left and the right hand of a person, each with its own HandTracker.
 /// (1) A hand that is not tracked is searched in the data that no tracked hand explains. If preprocessing had no
 /// feedback yet, because the hands were found only a moment ago, each region is assigned to the nearer hand. (2) If
-/// both hands are searched, both sides search every region, and the side that explains it clearly better owns it;
-/// otherwise it stays unassigned. (3) A track whose first frames show a hand of the other side is given up. If there is
-/// only one profile, no track is started on such a hand in the first place, and both cases are logged. The results are
-/// as deterministic as those of HandTracker.
+/// both hands are searched, each region is searched with both profiles, and belongs to the hand that explains it
+/// clearly better; otherwise it stays unassigned. (3) A track whose first frames show a hand of the other side is given
+/// up. If there is only one profile, no track is started on such a hand in the first place, and both cases are logged.
+/// The results are as deterministic as those of HandTracker.
 class TwoHandTracker {
  public:
   using Profiles = std::vector<std::shared_ptr<const HandProfile>>;

@@ -10,18 +10,18 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kSkinDeviation = 0.0015;  // of the skin model [m]
+constexpr double kSkinDeviation = 0.0015;  // standard deviation of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
 // Fitted to simulated grasps: towards a touch, the error of the distance is smaller, since skin does not enter objects;
 // and some objects are too thin or too dark to be seen.
 constexpr double kNearer = 1.6, kOverlooked = 0.03;
-// How much the odds of a touch rise if it is a hidden fingertip and its hand holds the object: tips that are not seen
-// rest on what the hand holds.
+// Factor on the odds of a touch for a hidden fingertip whose hand holds the object: fingertips that are not seen
+// usually rest on what the hand holds.
 constexpr double kHolds = 3;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
-/// Variance of a point of a body along a direction, by the body's pose and the covariance of that [m^2].
+/// Variance of a point of a body along a direction, from the covariance of the body's pose [m^2].
 double variance(const SE3& T_camera_body, const Matrix6d& covariance, const Vector3d& point,
                 const Vector3d& direction) {
   const Vector6d row = point_jacobian(point - T_camera_body.t).transpose() * direction;
@@ -31,7 +31,7 @@ double variance(const SegmentState& segment, const Vector3d& point, const Vector
   return variance(segment.T_camera_segment, segment.covariance, point, direction);
 }
 
-/// States that no segment is near anything; what is not seen is inferred.
+/// States that no segment is near anything; for segments that are not seen, this is inferred.
 void all_apart(const HandEstimate& estimate, SegmentContacts& contacts) {
   for (int s = 0; s < kSegmentCount; ++s) {
     contacts[s].state = ContactState::none;
@@ -52,7 +52,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   out->hands.resize(estimates.size());
   hands_.resize(estimates.size());
 
-  // Collect the surfaces around the tracked hands, and tell the objects apart.
+  // Collect the surfaces around the tracked hands.
   space_.observe(observations);
   points_.clear();
   open_.clear();
@@ -92,7 +92,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   return out;
 }
 
-/// Finds the known objects. Their meshes take the place of the points that are seen of them.
+/// Finds the known objects. Their meshes replace the points that were seen of them.
 void ContactStage::find_known(const HandObservations& observations, const HandEstimates& estimates,
                               FrameVector<ObjectEstimate>& objects) {
   if (!find_known_) return;
@@ -102,7 +102,7 @@ void ContactStage::find_known(const HandObservations& observations, const HandEs
   });
 }
 
-/// The distance of a segment from the known objects, all of whose surface is known. Nothing changes if none is near.
+/// Measures how far a segment is from the known objects, whose whole surface is known. Nothing changes if none is near.
 void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
   const PosedSkin& skin = hand.skin(s);
   const SegmentState& segment = estimate.segments[s];
@@ -151,7 +151,7 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
       return space_.empty(p) || objects_.seen_empty(object, p);
     });
     if (!nearest) {
-      // Nothing is near what is seen; whether something is near what is not seen is unknown.
+      // If nothing is near a visible segment, the state is none; of a hidden segment it is unknown.
       if (segment.seen && segment.visible >= kVisible) {
         contact.state = ContactState::none;
         contact.probability = kOverlooked;
@@ -168,7 +168,7 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     contact.inferred = !segment.seen;
     contact.partner = nearest->object;
 
-    // Where little of the segment is seen, there may be something nearer than what was found.
+    // If little of the segment is seen, something unseen may be nearer than the surface that was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
     set_state(contact, visible && below > 0 ? kNearer * below : below);
@@ -184,7 +184,7 @@ void ContactStage::touch_itself(const PosedHand& hand, const HandEstimate& estim
     const CapsuleDistance measured = HandCapsules::distance(capsules[a], hand.segments(), capsules[b], hand.segments());
     if (measured.distance > params_.near_distance) continue;
 
-    // Both segments hang on the palm, whose own error moves them together.
+    // Both segments are attached to the palm, whose own error moves them together.
     const SegmentState &first = estimate.segments[capsules[a].segment],
                        &second = estimate.segments[capsules[b].segment];
     const double common = variance(palm, measured.on_a, measured.normal);
@@ -227,7 +227,7 @@ void ContactStage::touch_hand(std::size_t own, std::size_t other, const HandEsti
     }
 }
 
-/// A contact of the skins of two segments, whose distance has this variance by the poses of the segments [m^2].
+/// A contact of the skins of two segments. `variance`: of their distance, from the covariances of the segments [m^2].
 Contact ContactStage::touch_of_skins(double distance, double variance, const SegmentState& first,
                                      const SegmentState& second) const {
   Contact contact;
@@ -238,8 +238,8 @@ Contact ContactStage::touch_of_skins(double distance, double variance, const Seg
   return contact;
 }
 
-/// Sets the probability of a touch, and the state, from the distance in deviations below the touch distance. `odds`:
-/// how much more likely a touch is for other reasons.
+/// Sets the probability of a touch, and the state. `deviations`: how far the distance is below the touch distance, in
+/// standard deviations; `odds`: how much more likely a touch is for other reasons.
 void ContactStage::set_state(Contact& contact, double deviations, double odds) const {
   const double p = 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
   contact.probability = odds * p / (odds * p + 1 - p);

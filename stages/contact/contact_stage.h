@@ -18,7 +18,7 @@
 namespace barehand {
 
 /// Finds the objects whose shape is known among the objects near the hands. Gives their points in `points` their ids,
-/// and puts them into `objects` in place of the objects that they are.
+/// and lets them replace their entries in `objects`.
 using KnownObjectFinder =
     std::function<std::vector<PosedObject>(const HandObservations& observations, const HandEstimates& estimates,
                                            std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects)>;

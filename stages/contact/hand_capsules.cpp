@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCarpus = 0.3;        // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
-constexpr double kPalmFraction = 0.9;  // of its finger's half width: that in the palm
+constexpr double kPalmFraction = 0.9;  // half width of a capsule in the palm, as a fraction of its finger's
 
 // Skin joins the segments of one finger, neighbouring fingers at their roots, and the roots with palm and thumb.
 bool joined_by_skin(int a, int b) {

@@ -8,11 +8,11 @@
 
 namespace barehand {
 
-/// The nearest places of two capsules. Camera frame [m].
+/// The nearest points of two capsules. Camera frame [m].
 struct CapsuleDistance {
   double distance = 0;         ///< between the skins, negative if they overlap
-  Eigen::Vector3d on_a, on_b;  ///< on the two skins
-  Eigen::Vector3d normal;      ///< of the skin of b there, towards a
+  Eigen::Vector3d on_a, on_b;  ///< nearest points on the two skins
+  Eigen::Vector3d normal;      ///< normal of b's skin at this place, towards a
 };
 
 /// The hand as tapered capsules with elliptic sections: one in each phalanx, and in the palm one towards each finger.

@@ -15,15 +15,15 @@ constexpr int kSide = 64;          // cells along each side of the grid, whose m
 constexpr float kCell = 0.004f;    // [m]
 constexpr int kReach = 2;          // cells to each side in which a point's surfel is searched
 constexpr float kMostSeen = 20;    // weight up to which a surfel is averaged
-constexpr float kBlank = 1;        // weight that a surfel loses where it should be measured and nothing is
+constexpr float kBlank = 1;        // weight that a surfel loses if it should be visible but no depth is measured there
 constexpr float kTrusted = 2;      // weight of a surfel that counts as known
-constexpr int kTrustedEmpty = 3;   // frames that saw a cell empty before it counts as such
+constexpr int kTrustedEmpty = 3;   // number of frames that must see a cell empty before it counts as empty
 constexpr float kAround = 0.024f;  // how far around the surface empty cells are remembered [m]
 constexpr std::size_t kMostSurfels = 8000;
-constexpr int kMostCells = 20'000;  // that are looked at in one frame
+constexpr int kMostCells = 20'000;  // number of cells that are tested for emptiness in one frame
 constexpr int kIterations = 4, kMostPoints = 250;
 constexpr double kOutlier = 0.005;  // distance to a surfel's plane at which a point has lost most of its weight [m]
-constexpr double kPointDeviation = 0.0015, kIndependent = 20;  // of a point [m]; number of independent ones
+constexpr double kPointDeviation = 0.0015, kIndependent = 20;  // deviation of a point [m]; how many are independent
 constexpr double kShift = 0.003, kTurn = 0.05;                 // deviations of the predicted pose [m, rad]
 
 /// A pose in single precision.
@@ -99,7 +99,7 @@ double ObjectModel::contradiction(const SE3& T_camera_object, std::span<const Su
   return std::max(contradicted(T_camera_object, space), static_cast<double>(inside) / std::max(count, 1));
 }
 
-/// The share of the surfels where a frame shows that there are none.
+/// The share of the surfels at places that the frame shows to be empty.
 double ObjectModel::contradicted(const SE3& T_camera_object, const ObservedSpace& space) const {
   const Pose T(T_camera_object);
   int count = 0, all = 0;
@@ -117,7 +117,7 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
   for (const SurfacePoint* point : points) wanted += point->p / static_cast<float>(points.size());
   SE3 pose = predicted;
   for (int round = 0; round < 2; ++round) {
-    // Find the middle of what faces the camera and is not hidden.
+    // Find the middle of the surfels that face the camera and are not hidden.
     const Pose T(pose);
     Vector3f sum = Vector3f::Zero();
     int count = 0;
@@ -129,7 +129,7 @@ SE3 ObjectModel::centred(const SE3& predicted, std::span<const SurfacePoint* con
       ++count;
     }
 
-    // Shift the model by the difference of the two middles.
+    // Shift the model by the difference between the two.
     if (count < 8) break;
     pose.t += (wanted - sum / static_cast<float>(count)).cast<double>();
   }
@@ -193,7 +193,7 @@ void ObjectModel::fuse(const SE3& T_camera_object, std::span<const SurfacePoint*
   see_empty_cells(T_camera_object, space);
 }
 
-/// Tells the cells around a surfel that it came or went.
+/// Updates the counts of the cells around a surfel that was added or removed.
 void ObjectModel::count_around(std::int32_t cell, int change) {
   const Vector3i i(cell % kSide, cell / kSide % kSide, cell / (kSide * kSide));
   const Vector3i first = (i.array() - kReach).max(0), last = (i.array() + kReach).min(kSide - 1);
@@ -218,7 +218,7 @@ void ObjectModel::add(const Vector3f& p, const Vector3f& n) {
     return;
   }
 
-  // Average it with what is known.
+  // Average the point with the surfel of its cell.
   Surfel& surfel = surfels_[cell.surfel];
   const float share = 1 / (surfel.weight + 1);
   surfel.p += share * (p - surfel.p);
@@ -227,8 +227,8 @@ void ObjectModel::add(const Vector3f& p, const Vector3f& n) {
   surfel.weight = std::min(kMostSeen, surfel.weight + 1);
 }
 
-/// Surfels at places that are seen to be empty lose weight until they are gone; so do, more slowly, those that should
-/// be measured where nothing is.
+/// Surfels at places that are seen to be empty lose weight until they are removed; so do, more slowly, those that
+/// should be visible where no depth is measured.
 void ObjectModel::remove_contradicted(const SE3& T_camera_object, const ObservedSpace& space) {
   const Pose T(T_camera_object);
   for (std::size_t i = 0; i < surfels_.size();) {
@@ -264,7 +264,7 @@ void ObjectModel::see_empty_cells(const SE3& T_camera_object, const ObservedSpac
   const Vector3i first = indices(lower - Vector3f::Constant(kAround)).cwiseMax(0),
                  last = indices(upper + Vector3f::Constant(kAround)).cwiseMin(kSide - 1);
 
-  // In a large box, look at some layers in each frame.
+  // In a large box, visit only some layers in each frame.
   const Vector3i size = (last - first).array() + 1;
   const int stride = 1 + size.prod() / kMostCells;
   layer_ = (layer_ + 1) % stride;

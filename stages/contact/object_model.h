@@ -15,26 +15,26 @@ namespace barehand {
 /// a grid of 4 mm, and the cells that were seen to be empty. Cells that are neither are unknown.
 class ObjectModel {
  public:
-  /// Places farther than this from the surface are none of it [m].
+  /// Points farther than this from the surface do not belong to it [m].
   static constexpr float kFar = 0.008f;
 
-  /// Whether there is enough of it to compare points with.
+  /// Whether the model has enough surface to compare points with.
   bool has_surface() const { return surfels_.size() >= 8; }
   /// How badly the points of a frame agree with the model at a pose of it: their mean distance from it, kFar at most,
   /// plus kFar times the fraction of it that is seen to be empty [m].
   double misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
                 const ObservedSpace& space) const;
-  /// How much speaks against a pose: the share of its surface where this frame sees that nothing is, or the share of
+  /// How much contradicts a pose: the share of the surface that this frame sees to be empty space, or the share of
   /// the points at places that were seen to be empty, whichever is larger.
   double contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
                        const ObservedSpace& space) const;
-  /// A predicted pose, moved so that the middle of what would be seen of the surface is that of the points.
+  /// The predicted pose, shifted so that the mean of the visible surface coincides with the mean of the points.
   SE3 centred(const SE3& predicted, std::span<const SurfacePoint* const> points, const ObservedSpace& space) const;
   /// The pose near a predicted one at which the points lie on the model's surface, by point-to-plane ICP. Directions in
-  /// which the surface slides over itself stay as predicted. `covariance`: of the pose's boxplus twist.
+  /// which the surface slides along itself stay as predicted. `covariance`: that of the pose's boxplus twist.
   SE3 align(const SE3& predicted, std::span<const SurfacePoint* const> points, Matrix6d& covariance) const;
   /// Adds the points of a frame, if the pose is `credible`, and the space that is seen to be empty, and removes surfels
-  /// that are there.
+  /// in this space.
   void fuse(const SE3& T_camera_object, std::span<const SurfacePoint* const> points, const ObservedSpace& space,
             bool credible = true);
   /// Appends the surfels that are hidden in this frame, in the camera frame.
@@ -74,7 +74,7 @@ class ObjectModel {
 
   std::vector<Surfel> surfels_;
   std::vector<Cell> cells_;  // empty until something was added
-  int layer_ = 0;            // of cells at which see_empty_cells() begins
+  int layer_ = 0;            // layer of cells at which see_empty_cells() begins
 };
 
 }  // namespace barehand

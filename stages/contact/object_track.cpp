@@ -7,12 +7,12 @@ namespace {
 
 using Eigen::Vector3d, Eigen::Vector3f;
 
-// A palm that moved so far with the object at the same place in it holds the object; one that the object left by more
-// than kLeft does not [m].
+// A palm holds the object once it has moved by kCarried while the object stayed within kFirm of its place in the palm,
+// until the object is farther than kLeft from this place [m].
 constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 constexpr int kGrip = 3;                // segments that touch an object which probably moves with the hand
-constexpr double kPreference = 0.0005;  // how much better the less probable motion must agree with the points [m]
-constexpr double kDoubtful = 0.25;      // contradiction of a pose at which nothing is added to the model
+constexpr double kPreference = 0.0005;  // advantage in misfit with which the less probable motion is preferred [m]
+constexpr double kDoubtful = 0.25;      // contradiction of a pose from which on nothing is added to the model
 constexpr double kPlace = 0.005, kTurn = 1.0;  // deviations of an object without a model [m, rad]
 
 }  // namespace
@@ -53,7 +53,7 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     state.T_camera_object = model.align(predicted, points, state.covariance);
     credible = model.contradiction(state.T_camera_object, points, space) < kDoubtful;
     if (!credible) {
-      // It may have moved faster than predicted: try where the points are.
+      // The object may have moved faster than predicted, so try the place of the points.
       Matrix6d covariance;
       const SE3 there = model.align(model.centred(predicted, points, space), points, covariance);
       if (model.misfit(there, points, space) < model.misfit(state.T_camera_object, points, space)) {
@@ -64,7 +64,7 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     }
     if (elapsed != 0) state.velocity = boxminus(state.T_camera_object, before) / elapsed;
   } else {
-    // Begin anew in the middle of what is seen.
+    // Start a new model at the middle of the points.
     state.T_camera_object = {Eigen::Matrix3d::Identity(), centre};
     state.covariance = Matrix6d::Zero();
     state.covariance.topLeftCorner<3, 3>().diagonal().setConstant(kPlace * kPlace);
@@ -72,7 +72,7 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     model = ObjectModel();
   }
 
-  // Fuse what is seen, or take its size as it is.
+  // Add the points to the model. An object that continues out of view has the size of its visible points.
   Vector3f lower = points[0]->p, upper = lower;
   for (const SurfacePoint* point : points) lower = lower.cwiseMin(point->p), upper = upper.cwiseMax(point->p);
   if (!open) {
@@ -102,7 +102,7 @@ void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
     hand_ = nearest->hand_id;
     T_palm_object_ = T_camera_palm.inverse() * state.T_camera_object;
 
-    // Begin anew with another palm, or if the object has left its place in the palm.
+    // Start the comparison again with another palm, or if the object has left its place in the palm.
     const double left =
         compared_hand_ == hand_ ? (T_palm_object_.t - in_palm_).norm() : std::numeric_limits<double>::infinity();
     if (left > (state.held ? kLeft : kFirm)) {
@@ -111,7 +111,7 @@ void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
       palm_ = T_camera_palm.t;
     }
 
-    // It is held once it was carried, until it leaves.
+    // An object is held once it was carried, until it leaves the palm.
     held = state.held ? left < kLeft : left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried;
   } else {
     compared_hand_ = -1;

@@ -9,14 +9,14 @@
 
 namespace barehand {
 
-/// One object from frame to frame: its model, its pose, and whether it is held. In each frame predict(), then points
-/// from whoever tells objects apart, then update().
+/// One object from frame to frame: its model, its pose, and whether it is held. In each frame, call predict(), then
+/// assign the object's points, then call update().
 struct ObjectTrack {
   ObjectEstimate state;
-  ObjectModel model;                        ///< of nothing while the object is open
+  ObjectModel model;                        ///< empty while the object is open
   std::vector<const SurfacePoint*> points;  ///< its points in this frame
   SE3 predicted;                            ///< T_camera_object in this frame
-  Eigen::Vector3d centre;                   ///< of the points that were seen last, camera frame [m]
+  Eigen::Vector3d centre;                   ///< centre of the points that were seen last, camera frame [m]
   bool open = false;                        ///< it continues out of view, as a table does: it has no model
   bool placed = false;                      ///< some of its points lie on its model in this frame
   int touches = 0;                          ///< segments that touched it in the last frame

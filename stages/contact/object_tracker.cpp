@@ -6,12 +6,12 @@
 namespace barehand {
 namespace {
 
-constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) are no object
+constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) do not make an object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
-constexpr double kOpenPlace = 0.2;   // and the middle of what is seen of a table [m]
+constexpr double kOpenPlace = 0.2;   // the same for the middle of the visible part of a table [m]
 constexpr double kOverlap = 0.4;     // fraction of a component on the model of an object that makes it a part of it
-constexpr double kGone = 0.25;       // contradiction of a model at its place by which it is no longer there
-constexpr double kSame = 0.7;        // fraction of it on a second model that makes both the same object
+constexpr double kGone = 0.25;       // contradiction of a model from which on it is no longer at its place
+constexpr double kSame = 0.7;        // fraction of a model on a second one from which on both are the same object
 // Time after which an object that is not seen is forgotten, and one that is held [us].
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
 constexpr double kLongest = 0.25;  // time between two frames that still gives a velocity [s]
@@ -21,7 +21,7 @@ constexpr double kLongest = 0.25;  // time between two frames that still gives a
 void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
                             const std::vector<bool>& open, std::vector<SurfacePoint>& points,
                             FrameVector<ObjectEstimate>& objects) {
-  // Tell the objects apart, with what is known of them.
+  // Assign the points to objects, by the models of the objects so far.
   links_.link(open, points);
   all_.clear();
   for (const SurfacePoint& point : points) all_.push_back(&point);
@@ -31,7 +31,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
   merge(utime);
   give_points(points);
 
-  // Update them, and forget what was not seen for long.
+  // Update the objects, and forget those that have not been seen for long.
   const double elapsed = 1e-6 * static_cast<double>(utime - last_);
   last_ = utime;
   for (ObjectTrack& track : tracks_) track.update(utime, std::abs(elapsed) < kLongest ? elapsed : 0, estimates, space);
@@ -39,7 +39,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
     return std::abs(utime - track.seen) > (track.state.held ? kForgottenHeld : kForgotten);
   });
 
-  // State what is there, and what is known of it but hidden.
+  // Output the objects that are seen or held, and the hidden points of their models.
   for (const ObjectTrack& track : tracks_) {
     if (track.seen == utime || track.state.held) objects.push_back(track.state);
     if (!track.open) track.model.append_hidden(track.state.T_camera_object, space, track.state.id, points);
@@ -71,6 +71,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   const auto components = static_cast<std::size_t>(links_.components());
   count_.assign(components, 0);
   for (const SurfacePoint& point : points) ++count_[point.component];
+
   near_.assign(tracks_.size() * components, 0);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (!tracks_[t].modelled()) continue;
@@ -80,7 +81,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       near_[t * components + point.component] += tracks_[t].model.near(R * (point.p - origin));
   }
 
-  // What stands on a table that it is connected with is still there.
+  // An object on a table may be in one component with it. Its model shows whether it is still there.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
     if (links_.open(static_cast<std::int32_t>(i)) && count_[i] >= kSpeck) {
@@ -99,15 +100,16 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       most = near_[t * components + i];
       owner_[i] = static_cast<int>(t);
     }
+
     if (owner_[i] < 0) continue;
     tracks_[owner_[i]].seen = utime;
     tracks_[owner_[i]].placed = true;
   }
 }
 
-/// Gives every other object the track that was nearest, or a new one.
+/// Assigns every object on no model to the nearest track, or to a new one.
 void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points) {
-  // Add up the objects.
+  // Add up the points of each object that is on no model, and find the objects that continue out of view.
   clusters_.assign(static_cast<std::size_t>(links_.components()), {});
   for (std::int32_t i = 0; i < links_.components(); ++i)
     if (links_.open(i)) clusters_[links_.root(i)].open = true;
@@ -125,6 +127,8 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
     Cluster* best = nullptr;
     std::size_t best_track = 0;
     double least = 1;
+
+    // Compare all pairs by their distance relative to the largest allowed one.
     for (Cluster& cluster : clusters_) {
       if (cluster.count < kSpeck || cluster.track >= 0) continue;
       for (std::size_t t = 0; t < known; ++t) {
@@ -141,7 +145,7 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
     tracks_[best_track].seen = utime;
   }
 
-  // Begin new tracks.
+  // Start new tracks.
   for (Cluster& cluster : clusters_) {
     if (cluster.count < kSpeck || cluster.track >= 0) continue;
     cluster.track = static_cast<int>(tracks_.size());
@@ -152,7 +156,7 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
   }
 }
 
-/// Forgets tracks of which nothing is seen but what belongs to another one: both are the same object, which keeps the
+/// Removes tracks whose only visible points belong to another track: both are the same object, which keeps the
 /// older id.
 void ObjectTracker::merge(std::int64_t utime) {
   const auto components = static_cast<std::size_t>(links_.components());
@@ -175,7 +179,7 @@ void ObjectTracker::merge(std::int64_t utime) {
   }
 }
 
-/// Tells the points whose they are, and the tracks which points they have.
+/// Assigns the points to the tracks, in both directions.
 void ObjectTracker::give_points(std::vector<SurfacePoint>& points) {
   for (SurfacePoint& point : points) {
     const int owner = owner_[point.component], t = owner >= 0 ? owner : clusters_[links_.root(point.component)].track;

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Tells objects apart, keeps their ids from frame to frame, and fuses what is seen of each into a model of it.
+/// Distinguishes objects, keeps their ids from frame to frame, and fuses the visible surface of each into a model.
 /// Surfaces that lie on the model of an object belong to it; others are one object if they are linked. An object is
 /// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {
@@ -24,14 +24,14 @@ class ObjectTracker {
   std::span<const ObjectTrack> tracks() const { return tracks_; }
   /// Takes note of what the hands touch in this frame: it probably moves with them.
   void note_touches(std::span<const HandContacts> hands);
-  /// Whether a place (camera frame [m]) was seen to be empty of this object when nothing covered it.
+  /// Whether a place (camera frame [m]) was seen to be empty, not part of this object, while nothing covered it.
   bool seen_empty(std::int32_t object, const Eigen::Vector3f& p) const;
 
  private:
-  /// All surfaces of one object in this frame that are linked and on no model.
+  /// The linked surfaces of one object in this frame that lie on no model.
   struct Cluster {
     int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of the points
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // sum of the points
     bool open = false;
     int track = -1;  // index into tracks_; -1: a speck
     Eigen::Vector3d centre() const { return sum / count; }
@@ -44,8 +44,8 @@ class ObjectTracker {
 
   SurfaceLinks links_;
   std::vector<const SurfacePoint*> all_;   // points of the frame
-  std::vector<int> count_, near_, owner_;  // of each component: points; points on each model; the model's track or -1
-  std::vector<Cluster> clusters_;          // by first component; those of the other components are empty
+  std::vector<int> count_, near_, owner_;  // for each component: points, points on each model, track of its model or -1
+  std::vector<Cluster> clusters_;          // indexed by the first component; those of the other components are empty
   std::vector<ObjectTrack> tracks_;
   std::int64_t last_ = 0;  // time of the last frame [us]
   std::int32_t next_id_;

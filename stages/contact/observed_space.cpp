@@ -3,9 +3,9 @@
 namespace barehand {
 namespace {
 
-// Errors of the depth image that pass for a surface's thickness [m]: a constant part, and deviations of the sensor.
+// Half the thickness of a surface: a constant part [m], and a multiple of the sensor's standard deviation.
 constexpr double kMargin = 0.003, kDeviations = 2;
-constexpr int kAround = 2;  // pixels to each side of one without depth that must have none, either
+constexpr int kAround = 2;  // neighbours on each side of a pixel without depth that must have no depth either [px]
 
 }  // namespace
 

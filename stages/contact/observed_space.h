@@ -7,7 +7,7 @@
 
 namespace barehand {
 
-/// What the rays of a frame say about places in space. Up to the surface that a ray met, space is empty; behind it, and
+/// Which places in space a frame shows to be empty. Up to the surface that a ray met, space is empty; behind it, and
 /// where nothing was measured, there may be anything.
 class ObservedSpace {
  public:
@@ -24,8 +24,8 @@ class ObservedSpace {
  private:
   struct View {
     const HandObservation* observation = nullptr;
-    float fx = 0, fy = 0, cx = 0, cy = 0;  // of the region of interest [px]
-    float margin = 0;                      // [m]
+    float fx = 0, fy = 0, cx = 0, cy = 0;  // intrinsics of the region of interest [px]
+    float margin = 0;                      // half the thickness that a surface has because of the sensor's error [m]
 
     /// The pixel of the region that shows a place in front of the camera.
     std::array<int, 2> pixel_of(const Eigen::Vector3f& p) const {

@@ -10,16 +10,16 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kSkinPoints = 80;         // per segment
-constexpr double kSkinChange = 0.0005;  // change of a bone or a section that is worth a new skin [m]
+constexpr int kSkinPoints = 80;         // number of skin points per segment
+constexpr double kSkinChange = 0.0005;  // change of a bone or a section for which the skin is made again [m]
 constexpr float kWrist = 0.02f;         // skin of the palm nearer to the wrist than this lies on the sleeve [m]
-constexpr float kCuff = 0.035f;         // what is seen nearer to the wrist than this is the hand's, or a sleeve's [m]
+constexpr float kCuff = 0.035f;         // points nearer to the wrist than this belong to the hand or to a sleeve [m]
 constexpr float kOwn = 0.004f;          // points this near to skin that faces the same way are the hand's own [m]
-// What is farther from the skin than kOff is no hand. Palm and thumb bulge, and their points are some way apart: there,
-// it must be farther than kBulge from the skin around it, up to kApart away [m].
+// Points farther from the skin than kOff are not hand. Palm and thumb bulge, and their points are sparse: there,
+// a point must be farther than kBulge from the skin around it, up to kApart away [m].
 constexpr float kOff = 0.009f, kBulge = 0.015f, kApart = 0.025f;
 
-/// Whether two profiles have the same skin, but for fractions of a millimetre.
+/// Whether the skins of two profiles differ by no more than fractions of a millimetre.
 bool alike(const HandProfile& a, const HandProfile& b) {
   if (a.handedness != b.handedness || a.scanned_skin != b.scanned_skin) return false;
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -47,7 +47,7 @@ void PosedHand::pose(const HandEstimate& estimate) {
     profile_ = estimate.profile;
   }
 
-  // Pose it.
+  // Transform the skin to the camera frame.
   pose_ = pose_of(estimate.segments);
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentSurface& surface = surface_[s];

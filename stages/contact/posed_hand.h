@@ -16,7 +16,7 @@ namespace barehand {
 /// no time to make.
 class PosedHand {
  public:
-  /// Takes over the pose of a tracked hand. The skin is made anew if the profile has changed by more than fractions of
+  /// Takes over the pose of a tracked hand. The skin is made again if the profile has changed by more than fractions of
   /// a millimetre.
   void pose(const HandEstimate& estimate);
 
@@ -26,13 +26,13 @@ class PosedHand {
 
   /// Whether a place is on or in the skin, or behind the wrist (camera frame [m]).
   bool contains(const Eigen::Vector3f& p) const;
-  /// Whether a point of a surface is the hand's own skin: near to it, and facing the same way. What touches skin faces
-  /// it.
+  /// Whether a point of a surface is the hand's own skin: near to it, and facing the same way. A touching object faces
+  /// the skin.
   bool owns(const SurfacePoint& point) const;
 
  private:
-  std::shared_ptr<const HandProfile> profile_;  // of the skin
-  HandSurface surface_;                         // in the frames of the segments
+  std::shared_ptr<const HandProfile> profile_;  // profile from which the skin was made
+  HandSurface surface_;                         // skin in the frames of the segments
   std::optional<HandCapsules> capsules_;
   std::array<PosedSkin, kSegmentCount> skin_;
   HandPose pose_;

@@ -17,21 +17,21 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-constexpr float kCell = 0.004f;    // of the grid in which samples are searched [m]
+constexpr float kCell = 0.004f;    // cell size of the grid in which samples are searched [m]
 constexpr int kReach = 2;          // cells to each side in which samples are searched
-constexpr float kRadius = 0.008f;  // around a sample, in which others share its surface with it [m]
+constexpr float kRadius = 0.008f;  // samples nearer to each other than this share the surface around them [m]
 constexpr float kSmooth = 0.005f;  // width of the weights of the planes [m]
-constexpr float kSameSide = 0.3f;  // cosine between the normals of samples of one side of a sheet
-// The planes alone hold up to kNear from a sample, the winding number alone from kFar on [m].
+constexpr float kSameSide = 0.3f;  // least cosine between the normals of samples on one side of a sheet
+// Up to kNear from a sample the planes alone decide, from kFar on the winding number alone [m].
 constexpr float kNear = 0.004f, kFar = 0.008f;
-constexpr double kMargin = 0.01;  // around the samples [m]
-constexpr float kCore = 0.003f;   // a sample is no nearer than this to what it winds around [m]
+constexpr double kMargin = 0.01;  // margin around the samples [m]
+constexpr float kCore = 0.003f;   // distances in the winding number are at least this [m]
 
 /// The signed distance from samples of a surface, negative inside.
 class SampledSolid {
  public:
   explicit SampledSolid(std::span<const SurfaceSample> samples);
-  /// Signed distance near the samples, and something of the same sign elsewhere [m].
+  /// Signed distance near the samples; elsewhere a value with the right sign [m].
   double distance(const Vector3d& place) const;
   /// Distance of the nearest sample, if that is within about kFar; otherwise infinity [m].
   float apart(const Vector3f& p) const { return at(p).apart; }
@@ -39,10 +39,10 @@ class SampledSolid {
   const Vector3f& upper() const { return upper_; }
 
  private:
-  /// What the samples around a place say.
+  /// Distances of a place from the samples around it.
   struct Nearby {
-    float apart = std::numeric_limits<float>::infinity();  // of the nearest one
-    float height = 0;                                      // above their planes
+    float apart = std::numeric_limits<float>::infinity();  // distance of the nearest sample
+    float height = 0;                                      // height of the place above the samples' planes
   };
 
   template <class Act>
@@ -57,9 +57,9 @@ class SampledSolid {
            static_cast<std::size_t>(i.x());
   }
 
-  std::vector<SurfaceSample> samples_;  // in the order of their cells
-  std::vector<std::size_t> first_;      // of each cell, and one more
-  Eigen::ArrayX3f places_, fluxes_;     // of the samples; normal times area over 4 pi
+  std::vector<SurfaceSample> samples_;  // sorted by their cells
+  std::vector<std::size_t> first_;      // index of each cell's first sample, and the end
+  Eigen::ArrayX3f places_, fluxes_;     // positions of the samples; their normals times area over 4 pi
   Vector3f lower_, upper_, origin_;
   Vector3i side_;
 };
@@ -94,7 +94,7 @@ void SampledSolid::for_nearby(const Vector3f& p, const Act& act) const {
     }
 }
 
-/// Samples share the surface around them. One at a border would get too much.
+/// Computes the area of each sample: nearby samples share the surface. A sample at a border would get too much.
 void SampledSolid::measure_areas() {
   const auto count = static_cast<Eigen::Index>(samples_.size());
   places_.resize(count, 3);
@@ -191,7 +191,7 @@ ScannedMesh scanned_mesh(std::span<const SurfaceSample> samples, double cell) {
   if (surface.triangles.empty()) return {};
   ScannedMesh scanned{largest_part(surface), 0, 0};
 
-  // Tell what was seen from what closes it.
+  // Separate the triangles that were seen from those that close the surface.
   const auto& v = scanned.mesh.vertices;
   auto& triangles = scanned.mesh.triangles;
   const auto lids = std::ranges::stable_partition(triangles, [&](const MeshDistance::Triangle& t) {

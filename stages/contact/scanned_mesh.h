@@ -11,9 +11,9 @@ inline constexpr std::size_t kFewestSamples = 100;
 
 /// The closed surface of an object that was seen in parts.
 struct ScannedMesh {
-  ObjectMesh mesh;       ///< watertight, in the frame of what was seen [m]; empty if nothing solid was seen
+  ObjectMesh mesh;       ///< watertight, in the frame of the samples [m]; empty if nothing solid was seen
   std::size_t lids = 0;  ///< the first of the triangles that close what was not seen, which are the last ones
-  double seen = 0;       ///< share of its area that was seen
+  double seen = 0;       ///< fraction of its area that was seen
 };
 
 /// Lays a closed surface around samples of a surface, about one in each cell of 4 mm. Near the samples it is the

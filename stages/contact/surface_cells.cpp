@@ -10,8 +10,8 @@ using Eigen::Vector3f;
 
 constexpr float kSpacing = 0.0035f;    // size of a cell [m]
 constexpr float kStep = 0.008f;        // largest difference in depth of neighbouring cells of one surface [m]
-constexpr float kSurroundings = 0.2f;  // how far from the middle of the hand surfaces are looked at [m]
-constexpr float kCrease = 0.35f;       // how much the normals of neighbouring cells close up at a crease
+constexpr float kSurroundings = 0.2f;  // radius around the middle of the hand in which surfaces are observed [m]
+constexpr float kCrease = 0.35f;       // normals that converge by more than this from cell to cell show a crease
 constexpr int kWindow = 2;             // cells to each side that a plane is fitted to
 constexpr int kFewest = 6;             // cells that a plane needs
 constexpr std::int32_t kOther = -1, kSeed = -2;
@@ -54,7 +54,7 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
   }
 }
 
-/// Takes over the depth of every cell that may be an object's, and marks those that are labelled so.
+/// Copies the position of every cell that may belong to an object, and marks those that are labelled as object.
 void SurfaceCells::fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
                               const std::function<bool(const Vector3f&)>& on_skin) {
   const HandObservation& seen = *observations[k];
@@ -88,7 +88,7 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
         continue;
       }
 
-      // Keep the place; an object begins to grow here.
+      // Keep the position; the component of an object grows from the cells that are labelled as object.
       place_.at(c, r) = p;
       if (label == PixelLabel::object || foreign) component_.at(c, r) = kSeed;
     }

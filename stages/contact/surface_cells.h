@@ -16,8 +16,8 @@ class SurfaceCells {
  public:
   /// Appends the points of observation `k`, whose estimate must have a pose. Components are numbered from the size of
   /// `open` on; for each one `open` gets whether it continues out of the hand's region, as a table or a body does.
-  /// `on_skin`: whether a place is on the hand's skin; what preprocessing took for the hand and is not on its skin, is
-  /// an object of the colour of skin.
+  /// `on_skin`: whether a place is on the hand's skin. What preprocessing labelled as hand but is not on the skin is
+  /// an object that has the colour of skin.
   void collect(const HandObservations& observations, const HandEstimates& estimates, std::size_t k,
                const std::function<bool(const Eigen::Vector3f&)>& on_skin, std::vector<SurfacePoint>& points,
                std::vector<bool>& open);
@@ -29,11 +29,11 @@ class SurfaceCells {
   void grow(std::vector<bool>& open);
   bool fit(int c, int r, SurfacePoint& point) const;
 
-  int step_ = 1;                            // pixels per cell
-  Image<Eigen::Vector3f> place_;            // of each cell that is no hand and no arm, camera frame [m]; z = 0: none
-  Image<Eigen::Vector3f> fitted_, normal_;  // of its plane; the normal is zero where there is none
-  Image<std::uint8_t> beyond_;              // 1: a surface that is too far away to be looked at
-  Image<std::int32_t> component_;           // of each cell; kSeed: object, kOther: not reached yet
+  int step_ = 1;                  // pixels per cell
+  Image<Eigen::Vector3f> place_;  // position of each cell that is not hand or arm, camera frame [m]; z = 0: none
+  Image<Eigen::Vector3f> fitted_, normal_;  // position and normal of each cell's plane; zero normal: no plane
+  Image<std::uint8_t> beyond_;              // 1: a surface that is too far from the hand to be observed
+  Image<std::int32_t> component_;           // component of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
 };
 

@@ -11,16 +11,16 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kBandwidth = 0.006f;  // h: distance over which planes are averaged [m]
-// The surface is known where a point of it is no farther aside than this. Skin that is farther inside than kBehind is
-// behind a surface whose far side is unknown [m].
+// The surface is known where one of its points is within kAside to the side. Skin that is farther inside than kBehind
+// is behind a surface whose far side is unknown [m].
 constexpr float kAside = 0.004f, kBehind = 0.006f;
 constexpr float kInside = 0.001f;  // how far skin enters a surface at most [m]
-constexpr float kStep = 0.002f;    // along an unseen surface, from one place to the next [m]
-constexpr float kDepth = 0.03f;    // how far an object may go on along the ray behind its edge [m]
-// The bend of a surface where nothing is known of it [1/m], the deviation of a single normal over that of bends,
-// squared [m^2], the most that is believed [1/m], and the distance over which it is measured [m].
+constexpr float kStep = 0.002f;    // distance from one tested place to the next along an unseen surface [m]
+constexpr float kDepth = 0.03f;    // how far an object may continue along the ray behind its edge [m]
+// The curvature of a surface where nothing is known of it [1/m], the deviation of a single normal over that of the
+// curvature, squared [m^2], the largest accepted curvature [1/m], and the distance over which it is measured [m].
 constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kAround = 0.012f;
-constexpr float kSpread = 0.25f;  // error of an unseen surface by its distance from what is seen
+constexpr float kSpread = 0.25f;  // error of an unseen surface, as a fraction of its distance from the visible surface
 
 }  // namespace
 
@@ -44,7 +44,7 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
     Plane plane;
     if (!find_plane(x, plane)) continue;
 
-    // Where the nearest point lies aside, extend the surface towards the skin.
+    // If the nearest point lies to the side, extend the surface towards the skin.
     const float height = plane.height, aside_sq = plane.apart * plane.apart - height * height;
     if (aside_sq >= kAside * kAside) {
       if (nearest && std::max(height, 0.f) >= nearest->distance) continue;
@@ -53,7 +53,8 @@ std::optional<NearestSurface> SurfaceDistance::measure(const PosedSkin& skin, st
       continue;
     }
 
-    // The surface is seen right here. Skin that seems to be inside touches it, or is behind something thin.
+    // Otherwise the surface is seen at this place. Skin that seems to be inside touches it, or is behind something
+    // thin.
     if (height < -kBehind) continue;
     const float distance = std::max(height, -kInside);
     if (!nearest || distance < nearest->distance)
@@ -81,18 +82,20 @@ bool SurfaceDistance::find_plane(const Vector3f& x, Plane& plane) {
   float weights = 0, f = 0;
   Vector3f normal = Vector3f::Zero();
   for (std::size_t i = 0; i < close_.size(); ++i) {
-    if (distance_sq_[i] > least_sq + 7 * kBandwidth * kBandwidth) continue;  // it has no weight
+    if (distance_sq_[i] > least_sq + 7 * kBandwidth * kBandwidth) continue;  // its weight is negligible
     const float w = fast_exp((least_sq - distance_sq_[i]) / (kBandwidth * kBandwidth));
     weights += w;
     f += w * close_[i].n.dot(x - close_[i].p);
     normal += w * close_[i].n;
   }
+
+  // Normals that cancel each other define no plane.
   if (normal.squaredNorm() < 1e-6f) return false;
   plane = {&close_[best], std::sqrt(least_sq), f / weights, normal.normalized()};
   return true;
 }
 
-/// The distance of x from a surface that is seen some way aside only.
+/// The distance of x from a surface that is only seen some way to the side.
 NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, const SeenEmpty& empty) const {
   // Walk towards the foot of x until a place is seen to be empty.
   const Vector3f& p = plane.nearest->p;
@@ -110,7 +113,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
       continue;
     }
 
-    // The object ends here, or goes on along the ray behind this place.
+    // The object ends here, or continues along the ray behind this place.
     const Vector3f ray = end.normalized();
     const float behind = std::clamp((x - end).dot(ray), 0.f, kDepth);
     most = (x - end).norm();
@@ -118,7 +121,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
     break;
   }
 
-  // It bends away on the way, but the last point that is known is part of it.
+  // The surface curves away from its plane, but its nearest known point is certain.
   const float unseen = (end - p).norm(),
               sag = 0.5f * bend(*plane.nearest, way / std::max(length, 1e-6f)) * unseen * unseen;
   const float distance = std::min(0.5f * (least + most) + sag, plane.apart);
@@ -126,7 +129,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
   return {distance, deviation, end - std::min(sag, plane.apart) * plane.normal, plane.normal, plane.nearest->object};
 }
 
-/// How much the surface around a point bends away along a direction [1/m]: the slope of its normals.
+/// Curvature of the surface around a point along a direction [1/m]: the slope of its normals.
 float SurfaceDistance::bend(const SurfacePoint& p, const Vector3f& direction) const {
   float count = 0, s = 0, n = 0, ss = 0, sn = 0;
   for (const SurfacePoint& point : close_) {

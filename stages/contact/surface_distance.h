@@ -20,7 +20,7 @@ struct PosedSkin {
 /// The surface nearest to a segment's skin.
 struct NearestSurface {
   float distance = 0;   ///< signed, negative inside [m]
-  float deviation = 0;  ///< of the distance, because the surface is only known nearby [m]
+  float deviation = 0;  ///< standard deviation of the distance, because the surface is only known nearby [m]
   Eigen::Vector3f point, normal;
   std::int32_t object = -1;
 };
@@ -30,10 +30,10 @@ struct NearestSurface {
 ///
 ///     f(x) = sum w_i n_i (x - p_i) / sum w_i,  w_i = exp(-(|x - p_i|^2 - d^2) / h^2),  d = min |x - p_i|
 ///
-/// Where skin covers the surface, the nearest known point p is some way aside. The surface goes on from there towards
-/// the foot of x in that plane, bent as it is bent around p, until a place that is seen to be empty: there is its edge.
-/// Behind the edge it may go on along the ray, hidden by itself. It does not go on into the skin: there, 0 takes the
-/// place of a negative f.
+/// Where skin covers the surface, the nearest known point p is some way to the side. The surface continues from there
+/// towards the foot of x in that plane, with the curvature that it has around p, up to a place that is seen to be
+/// empty: its edge. Behind the edge it may continue along the ray, hidden by itself. It does not continue into the
+/// skin: there, 0 takes the place of a negative f.
 class SurfaceDistance {
  public:
   /// Surfaces farther from the skin than this are not measured [m].
@@ -58,7 +58,7 @@ class SurfaceDistance {
   NearestSurface extend(const Eigen::Vector3f& x, const Plane& plane, const SeenEmpty& empty) const;
   float bend(const SurfacePoint& p, const Eigen::Vector3f& direction) const;
 
-  std::vector<SurfacePoint> close_;             // to the segment
+  std::vector<SurfacePoint> close_;             // known points close to the segment
   std::vector<float> x_, y_, z_, distance_sq_;  // their places, and their distances from a skin point, squared
 };
 

@@ -20,7 +20,7 @@ void SurfaceLinks::link(const std::vector<bool>& open, const std::vector<Surface
   list_voxels(points);
   find_pieces(open);
 
-  // Join what lies in neighbouring voxels.
+  // Join the components that have points in neighbouring voxels.
   sets_.clear();
   while (sets_.size() < open.size()) sets_.add();
   for_neighbours([&](const Voxel& a, const Voxel& b) {

@@ -13,7 +13,7 @@ class SurfaceLinks {
  public:
   /// `open`: whether each component continues out of view.
   void link(const std::vector<bool>& open, const std::vector<SurfacePoint>& points);
-  /// The first component of those that a component is joined with.
+  /// The first of the components that are joined with this one.
   std::int32_t root(std::int32_t component) { return sets_.root(component); }
   /// Whether a component continues out of view, or is a piece of something that does.
   bool open(std::int32_t component) const { return open_[component]; }
@@ -32,10 +32,10 @@ class SurfaceLinks {
   template <class Act>
   void for_neighbours(const Act& act) const;
 
-  DisjointSets sets_;          // of the components of one object
-  std::vector<Voxel> voxels_;  // by key, then component
+  DisjointSets sets_;          // components that belong to one object
+  std::vector<Voxel> voxels_;  // sorted by key, then by component
   std::vector<bool> open_;
-  std::vector<int> flush_;  // of each component, places where it is flush with an open one, less the others
+  std::vector<int> flush_;  // for each component: places where it is flush with an open one, minus the other places
 };
 
 }  // namespace barehand

@@ -64,7 +64,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   else if (windows)
     detection = detector_->detect_at(frame, places_, workers_);
 
-  // After an error, go on without the networks.
+  // After an error, continue without the networks.
   if (!detection) {
     log_->warn("hands are found without networks from now on: {}", detection.error().message());
     detector_.reset();

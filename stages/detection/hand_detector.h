@@ -66,10 +66,10 @@ class HandDetector {
   std::vector<Palm> palms_;                                         // most probable first
   std::size_t next_ = 0;                                            // index of the first palm that was not chosen yet
   std::vector<Palm> chosen_;                                        // the palms that are examined
-  std::vector<ExpectedHand> places_;                                // of these palms
-  std::array<Result<std::optional<DetectedHand>>, kAtOnce> found_;  // at these places
+  std::vector<ExpectedHand> places_;                                // places of these palms
+  std::array<Result<std::optional<DetectedHand>>, kAtOnce> found_;  // hands found at these places
   Image<float> depth_;                                              // the depth image, resampled for the first network
-  NetworkInput input_;                                              // its input
+  NetworkInput input_;                                              // input of the first network
 };
 
 }  // namespace barehand

@@ -45,6 +45,7 @@ HeatMoments heat_moments(const HeatMap& map, const float* values) {
       const int i = row * map.width + column;
       const double p = std::exp(map.logit[i] - highest);
       const Eigen::Vector2d cell(column, row);
+
       total += p;
       sum += p * cell;
       squares += p * cell * cell.transpose();

@@ -76,7 +76,7 @@ class OnnxReader {
     require(node.output_size() == 1, type + " with several outputs");
     require(node.input_size() >= (type == "Constant" ? 0 : type == "Slice" ? 3 : 1), type + " without inputs");
 
-    // Read the node by its type; what is no layer must compute a size.
+    // Read the node by its type; a node that is not a layer must compute a size.
     if (type == "Conv")
       add_convolution(node);
     else if (type == "Relu" || type == "Add")
@@ -110,6 +110,7 @@ class OnnxReader {
     require(equal(kernel, 2) && equal(strides, 2) && equal(pads, 4) && kernel[0] > 0 && strides[0] > 0 &&
                 std::ranges::all_of(dilations, [](std::int64_t d) { return d == 1; }),
             "a convolution with unequal sides");
+
     step.kernel = static_cast<int>(kernel[0]);
     step.stride = static_cast<int>(strides[0]);
     step.pad = static_cast<int>(pads[0]);
@@ -242,7 +243,7 @@ class OnnxReader {
   const onnx::GraphProto& onnx_;
   NetworkGraph graph_;
   std::map<std::string, const onnx::TensorProto*> constants_;
-  std::map<std::string, int> values_, uses_, means_;           // by the names in the file
+  std::map<std::string, int> values_, uses_, means_;           // indexed by the names in the file
   std::map<std::string, std::vector<std::int64_t>> integers_;  // small tensors of integers
   std::map<std::string, Enlarged> enlarged_;
   std::map<int, int> convolutions_;  // index of the step that computes a value

@@ -42,8 +42,8 @@ struct NetworkGraph {
   std::map<std::string, WeightedMean> numbers;  ///< outputs that are single numbers
 };
 
-/// Reads the bytes of an ONNX file; `name` is for error messages. Errors: it is no ONNX file, or damaged; it contains
-/// an operator that networks of tools/training do not have; weights are not finite.
+/// Reads the bytes of an ONNX file; `name` is for error messages. Errors: it is not an ONNX file, or damaged; it
+/// contains an operator that networks of tools/training do not have; weights are not finite.
 Result<NetworkGraph> read_onnx(const std::string& bytes, const std::string& name);
 
 }  // namespace barehand

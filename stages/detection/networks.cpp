@@ -44,6 +44,7 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
   const auto middle = [](int i, int n, int pixels, double covered) {
     return n == 1 ? 0.5 * (pixels - 1) : 0.5 * (covered - 1) + i * (pixels - covered) / (n - 1);
   };
+
   std::vector<DepthView> views;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c)

@@ -23,8 +23,8 @@ class PalmHistory {
 
  private:
   struct Place {
-    Eigen::Vector3d palm = Eigen::Vector3d::Zero();  // where it was when it was examined last
-    double log_odds = 0;                             // of a palm, when it was examined last
+    Eigen::Vector3d palm = Eigen::Vector3d::Zero();  // position of the palm when the place was last examined
+    double log_odds = 0;                             // log odds of a palm when the place was last examined
     int unlikely_count = 0;                          // grows with each examination that found nothing likely
     bool unlikely = false;                           // whether the last examination found nothing likely
     std::int64_t last_palm = 0;                      // number of the last search with a palm here

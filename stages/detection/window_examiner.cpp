@@ -54,7 +54,7 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   auto window = run_network(frame, place.centre, mirrored);
   if (!window) return tl::unexpected(window.error());
 
-  // Examine a second window if the hand lies aside, or if it is of the other side.
+  // Examine a second window if the hand is off the centre, or if it is of the other side.
   const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || other_side()) {

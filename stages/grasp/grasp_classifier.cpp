@@ -10,9 +10,9 @@
 namespace barehand {
 namespace {
 
-constexpr int kInterface = 1;  // of the file
+constexpr int kInterface = 1;  // version of the file's format that this program reads
 constexpr double kLargest = 1e3;
-constexpr double kLeast = 1e-30;  // probability
+constexpr double kLeast = 1e-30;  // least probability of a class
 constexpr const char* kRemedy = "use the file that came with this version of Barehand";
 
 /// Reads the class of each row, and checks that the file is about the classes of this program.
@@ -37,6 +37,8 @@ Result<std::vector<int>> read_classes(const json_fields::Object& file, std::size
     classes.push_back(type ? 1 + *type : 0);
     present[static_cast<std::size_t>(classes.back())] = true;
   }
+
+  // Report a grasp without a row.
   for (int k = 0; k < kGraspCount; ++k)
     if (!present[static_cast<std::size_t>(k)])
       return fail("\"classes\" lacks " + std::string(grasp_name(k)), file.where, kRemedy);
@@ -81,6 +83,7 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
   out.bias_.resize(rows);
   Eigen::Matrix<double, kGraspFeatureCount, 1> deviation;
   Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::RowMajor> weights(rows, kGraspFeatureCount);
+
   numbers("mean", -kLargest, kLargest, out.mean_);
   numbers("deviation", 1e-6, kLargest, deviation);
   numbers("weights", -kLargest, kLargest, weights);

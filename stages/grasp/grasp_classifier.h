@@ -9,14 +9,14 @@
 
 namespace barehand {
 
-/// A multinomial logistic classifier of grasps, whose rows are shapes of the hand: each class may have several, and no
-/// grasp has one for each shape in which hands reach for things. The probability of row k is proportional to
+/// A multinomial logistic classifier of grasps. Each row stands for a shape of the hand: a class may have several, and
+/// no grasp has one for each shape in which hands reach for things. The probability of row k is proportional to
 ///
 ///   exp(a_k / sqrt(1 + pi / 8 s_k^2)),   a = W z + b,   s_k^2 = spread^2 |W_k S|^2,
 ///
-/// where z are the features, less their mean and over their deviation in the training, and S the columns of their
-/// spread over the same deviation. The root is MacKay's approximation of the mean over uncertain features: the less is
-/// known about the pose, the less is decided.
+/// where z are the features, minus their mean and divided by their deviation in the training, and S the columns of
+/// their spread divided by the same deviation. The root is MacKay's approximation of the mean over uncertain features:
+/// the less is known about the pose, the less certain is the class.
 class GraspClassifier {
  public:
   /// Reads a file of tools/training/grasps/train.py. Errors: it cannot be read, is of another interface, lacks a class,
@@ -35,7 +35,7 @@ class GraspClassifier {
   static constexpr int kMaxRows = 64;
 
   Eigen::Matrix<double, kGraspFeatureCount, 1> mean_, scale_;  // scale: one over the deviation
-  std::vector<int> classes_;                                   // of the rows
+  std::vector<int> classes_;                                   // class of each row
   Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::ColMajor, kMaxRows> weights_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows> bias_;
   double spread_ = 1;

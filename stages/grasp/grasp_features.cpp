@@ -1,4 +1,4 @@
-// Computes the features by which grasps are told apart from the pose of a hand.
+// Computes, from the pose of a hand, the features by which grasps are classified.
 #include "stages/grasp/grasp_features.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2;
-constexpr double kStep = 1e-3;                  // of an angle, for derivatives [rad]
-constexpr double kFullFlexion = 285 * kDegree;  // of knuckle, PIP and DIP joint together [rad]
+constexpr double kStep = 1e-3;                  // step of an angle for numerical derivatives [rad]
+constexpr double kFullFlexion = 285 * kDegree;  // sum over knuckle, PIP and DIP joint of a closed finger [rad]
 
-/// A pose as the features see it.
+/// The part of a pose on which the features depend.
 struct Shape {
   HandPose pose;
   std::array<Vector3d, kFingerCount> tips;
@@ -37,6 +37,8 @@ Eigen::Matrix<double, kGraspFeatureCount, 1> values_of(const Shape& shape, doubl
     add(v.y());
     add(v.z());
   };
+
+  // Measure lengths as fractions of the palm's length, so that they do not depend on the size of the hand.
   const HandPose& pose = shape.pose;
   const SE3& palm = pose[kPalm];
   const double size = (pose[segment_of(kMiddle, 0)].t - palm.t).norm();

@@ -4,8 +4,9 @@
 
 namespace barehand {
 
-/// Features by which grasps are told apart. They depend neither on the size of the hand, nor on the side, nor on where
-/// it is: a left hand is mirrored, and lengths are divided by that from the wrist to the middle finger's knuckle.
+/// Features by which grasps are classified. They depend neither on the size of the hand, nor on the side, nor on where
+/// it is: a left hand is mirrored, and lengths are divided by the distance from the wrist to the middle finger's
+/// knuckle.
 inline constexpr int kGraspFeatureCount = 52;
 /// Angles of joints on whose errors those of the features depend: 5 of the thumb, 4 of each finger.
 inline constexpr int kGraspAngleCount = 21;
@@ -28,13 +29,14 @@ struct GraspFeatures {
 };
 
 /// The features of an estimate with a pose, and what its covariance says about their errors. The errors of the joints
-/// are taken as independent, and that of a joint's angle as what the covariance of its segment has more than that of
+/// are assumed to be independent; the variance of a joint's angle is that of its segment minus that of
 /// the segment's parent.
 GraspFeatures grasp_features(const HandEstimate& estimate);
 
 /// How far the hand is open and closed.
 struct GraspOpening {
-  /// From the thumb's tip to the middle of the tips of `first_finger` .. `last_finger` (2: index, 5: little) [m].
+  /// Distance from the thumb's tip to the mean of the tips of `first_finger` .. `last_finger` (2: index, 5: little)
+  /// [m].
   double aperture;
   /// Mean flexion of the fingers 2 to 5 over their whole range: 0 flat, 1 fist.
   double closure;

@@ -7,7 +7,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kAdvantage = 1.5;  // by which something else must be more probable to replace what is stated
+constexpr double kAdvantage = 1.5;  // another class must be more probable by this factor to replace the stated one
 
 }  // namespace
 

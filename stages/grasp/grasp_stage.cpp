@@ -19,7 +19,7 @@ Result<FrameGraspsPtr> GraspStage::process(const HandEstimates& estimates) {
 }
 
 HandGrasp GraspStage::estimate_grasp(Hand& hand, const HandEstimate& estimate) const {
-  // Begin anew with another hand, and after a gap.
+  // Start again with another hand, and after a gap.
   const std::int64_t passed = estimate.utime - hand.utime;
   if (hand.id != estimate.hand_id || passed <= 0 || passed > kMemoryUs) {
     hand.filter.reset();

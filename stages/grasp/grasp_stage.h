@@ -21,7 +21,7 @@ class GraspStage {
     explicit Hand(double memory) : filter(memory) {}
     GraspFilter filter;
     std::int32_t id = -1;
-    std::int64_t utime = 0;  // of the last frame in which it was tracked
+    std::int64_t utime = 0;  // time of the last frame in which the hand was tracked
     std::optional<std::int64_t> since;
     int grasp = 0;
   };

@@ -5,8 +5,8 @@
 namespace barehand {
 namespace {
 
-// A palm that moved so far with the object at the same place in it holds the object; one that the object left by more
-// than kLeft does not [m].
+// A palm holds the object once it has moved by kCarried while the object stayed within kFirm of its place in the palm,
+// until the object is farther than kLeft from this place [m].
 constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 
 }  // namespace
@@ -23,7 +23,7 @@ void Holding::update(std::int64_t utime, const HandEstimates& estimates, ObjectE
 
   bool held = false;
   if (nearest) {
-    // Begin anew with another palm, or if the object has left its place in the palm.
+    // Start the comparison again with another palm, or if the object has left its place in the palm.
     const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
     const Eigen::Vector3d in_palm = T_camera_palm.inverse() * state.T_camera_object.t;
     const double left =
@@ -34,13 +34,13 @@ void Holding::update(std::int64_t utime, const HandEstimates& estimates, ObjectE
       palm_ = T_camera_palm.t;
     }
 
-    // It is held once it was carried, until it leaves.
+    // An object is held once it was carried, until it leaves the palm.
     held = (held_ && left < kLeft) || (left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried);
   } else {
     compared_hand_ = -1;
   }
 
-  // State it.
+  // Fill in the state.
   if (held != held_ || since_ == 0) since_ = utime;
   held_ = held;
   state.held = held;

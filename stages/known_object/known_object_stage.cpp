@@ -32,10 +32,10 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
   const ObservedDepth view(observations);
 
   // Count the points of each object, to know later which share of them a known object claimed.
-  std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by id: points, and those that were claimed
+  std::map<std::int32_t, std::pair<std::size_t, std::size_t>> claimed;  // by object id: points, and claimed ones
   for (const SurfacePoint& point : points) ++claimed[point.object].first;
 
-  // Track one after the other; what one claims, no other can be.
+  // Track the objects one after the other; a point that one claims is not available to the others.
   FrameVector<ObjectEstimate> known;
   for (KnownObjectTracker& tracker : trackers_) {
     collect_free(points);
@@ -54,7 +54,7 @@ std::vector<PosedObject> KnownObjectStage::process(const HandObservations& obser
     }
   }
 
-  // Replace the objects that they are.
+  // Replace the unknown objects most of whose points were claimed.
   std::erase_if(objects, [&](const ObjectEstimate& estimate) {
     const auto& [all, own] = claimed[estimate.id];
     return static_cast<double>(own) > kMostlyOwn * static_cast<double>(all);

@@ -8,7 +8,7 @@
 
 namespace barehand {
 
-/// Finds and tracks the objects whose meshes are known, among what is near the hands and no hand, frame after frame in
+/// Finds and tracks the objects whose meshes are known, among the surfaces near the hands, frame after frame in
 /// order.
 class KnownObjectStage {
  public:
@@ -23,7 +23,7 @@ class KnownObjectStage {
   void collect_free(const std::vector<SurfacePoint>& points);
 
   std::vector<KnownObjectTracker> trackers_;
-  std::vector<Eigen::Vector3f> free_;  // points of no known object
+  std::vector<Eigen::Vector3f> free_;  // points that no known object has claimed
 };
 
 }  // namespace barehand

@@ -11,16 +11,16 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kPoints = 2000;  // of the depth that a pose is refined on
-constexpr std::size_t kFew = 200;      // of the depth that predictions are compared with
+constexpr std::size_t kPoints = 2000;  // number of depth points on which a pose is refined
+constexpr std::size_t kFew = 200;      // number of depth points with which predictions are compared
 constexpr int kIterations = 15;
-constexpr double kReach = 0.02;      // distance from the prediction of points that may be the object's [m]
+constexpr double kReach = 0.02;      // points within this distance of the prediction may belong to the object [m]
 constexpr double kModel = 0.001;     // deviation of the mesh from the object [m]
 constexpr double kCompared = 0.006;  // errors larger than this count as outliers in the comparison of predictions [m]
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
 constexpr int kSearchEvery = 2;               // frames from one search to the next
-constexpr double kLongestStep = 0.2;          // frames farther apart than this have nothing to do with each other [s]
-// A pose is given up if less of the object shows, or if more of what should be seen is seen through.
+constexpr double kLongestStep = 0.2;          // longest time between two frames over which the object is followed [s]
+// A pose is given up if a smaller fraction of the object is seen, or if a larger one contradicts the pose.
 constexpr double kLeastShown = 0.2, kMostContradicted = 0.2;
 constexpr double kSmooth = 0.5;  // weight of the newest velocity
 // How far an object may be from the prediction of its velocity and of a palm, after 1/30 s.
@@ -101,14 +101,14 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
   return true;
 }
 
-/// Searches for the object around one place: by turns between the fingers and around the hands. Returns whether it was
+/// Searches for the object around one place: in turn between the fingers and around the hands. Returns whether it was
 /// found.
 bool KnownObjectTracker::find(const ObservedDepth& view, const HandEstimates& estimates,
                               std::span<const Vector3f> points) {
   if (--wait_ > 0 || points.empty()) return false;
   wait_ = kSearchEvery;
 
-  // Between the fingers of one of the hands, or at a point of the rest, which are about evenly spread.
+  // Search in turn between the fingers of a hand, and at one of the given points, which are about evenly spread.
   Vector3f seed = points[(static_cast<std::size_t>(searches_) * 7919) % points.size()];
   const HandEstimate& hand = *estimates[static_cast<std::size_t>(searches_ / 2) % estimates.size()];
   if (searches_ % 2 == 0 && hand.status == TrackStatus::tracking) {
@@ -138,7 +138,7 @@ void KnownObjectTracker::store_palms(std::int64_t utime, const HandEstimates& es
 std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, const ObservedDepth& view,
                                                           const HandEstimates& estimates,
                                                           std::span<const Vector3f> points) {
-  // Follow it, or find it.
+  // Follow the object, or search for it.
   const double dt = static_cast<double>(utime - utime_) * 1e-6;
   if (T_ && (std::abs(dt) > kLongestStep || std::abs(utime - seen_) > kForgotten)) T_.reset();
   bool seen = T_ && follow(std::abs(dt), view, estimates, points);
@@ -148,7 +148,7 @@ std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, co
   if (!seen) return std::nullopt;
   seen_ = utime;
 
-  // State it. A velocity needs two frames.
+  // Fill in the estimate. A velocity needs two frames.
   ObjectEstimate state;
   state.id = object_->id;
   state.T_camera_object = *T_;

@@ -21,8 +21,8 @@ class KnownObjectTracker {
  public:
   explicit KnownObjectTracker(KnownObjectPtr object) : object_(std::move(object)) {}
 
-  /// The object in this frame; none: it was not found. `points`: of the objects near the hands that are
-  /// no other known object.
+  /// The object in this frame; none: it was not found. `points`: those near the hands that no other known object has
+  /// claimed.
   std::optional<ObjectEstimate> process(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
                                         std::span<const Eigen::Vector3f> points);
   const KnownObjectPtr& object() const { return object_; }
@@ -42,11 +42,11 @@ class KnownObjectTracker {
   KnownObjectPtr object_;
   ObjectSearch search_;
   Holding holding_;
-  std::optional<SE3> T_;  // in the frame before; predicted if it was not seen there
+  std::optional<SE3> T_;  // T_camera_object in the previous frame; predicted if the object was not seen there
   Vector6d velocity_ = Vector6d::Zero();
   Matrix6d covariance_ = Matrix6d::Identity();
-  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the frame before
-  std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
+  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the previous frame
+  std::int64_t utime_ = 0, seen_ = 0;  // times of the previous frame and of the last one that showed the object [us]
   int wait_ = 0, searches_ = 0;        // frames until the next search; searches so far
   std::vector<Eigen::Vector3f> points_;
 };

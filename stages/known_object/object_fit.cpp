@@ -11,10 +11,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTogether = 6;     // k: neighbouring points that count as one
-constexpr double kAway = 0.1;       // cosine of a surface that faces the camera no more
+constexpr double kAway = 0.1;       // least cosine between the line of sight and the normal of a visible surface
 constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
-constexpr double kLeastTurn = 0.3;  // information about a rotation that nothing shows, as if it were known to 1.8 rad
-constexpr double kCoarse = 6;       // the first iterations take errors that are so many times as large for small
+constexpr double kLeastTurn = 0.3;  // information about every rotation, as from a standard deviation of 1.8 rad
+constexpr double kCoarse = 6;       // factor on the scale of outliers in the first iteration
 
 }  // namespace
 
@@ -35,7 +35,7 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
   const double unit = 1 / (kTogether * sigma * sigma);
   Matrix6d information = prior.information;
   for (int i = 0; i < iterations; ++i) {
-    // Begin with the prior. Iterations at the start see farther.
+    // Begin with the prior. The first iterations accept larger errors.
     const double coarse = std::max(1.0, kCoarse * (1 - 2.0 * i / iterations));
     const double scale_sq = 4 * sigma * sigma * coarse * coarse;
     information = prior.information;
@@ -51,7 +51,7 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
       force -= weight * r.value * r.gradient;
     }
 
-    // Step.
+    // Make a Gauss-Newton step.
     information.diagonal().array() += 1e-9 * information.trace();
     const Vector6d step = information.ldlt().solve(force);
     if (!step.allFinite()) break;

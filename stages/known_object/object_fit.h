@@ -10,12 +10,12 @@ namespace barehand {
 /// The signed distance of a point of the camera frame from the surface of a posed object [m].
 struct SurfaceResidual {
   double value = 0;
-  Vector6d gradient = Vector6d::Zero();              ///< by the boxplus twist of the object's pose
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface nearby, outward, camera frame
+  Vector6d gradient = Vector6d::Zero();  ///< derivative with respect to the boxplus twist of the object's pose
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward normal of the nearest surface, camera frame
 };
 SurfaceResidual surface_residual(const DistanceGrid& grid, const SE3& T_camera_object, const Eigen::Vector3f& point);
 
-/// What is known of a pose before the points are looked at: normally distributed, with this inverse covariance.
+/// What is known of a pose before the points are used: a normal distribution with this inverse covariance.
 struct PosePrior {
   SE3 T_camera_object;
   Matrix6d information = Matrix6d::Zero();
@@ -24,7 +24,7 @@ struct PosePrior {
 /// A pose that fits points.
 struct FittedPose {
   SE3 T_camera_object;
-  Matrix6d covariance = Matrix6d::Identity();  ///< from the normal equations, of the boxplus twist
+  Matrix6d covariance = Matrix6d::Identity();  ///< covariance of the boxplus twist, from the normal equations
 };
 
 /// Fits the pose of an object to points of its surface by Gauss-Newton iterations:
@@ -32,7 +32,7 @@ struct FittedPose {
 ///     E(T) = sum rho(d(T^-1 p_i)) / (k sigma^2) + prior,  rho(r) = r^2 s^2 / (s^2 + r^2)  (Geman and McClure)
 ///
 /// d is the signed distance, and s = 2 sigma. Neighbouring points err together, so that k of them count as one.
-/// Points whose nearest surface faces away from the camera count nothing. Start from a pose that is off by no more than
+/// Points whose nearest surface faces away from the camera are ignored. Start from a pose that is off by no more than
 /// about 20 degrees and 20 mm.
 FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> points, double sigma, const SE3& start,
                     const PosePrior& prior, int iterations);

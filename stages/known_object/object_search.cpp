@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr int kOrientations = 500;            // about 20 degrees apart
-constexpr std::size_t kFew = 80;              // points and samples that orientations are compared with
-constexpr std::size_t kLeastPoints = 25;      // around a place that is searched
+constexpr std::size_t kFew = 80;              // number of points and samples with which orientations are compared
+constexpr std::size_t kLeastPoints = 25;      // least number of points around a place that is searched
 constexpr int kShifts = 4;                    // steps by which an orientation is moved into place
 constexpr int kCompared = 60, kRefined = 12;  // orientations that are compared with free space, and refined
 constexpr int kFewIterations = 6, kIterations = 12;
@@ -68,6 +68,7 @@ PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, con
     ++within;
     on_surface += std::abs(object.grid.distance(p)) < kOnSurface;
   }
+
   quality.explained = on_surface / std::max(1.0, static_cast<double>(within));
   return quality;
 }
@@ -128,7 +129,7 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const O
   const Vector3d middle = gather(object, points, seed).cast<double>();
   if (around_.size() < kLeastPoints) return std::nullopt;
 
-  // Try the orientations; compare the better ones with what is seen through them, too.
+  // Try the orientations; check for the better ones also whether the camera sees through them.
   std::vector<std::pair<double, SE3>> tried;
   for (const Eigen::Matrix3d& R : orientations_) {
     const SE3 T = place(object, R, middle);

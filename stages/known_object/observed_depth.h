@@ -7,17 +7,18 @@
 
 namespace barehand {
 
-/// How much of an object a frame shows, counted in samples of the surface that would be seen if nothing were before it.
+/// How much of an object a frame shows, counted in samples of the surface that would be seen if nothing were in front
+/// of it.
 struct Visibility {
-  int seen = 0;     ///< its surface is where the pose says
-  int hidden = 0;   ///< a hand is before it, or there is no measurement
-  int blocked = 0;  ///< something else is before it
+  int seen = 0;     ///< the surface is measured where the pose says
+  int hidden = 0;   ///< a hand is in front of it, or there is no measurement
+  int blocked = 0;  ///< something else is in front of it
   int through = 0;  ///< the camera looks through the place where it would be
 
   double shown() const { return seen / std::max(1.0, static_cast<double>(seen + hidden + blocked + through)); }
-  /// The part of what is not hidden that contradicts the pose.
+  /// The fraction of the visible samples that contradicts the pose.
   double contradicted() const { return seen + through == 0 ? 1 : through / static_cast<double>(seen + through); }
-  /// The same, if nothing but hands is supposed to be before the object.
+  /// The same, if only hands may be in front of the object.
   double inconsistent() const {
     return (through + blocked) / std::max(1.0, static_cast<double>(seen + through + blocked));
   }
@@ -28,7 +29,7 @@ class ObservedDepth {
  public:
   explicit ObservedDepth(const HandObservations& observations);
 
-  /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most.
+  /// Appends up to `most` points that belong to no hand and are within `reach` of the surface of the posed object.
   void points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
                    std::vector<Eigen::Vector3f>& points) const;
   /// Compares the pose with the depth, with the first `samples` samples of the object.

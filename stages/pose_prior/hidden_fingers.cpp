@@ -16,6 +16,8 @@ template <class Value>
 std::optional<double> of_nearest_seen(int segment, const Seen& seen, const Value& value) {
   const int finger = finger_of(segment), k = segment - segment_of(finger, 0);
   if (finger == 0) return std::nullopt;
+
+  // Visit the neighbours in order of their distance.
   for (int away = 1; away < kFingerCount; ++away) {
     double sum = 0;
     int count = 0;
@@ -24,6 +26,7 @@ std::optional<double> of_nearest_seen(int segment, const Seen& seen, const Value
       sum += value(segment_of(other, k));
       ++count;
     }
+
     if (count > 0) return sum / count;
   }
   return std::nullopt;
@@ -61,6 +64,8 @@ HandPose with_hidden_following(const HandProfile& profile, const HandPose& befor
       0.5;  // bending of the fingers as a fraction of that of the thumb's two joints together
   const double forgotten = 1 - std::exp(-dt / kMemory);
   const auto limits = widened_limits(profile, widening);
+
+  // Measure how far each joint is bent, and how far it has bent since the previous frame.
   const auto flexion_of = [&](int s) { return joint_angles(profile, now, s).flexion; };
   const auto bent = [&](int s) { return flexion_of(s) - joint_angles(profile, before, s).flexion; };
 
@@ -77,6 +82,8 @@ HandPose with_hidden_following(const HandProfile& profile, const HandPose& befor
     if (!hidden_to_its_tip(s, seen)) continue;
     const int parent = parent_of(s);
     result[s] = result[parent] * (now[parent].inverse() * now[s]);
+
+    // Bend the joint like its seen neighbours, and let it slowly approach their flexion.
     const double flexion = flexion_of(s);
     double aim = flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
     aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);

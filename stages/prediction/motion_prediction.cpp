@@ -113,6 +113,8 @@ Prediction MotionModel::predict(const HandObservation& observation, const HandSu
   // velocities.
   const HandPose carried = moved(last_motion, pose_);
   const StartPose velocity{"velocity", with_velocity(carried, last_motion, ahead)};
+
+  // Prefer the motion of ICP, if it is reliable.
   if (result.icp.reliable) {
     const StartPose icp{"icp", moved(result.icp.motion, pose_)};
     const StartPose both{"icp_velocity", with_velocity(icp.pose, result.icp.motion, ahead)};

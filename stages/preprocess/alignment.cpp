@@ -51,10 +51,14 @@ struct RowOfDistances {
   void add(const ProjectedCapsule& capsule, float u0, float v, float border) {
     const float reach = capsule.pixel_radius + border, y = v - capsule.a.y(), other_y = y - capsule.axis.y();
     if (std::min(y, other_y) > reach || std::max(y, other_y) < -reach) return;
+
+    // Find the columns that the capsule reaches.
     const float low = capsule.a.x() + std::min(capsule.axis.x(), 0.f) - reach - u0;
     const float high = capsule.a.x() + std::max(capsule.axis.x(), 0.f) + reach - u0;
     const int begin = std::max(0, static_cast<int>(low));
     const int end = std::min(static_cast<int>(distance.size()), static_cast<int>(high) + 1);
+
+    // Compute the distance of each pixel from the capsule's axis.
     const float ax = capsule.axis.x(), ay = capsule.axis.y(), start = u0 - capsule.a.x();
     float *nearest = distance.data(), *skin = z.data();
     for (int u = begin; u < end; ++u) {
@@ -62,9 +66,12 @@ struct RowOfDistances {
       float t = (x * ax + y * ay) * capsule.inverse_length_sq;
       t = t < 0.f ? 0.f : t;
       t = t > 1.f ? 1.f : t;
+
       const float ex = x - t * ax, ey = y - t * ay;
       const float d = std::sqrt(ex * ex + ey * ey) - capsule.pixel_radius,
                   depth = capsule.za + t * capsule.dz - capsule.radius;
+
+      // Keep the nearest capsule and the depth of its skin.
       const bool nearer = d < nearest[u];
       skin[u] = nearer ? depth : skin[u];
       nearest[u] = nearer ? d : nearest[u];
@@ -86,8 +93,12 @@ class Drawer {
 void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouette& out) {
   out.total = 0;
   projected_.clear();
+
+  // Use one scale for the whole hand.
   const float depth = std::max(0.05f, hand.centre().z());
   const float per_metre = static_cast<float>(camera.fx) / depth;
+
+  // Project the capsules, and find their bounding box.
   Eigen::Vector2f low(1e6f, 1e6f), high(-1e6f, -1e6f);
   for (const Capsule& c : hand.capsules()) {
     if (c.a.z() < 0.05f || c.b.z() < 0.05f) continue;
@@ -97,9 +108,13 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
     low = low.cwiseMin(a).cwiseMin(b);
     high = high.cwiseMax(a).cwiseMax(b);
   }
+
+  // Draw nothing if no capsule is in front of the camera, or if the projection is far larger than the image.
   const float border = (kRing + 0.02f) * per_metre;
   const int limit = 2 * (camera.width + camera.height);
   if (projected_.empty() || !(high - low).allFinite() || (high - low).maxCoeff() > static_cast<float>(limit)) return;
+
+  // Reserve a border for the ring around the hand.
   out.u0 = static_cast<int>(std::floor(low.x() - border));
   out.v0 = static_cast<int>(std::floor(low.y() - border));
   const int width = static_cast<int>(high.x() + border) - out.u0 + 1;
@@ -107,17 +122,23 @@ void Drawer::draw(const PredictedHand& hand, const Intrinsics& camera, Silhouett
   out.weight.reset(width, height);
   out.z.reset(width, height);
   out.inside.setEmpty();
+
+  // Draw row by row. The forearm continues behind the wrist, so the ring is left out there.
   const Eigen::Vector2f wrist = project(camera, hand.wrist());
   const Eigen::Vector2f arm = project(camera, hand.wrist() + 0.02f * hand.arm_axis()) - wrist;
   for (int v = 0; v < height; ++v) {
     row_.reset(width);
     for (const ProjectedCapsule& capsule : projected_)
       row_.add(capsule, static_cast<float>(out.u0), static_cast<float>(v + out.v0), kRing * per_metre);
+
+    // Give each pixel its weight, which falls from 1 inside the hand to a negative value in the ring.
     for (int u = 0; u < width; ++u) {
       const float metres = row_.distance[u] / per_metre;
       const Eigen::Vector2f p(static_cast<float>(u + out.u0), static_cast<float>(v + out.v0));
       if (metres > kRing || (metres > 0 && (p - wrist).dot(arm) > 0)) continue;
       const float weight = std::clamp(1.f - metres / kBlur * (1.f - kOutside), kOutside, 1.f);
+
+      // Store the weight, and add up the weights inside.
       out.weight.at(u, v) = weight;
       out.z.at(u, v) = row_.z[u];
       if (weight <= 0) continue;
@@ -154,6 +175,8 @@ struct Scene {
 
 float overlap(const Silhouette& shape, const Scene& scene, int du, int dv) {
   const int width = scene.hand.width(), height = scene.hand.height();
+
+  // Visit only the part of the silhouette that lies in the image.
   const int u0 = std::max(0, -(shape.u0 + du)), u1 = std::min(shape.weight.width(), width - shape.u0 - du);
   const int v0 = std::max(0, -(shape.v0 + dv)), v1 = std::min(shape.weight.height(), height - shape.v0 - dv);
   float sum[8] = {};  // eight partial sums, so that the loop vectorises with a fixed order of additions
@@ -161,6 +184,8 @@ float overlap(const Silhouette& shape, const Scene& scene, int du, int dv) {
     const float* w = shape.weight.row(v);
     const float* hand = scene.hand.row(v + shape.v0 + dv) + shape.u0 + du;
     const float* possible = scene.possible.row(v + shape.v0 + dv) + shape.u0 + du;
+
+    // Inside the silhouette, pixels where the hand may be hidden count, too; in the ring, only visible hand pixels do.
     int u = u0;
     for (; u + 8 <= u1; u += 8)
       for (int k = 0; k < 8; ++k) sum[k] += w[u + k] * (w[u + k] > 0 ? possible[u + k] : hand[u + k]);
@@ -178,16 +203,21 @@ struct Shift {
 /// the shift, by kMotionCost at `free_range` cells.
 Shift search(const Silhouette& shape, const Scene& scene, int du, int dv, int range, int step, float free_range) {
   Shift best;
+
+  // Compute the score of each shift in a row; a longer motion costs more.
   const auto search_row = [&](int y) {
     for (int x = du - range; x <= du + range; x += step) {
       const float motion = std::hypot(static_cast<float>(x), static_cast<float>(y)) / std::max(free_range, 1.f);
       const float cost = kMotionCost * motion;
+
       const Eigen::AlignedBox2i inside = shape.inside.translated(Eigen::Vector2i(shape.u0 + x, shape.v0 + y));
       if (scene.possible_in(inside) / shape.total - cost <= best.score) continue;  // an upper bound of the score
       const float score = overlap(shape, scene, x, y) / shape.total - cost;
       if (score > best.score) best = {x, y, score};
     }
   };
+
+  // Search from the middle row outwards.
   search_row(dv);  // the row of the initial guess first, since most hands hardly move
   for (int y = step; y <= range; y += step) {
     search_row(dv - y);
@@ -230,16 +260,22 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
     scene.hand[i] = mask[i] && std::abs(z - z0) < depth_gate ? 1.f : 0.f;
     scene.possible[i] = scene.hand[i] > 0 ? 1.f : z > 0 && z < z0 ? kHidden : 0.f;
   }
+
+  // Average over blocks of cells for the rough search, and prepare both scenes for the upper bounds of scores.
   average_blocks(scene.hand, blocks.hand);
   average_blocks(scene.possible, blocks.possible);
   scene.sum_up();
   blocks.sum_up();
+
+  // Draw the silhouette at both resolutions.
   const double s = kBlock, half = (s - 1) / 2;
   const Intrinsics block_camera{blocks.hand.width(), blocks.hand.height(),   camera.fx / s,
                                 camera.fy / s,       (camera.cx - half) / s, (camera.cy - half) / s};
   drawer.draw(hand, block_camera, rough);
   drawer.draw(hand, camera, fine);
   if (rough.total <= 0 || fine.total <= 0) return std::nullopt;
+
+  // Search roughly at first, then around the best shift.
   const float range = std::min(static_cast<float>(reach * camera.fx) / z0, static_cast<float>(camera.width));
   const int block_range = static_cast<int>(std::ceil(range / kBlock));
   const Shift block = search(rough, blocks, 0, 0, block_range, 1, range / kBlock);
@@ -247,6 +283,7 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
   const Shift cell = search(fine, scene, near.du, near.dv, 1, 1, range);
   if (cell.score < kLeastScore) return std::nullopt;
 
+  // Take the motion in depth from the cells inside the silhouette.
   steps.clear();
   for (int v = 0; v < fine.weight.height(); ++v)
     for (int u = 0; u < fine.weight.width(); ++u) {
@@ -256,6 +293,8 @@ std::optional<Eigen::Vector3f> TranslationSearch::find(const PredictedHand& hand
     }
   if (steps.empty()) return std::nullopt;
   std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+
+  // Convert the shift in the image and in depth to a translation.
   const Eigen::Vector2d centre = camera.project(hand.centre().cast<double>());
   const Eigen::Vector3d moved =
       camera.unproject(centre.x() + cell.du, centre.y() + cell.dv, z0 + steps[steps.size() / 2]);

@@ -33,12 +33,16 @@ class CellSamples {
  public:
   CellSamples(const RgbdFrame& frame, const Pattern& pattern, int u0, int v0, std::uint32_t lowest,
               std::uint32_t highest) {
+    // Store the index of each sample in the lowest bits of its depth, so that both are sorted together; invalid samples
+    // come last.
     for (std::uint32_t k = 0; k < kSamples; ++k) {
       const std::uint32_t d = frame.depth.at(u0 + pattern.du[k], v0 + pattern.dv[k]);
       const bool valid = (d >= lowest) & (d <= highest);
       words_[k] = valid ? d << 3 | k : ~0u;
       count_ += valid;
     }
+
+    // Sort with a network of comparisons, which has no branches.
     const auto order = [this](int a, int b) {
       const auto [low, high] = std::minmax({words_[a], words_[b]});
       words_[a] = low;
@@ -60,6 +64,8 @@ class CellSamples {
 
 void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, const SkinModel& skin, CoarseGrid& grid) {
   const Intrinsics& camera = frame.camera;
+
+  // Choose the size of the cells, and the camera of the grid.
   grid.step = std::max(1, (camera.width + kCellsAcross / 2) / kCellsAcross);
   const double s = grid.step, centre = (s - 1) / 2;
   grid.camera = {camera.width / grid.step, camera.height / grid.step, camera.fx / s, camera.fy / s,
@@ -68,6 +74,8 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
   grid.z.reset(width, height);
   grid.colour.reset(width, height);
   grid.odds.reset(width, height);
+
+  // Convert the limits of depth to the sensor's unit.
   const auto counts = [&](double metres) {
     return static_cast<std::uint16_t>(std::clamp(metres / frame.depth_unit, 1.0, 65535.0));
   };
@@ -75,6 +83,8 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
   const bool colour = params.use_colour && !frame.colour.empty();
   int seen = 0, tints = 0;
   const Pattern pattern(grid.step);
+
+  // Sample the depth of each cell, and take the median.
   for (int r = 0; r < height; ++r)
     for (int c = 0; c < width; ++c) {
       const int u0 = c * grid.step, v0 = r * grid.step;
@@ -83,11 +93,15 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
       if (count == 0) continue;
       grid.z.at(c, r) = static_cast<float>(samples.depth(median) * frame.depth_unit);
       if (!colour) continue;
+
+      // Take the colour of the same sample.
       const auto colour_of = [&](int i) {
         const int k = samples.place(i);
         return frame.colour.at(u0 + pattern.du[k], v0 + pattern.dv[k]);
       };
       grid.colour.at(c, r) = colour_of(median);
+
+      // Average the log odds over all samples if that colour does not decide.
       float odds = skin.log_odds(grid.colour.at(c, r));
       if (std::abs(odds) < kClearOdds) {
         float mean = 0;
@@ -96,6 +110,7 @@ void sample_coarsely(const RgbdFrame& frame, const PreprocessParams& params, con
         // Use the weaker of the two, since a colour border may cross the cell.
         odds = std::abs(mean) < std::abs(odds) ? mean : odds;
       }
+
       grid.odds.at(c, r) = odds;
       ++seen;
       tints += tinted(grid.colour.at(c, r));

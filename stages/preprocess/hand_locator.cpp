@@ -39,9 +39,12 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
                                               double feedback_age, const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
   if (detection && !grid.coloured) remove_labelled(grid, *detection);  // colour, if any, is the better evidence
+
+  // Predict each hand by the feedback, and forget the previous frame.
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
   predictions_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
+
   for (CoarseHand& hand : hands_) {
     hand.found = hand.followed = false;
     hand.prediction.reset();
@@ -49,6 +52,8 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     hand.detected = nullptr;
     hand.cells.reset(grid.z.width(), grid.z.height());
   }
+
+  // Follow the tracked hands first. A candidate near two of them belongs to the nearer one.
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     if (!tracked(k)) continue;
     candidates_ = all_candidates_;
@@ -57,10 +62,13 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     split_surfaces(grid, candidates_, surfaces_);
     hands_[k].found = hands_[k].followed = follow(grid, *predictions_[k], feedback_age, detection, hands_[k]);
   }
+
+  // Follow the hands that have a pose but are not tracked, among the candidates that are left.
   if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
   candidates_ = all_candidates_;
   for (const CoarseHand& hand : hands_)
     if (hand.followed) remove_hand(grid, hand);
+
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     CoarseHand& hand = hands_[k];
     if (hand.found || !predictions_[k] || tracked(k)) continue;
@@ -70,6 +78,8 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
   }
   for (CoarseHand& hand : hands_) {  // hands without a match come last, as a held hand may be the nearest candidate
     if (hand.found) continue;
+
+    // Start where the networks found a hand, if they saw the whole frame; else at the most plausible surface.
     if (detection && detection->whole_frame) {
       const DetectedHand* const detected = choose_detected(*detection);
       hand.found = detected && start_at(grid, *detected, hand);
@@ -77,6 +87,7 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
       split_surfaces(grid, candidates_, surfaces_);
       hand.found = start(grid, hand);
     }
+
     if (hand.found) remove_hand(grid, hand);
   }
   return hands_;
@@ -88,6 +99,8 @@ void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detec
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = all_candidates_.at(u, v);
       if (!candidate) continue;
+
+      // Look up the label of the cell in each window that covers it.
       const Eigen::Vector2d pixel = grid.frame_pixel(u, v);
       bool covered = false, is_hand = false;
       for (const DetectedHand& hand : detection.hands) {
@@ -95,6 +108,7 @@ void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detec
         covered = true;
         is_hand |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand;
       }
+
       if (covered && !is_hand) candidate = 0;
     }
 }
@@ -135,11 +149,13 @@ bool HandLocator::start_at(const CoarseGrid& grid, const DetectedHand& detected,
   const Eigen::Vector3f axis = (wrist - knuckle).normalized();
   hand.wrist = WristPlane{wrist + static_cast<float>(params_.wrist_margin) * axis, axis};
 
+  // Mark the cells that belong to the hand.
   const Eigen::Vector3f centre = detected.centre.cast<float>();
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       const Eigen::Vector2d pixel = grid.frame_pixel(u, v);
       if (!candidates_.at(u, v) || !detected.labels.covers(pixel.x(), pixel.y())) continue;
+
       const SurfaceLabel label = detected.labels.at(pixel.x(), pixel.y());
       const bool skin = grid.coloured && grid.odds.at(u, v) > params_.skin_odds;
       const bool is_hand = label == SurfaceLabel::hand || (skin && label == SurfaceLabel::object);
@@ -169,6 +185,7 @@ void HandLocator::remove_hand(const CoarseGrid& grid, const CoarseHand& hand) {
       if (hand.cells.at(u, v)) {
         candidate = 0;
       } else if (hand.wrist) {
+        // Remove the forearm, too, which lies in a cylinder behind the wrist.
         const Eigen::Vector3f p = grid.point(u, v);
         const float behind = hand.wrist->behind(p);
         const Eigen::Vector3f aside = p - hand.wrist->point - behind * hand.wrist->axis;
@@ -203,23 +220,31 @@ std::optional<Eigen::Vector3f> HandLocator::motion(const CoarseGrid& grid, const
 
 bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
                          CoarseHand& hand) {
+  // Move the predicted hand to its place in this frame.
   const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(feedback_age, 0.0, 0.5));
   if (!step) return false;
   body.translate(*step);
   const float margin = static_cast<float>(params_.wrist_margin);
 
+  // Compute the distance of each cell from the predicted hand.
   match_counts_.assign(surfaces_.parts.size(), {});
   hand.distance.reset(grid.z.width(), grid.z.height(), INFINITY);
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       const std::int32_t id = surfaces_.id.at(u, v);
       if (id < 0) continue;
+
       const Eigen::Vector3f p = grid.point(u, v);
       if ((p - body.centre()).squaredNorm() > kSearchRadius * kSearchRadius || body.behind_wrist(p) > margin) continue;
       const float d = hand.distance.at(u, v) = body.distance(p);
+
+      // Count for each surface how many of its cells are near the prediction, and how many are far from it.
       match_counts_[id].on_model += d < kOnModel;
       match_counts_[id].off_model += d > kLeakReach;
     }
+
+  // Take the cells near the prediction, unless only a small part of their surface is there. If most of a surface is far
+  // from the prediction, the limit is smaller.
   for (std::size_t i = 0; i < hand.distance.size(); ++i) {
     const std::int32_t id = surfaces_.id[i];
     if (id < 0 || std::isinf(hand.distance[i])) continue;
@@ -228,10 +253,14 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
+
+  // Too small an area is not a hand.
   if (hand_area(grid, hand) < params_.min_hand_area) {
     hand.cells.reset(grid.z.width(), grid.z.height());
     return false;
   }
+
+  // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;
   if (detection) hand.detected = detected_near(*detection, body.centre(), kHandRadius);
   hand.wrist = WristPlane{body.wrist() + margin * body.arm_axis(), body.arm_axis()};
@@ -244,6 +273,8 @@ int HandLocator::choose_part(const CoarseGrid& grid) const {
   for (int i = 0; i < static_cast<int>(surfaces_.parts.size()); ++i) {
     const Components::Part& part = surfaces_.parts[i];
     if (part.area < least || part.area > params_.max_hand_area) continue;
+
+    // Prefer the nearest surface, and among equally near ones the largest.
     if (best >= 0) {
       const Components::Part& other = surfaces_.parts[best];
       const bool nearer = part.mean_z < other.mean_z - kSideBySide;
@@ -259,10 +290,14 @@ bool HandLocator::start(const CoarseGrid& grid, CoarseHand& hand) {
   const int chosen = choose_part(grid);
   if (chosen < 0) return false;
   hand.wrist = find_wrist(grid, surfaces_, chosen);
+
+  // Prepare the tests for what is left out: the forearm, and surfaces that are too large to be a part of a hand.
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();
   int count = 0;
   const auto forearm = [&](const Eigen::Vector3f& p) { return hand.wrist && hand.wrist->behind(p) > 0; };
   const float largest = (grid.coloured ? 0.5f : kLoosePart) * surfaces_.parts[chosen].area;
+
+  // Mark the cells of the hand.
   for (int pass = 0; pass < 2; ++pass)  // pass 0: the chosen surface and its centre; 1: others near it
     for (int v = 0; v < grid.z.height(); ++v)
       for (int u = 0; u < grid.z.width(); ++u) {
@@ -270,6 +305,7 @@ bool HandLocator::start(const CoarseGrid& grid, CoarseHand& hand) {
         if (id < 0 || (id == chosen) != (pass == 0)) continue;
         const Eigen::Vector3f p = grid.point(u, v);
         if (forearm(p)) continue;
+
         if (pass == 0) {
           centre += p;
           ++count;
@@ -279,6 +315,7 @@ bool HandLocator::start(const CoarseGrid& grid, CoarseHand& hand) {
         }
         hand.cells.at(u, v) = 1;
       }
+
   return hand_area(grid, hand) >= params_.min_hand_area;
 }
 

@@ -27,9 +27,12 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand, std::span
   const float fx = static_cast<float>(grid.camera.fx);
   lowest_.reset(width, height, INFINITY);
   highest_.reset(width, height, -INFINITY);
+
+  // Around each cell of the hand, allow the depths of the same surface.
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       if (!hand.cells.at(u, v)) continue;
+
       const float z = grid.z.at(u, v), step = same_surface_step(z, fx);
       for (int y = std::max(0, v - 1); y <= std::min(height - 1, v + 1); ++y)
         for (int x = std::max(0, u - 1); x <= std::min(width - 1, u + 1); ++x) {
@@ -37,6 +40,8 @@ void HandMask::support(const CoarseGrid& grid, const CoarseHand& hand, std::span
           highest_.at(x, y) = std::max(highest_.at(x, y), z + step);
         }
     }
+
+  // In the cells of another hand, allow no depth.
   for (const CoarseHand& other : hands) {
     if (&other == &hand || !other.found) continue;
     for (std::size_t i = 0; i < other.cells.size(); ++i)
@@ -49,12 +54,16 @@ void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, co
   coloured_.reset(region.width, region.height);
   non_skin_.reset(region.width, region.height);
   colours_.reset(region.width, region.height);
+
+  // Visit the pixels row by row.
   for (int v = 0; v < region.height; ++v) {
     const Rgb* colour = frame.colour.row(v + region.v0) + region.u0;
     std::copy_n(colour, region.width, colours_.row(v));
     const float* nearest = lowest_.row(row_[v]);
     float* odds = skin_log_odds_.row(v);
     std::uint8_t *coloured = coloured_.row(v), *non_skin = non_skin_.row(v);
+
+    // Look up the log odds near the hand; elsewhere they are 0, which means no evidence.
     for (int u = 0; u < region.width; ++u) {
       const bool beside_hand = nearest[column_[u]] < INFINITY;
       odds[u] = beside_hand ? skin.log_odds(colour[u]) : 0.f;
@@ -62,6 +71,8 @@ void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, co
       non_skin[u] = odds[u] < 0.f;
     }
   }
+
+  // Sum up over the window in which a colour may belong to a neighbouring surface.
   sum_odds_.compute(skin_log_odds_, params_.skew_px, summed_log_odds_);
   count_.compute(coloured_, params_.skew_px, coloured_count_);
   count_.compute(non_skin_, params_.skew_px, non_skin_count_);
@@ -73,11 +84,14 @@ void HandMask::find_supported(const Image<float>& depth) {
   low_.resize(width);
   high_.resize(width);
   for (int v = 0; v < height; ++v) {
+    // Look up the limits of the cells where a new row of cells begins.
     if (v == 0 || row_[v] != row_[v - 1])
       for (int u = 0; u < width; ++u) {
         low_[u] = lowest_.at(column_[u], row_[v]);
         high_[u] = highest_.at(column_[u], row_[v]);
       }
+
+    // Compare the depth with the limits.
     const float *z = depth.row(v), *low = low_.data(), *high = high_.data();
     std::uint8_t* supported = supported_.row(v);
     for (int u = 0; u < width; ++u) supported[u] = (z[u] > low[u]) & (z[u] < high[u]);
@@ -106,6 +120,8 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
   const int window = 2 * params_.skew_px + 1, most_coloured = window * window;
   const int width = depth.width();
   row_evidence_.resize(width);
+
+  // Visit the pixels row by row.
   for (int v = 0; v < depth.height(); ++v) {
     const float *z = depth.row(v), *sum = summed_log_odds_.row(v), *own = skin_log_odds_.row(v);
     const std::uint16_t *coloured_count = coloured_count_.row(v), *edges = edges_.row(v),
@@ -127,6 +143,8 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
       e = (edges[u] > 0) & !sure ? kOpen : e;
       row_evidence[u] = z[u] > 0 ? e : kNone;
     }
+
+    // Store the classes of the row.
     Evidence* evidence = evidence_.row(v);
     for (int u = 0; u < width; ++u) evidence[u] = static_cast<Evidence>(row_evidence[u]);
   }
@@ -135,10 +153,13 @@ void HandMask::classify_by_colour(const Image<float>& depth) {
 void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                        std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
                        const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask) {
+  // Find the pixels whose depth agrees with the cells of the hand.
   tabulate(frame.camera, grid, region);
   support(grid, hand, hands);
   find_supported(depth);
   evidence_.reset(region.width, region.height, Evidence::none);
+
+  // Classify them by colour, or by depth if there is no colour.
   if (grid.coloured) {
     colour_evidence(frame, skin, region);
     count_.compute(edge, params_.skew_px, edges_);
@@ -148,6 +169,9 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
   } else {
     classify_by_depth(depth, region, hand.detected);
   }
+
+  // Take what is classified as hand. Pixels that are still open count, too, unless the colours around them speak
+  // against skin.
   mask.reset(region.width, region.height);
   for (int v = 0; v < region.height; ++v) {
     const Evidence* evidence = evidence_.row(v);
@@ -156,6 +180,8 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
       const bool open = evidence[u] == Evidence::open;
       if (!(supported[u] & (open | (evidence[u] == Evidence::hand)))) continue;
       if (open && summed_log_odds_.at(u, v) < 0) continue;
+
+      // Cut off the forearm.
       mask.at(u, v) = !hand.wrist || hand.wrist->behind(rays_.point(u, v, depth.at(u, v))) <= 0;
     }
   }
@@ -168,6 +194,8 @@ void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, dou
   const float reach_sq = static_cast<float>(reach * reach);
   const float per_pixel_sq = static_cast<float>(1 / (camera.fx * camera.fy));
   rays.reset(camera, out.u0, out.v0, mask.width(), mask.height());
+
+  // Visit the pixels with depth; those of the mask are hand.
   for (int v = 0; v < mask.height(); ++v)
     for (int u = 0; u < mask.width(); ++u) {
       const float z = out.depth.at(u, v);
@@ -177,11 +205,15 @@ void label_pixels(const Intrinsics& camera, const Image<std::uint8_t>& mask, dou
         label = PixelLabel::hand;
         continue;
       }
+
+      // Compute the distance to the nearest pixel of the hand.
       const std::int32_t i = out.nearest_hand.at(u, v);
       const float dz = z - out.depth[i];
       const int row = rays.row_of(i);
       const float du = static_cast<float>(i - row * mask.width() - u), dv = static_cast<float>(row - v);
       const float distance_sq = dz * dz + (du * du + dv * dv) * z * z * per_pixel_sq;
+
+      // What is in front of the hand or close to it is an object.
       label = dz < -kInFront || distance_sq < reach_sq ? PixelLabel::object : PixelLabel::background;
     }
 }

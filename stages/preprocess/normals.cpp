@@ -25,11 +25,13 @@ using Lanes = std::array<float, kLanes>;
 /// Fits planes around kLanes neighbouring pixels of a row, and returns their slopes in metres per sample. `z` points to
 /// the first pixel in an image with `stride` floats per row. `valid` = 1 where enough samples agree.
 void fit_slopes(const float* z, int stride, int spacing, float gate, Lanes& slope_u, Lanes& slope_v, Lanes& valid) {
+  // Sum up the moments of 5 x 5 samples around each pixel; those beyond the gate lie on another surface.
   Lanes n{}, su{}, sv{}, suu{}, suv{}, svv{}, sz{}, suz{}, svz{};
   for (int j = -2; j <= 2; ++j)
     for (int i = -2; i <= 2; ++i) {
       const float* sample = z + j * spacing * stride + i * spacing;
       const float fi = static_cast<float>(i), fj = static_cast<float>(j);
+
       for (int k = 0; k < kLanes; ++k) {
         const float dz = sample[k] - z[k];
         const float w = std::abs(dz) < gate ? 1.f : 0.f, wz = w > 0 ? dz : 0.f;
@@ -39,16 +41,20 @@ void fit_slopes(const float* z, int stride, int spacing, float gate, Lanes& slop
         suu[k] += fi * fi * w;
         suv[k] += fi * fj * w;
         svv[k] += fj * fj * w;
+
         sz[k] += wz;
         suz[k] += fi * wz;
         svz[k] += fj * wz;
       }
     }
+
+  // Subtract the means, and solve for the slopes.
   for (int k = 0; k < kLanes; ++k) {
     const float m = 1.f / std::max(n[k], 1.f);
     const float cuu = suu[k] - su[k] * su[k] * m, cuv = suv[k] - su[k] * sv[k] * m, cvv = svv[k] - sv[k] * sv[k] * m;
     const float cuz = suz[k] - su[k] * sz[k] * m, cvz = svz[k] - sv[k] * sz[k] * m;
     const float det = cuu * cvv - cuv * cuv;
+
     valid[k] = n[k] >= kFewestSamples && det >= 1.f ? 1.f : 0.f;  // det = 0: all samples are on a line
     const float inverse = 1.f / std::max(det, 1.f);
     slope_u[k] = (cuz * cvv - cvz * cuv) * inverse;
@@ -70,10 +76,14 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
   const Intrinsics& camera = out.frame->camera;
   const int width = mask.width(), height = mask.height();
   out.normal.reset(width, height, Eigen::Vector3f::Zero());
+
+  // Copy the hand into an image with a border, so that samples exist on all sides.
   padded_.reset(width + 2 * kPad + kLanes, height + 2 * kPad, kNoHand);
   for (const std::int32_t i : out.hand_pixels) padded_.at(i % width + kPad, i / width + kPad) = out.depth[i];
   const float fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   Lanes slope_u, slope_v, valid;
+
+  // Fit several neighbouring pixels at once.
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* hand = mask.row(v);
     for (int u = 0; u < width; ++u) {
@@ -83,6 +93,8 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
           std::clamp(static_cast<int>(static_cast<float>(radius) * fx / *z / 2 + 0.5f), 1, kMostSpacing);
       const float gate = same_surface_step(*z, fx) + kSteepest * static_cast<float>(2 * spacing) * *z / fx;
       fit_slopes(z, padded_.width(), spacing, gate, slope_u, slope_v, valid);
+
+      // Convert the slopes to normals.
       const float y = static_cast<float>((v + out.v0 - camera.cy) / camera.fy);
       const int lanes = std::min(kLanes, width - u);
       for (int k = 0; k < lanes; ++k) {
@@ -100,6 +112,8 @@ double NoiseMeter::measure(const Image<std::uint8_t>& mask, const Image<float>& 
   constexpr int kSpan = 6;                      // columns of a third difference of every second pixel
   constexpr double kToSigma = 1.4826 / 4.4721;  // median absolute difference to sigma; over sqrt(1 + 9 + 9 + 1)
   constexpr std::size_t kFewest = 50;
+
+  // Collect third differences of the depth, which do not change with the slope and curvature of the surface.
   differences_.clear();
   for (int v = 0; v < mask.height(); v += 2) {
     const std::uint8_t* hand = mask.row(v);
@@ -109,6 +123,8 @@ double NoiseMeter::measure(const Image<std::uint8_t>& mask, const Image<float>& 
         differences_.push_back(std::abs(z[u] - 3 * z[u + 2] + 3 * z[u + 4] - z[u + 6]));
   }
   if (differences_.size() < kFewest) return floor;
+
+  // Estimate the standard deviation by the median, which edges of the surface hardly affect.
   const auto middle = differences_.begin() + differences_.size() / 2;
   std::nth_element(differences_.begin(), middle, differences_.end());
   return std::max(floor, kToSigma * *middle);

@@ -17,6 +17,8 @@ std::optional<PredictedHand> PredictedHand::from(const HandEstimate* earlier) {
   if (!earlier || !earlier->has_pose() || !earlier->profile) return std::nullopt;
   for (const SegmentState& s : earlier->segments)
     if (!s.T_camera_segment.all_finite()) return std::nullopt;
+
+  // Cover the palm by capsules from the wrist to the knuckles.
   PredictedHand hand;
   const SE3& palm = earlier->segments[kPalm].T_camera_segment;
   hand.wrist_ = palm.t.cast<float>();
@@ -24,6 +26,8 @@ std::optional<PredictedHand> PredictedHand::from(const HandEstimate* earlier) {
   for (int ray = 0; ray < kPalmRays; ++ray)
     hand.capsules_[ray] = {hand.wrist_, earlier->segments[segment_of(ray + 1, 0)].T_camera_segment.t.cast<float>(),
                            kPalmRadius};
+
+  // Cover each segment of the fingers by one capsule.
   for (int s = 1; s < kSegmentCount; ++s) {
     const SegmentProfile& profile = earlier->profile->segments[s];
     const SE3& T = earlier->segments[s].T_camera_segment;
@@ -48,6 +52,8 @@ void PredictedHand::arrange() {
 float PredictedHand::distance(const Eigen::Vector3f& p) const {
   const float px = p.x(), py = p.y(), pz = p.z();
   std::array<float, kLanes> d;
+
+  // Compute the distance from all capsules at once.
   for (int k = 0; k < kLanes; ++k) {
     const float x = px - arrays_.ax[k], y = py - arrays_.ay[k], z = pz - arrays_.az[k];
     float t = (x * arrays_.dx[k] + y * arrays_.dy[k] + z * arrays_.dz[k]) * arrays_.inverse_length_sq[k];
@@ -56,6 +62,8 @@ float PredictedHand::distance(const Eigen::Vector3f& p) const {
     const float ex = x - t * arrays_.dx[k], ey = y - t * arrays_.dy[k], ez = z - t * arrays_.dz[k];
     d[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - arrays_.radius[k];
   }
+
+  // Find the smallest distance: halve the array until three values are left.
   for (int half = kLanes / 2; half >= 3; half /= 2)
     for (int k = 0; k < half; ++k) d[k] = d[k] < d[k + half] ? d[k] : d[k + half];
   return std::min({d[0], d[1], d[2]});

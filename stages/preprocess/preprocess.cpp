@@ -23,9 +23,12 @@ Result<void> check(const RgbdFrame& frame) {
   if (!c.valid())
     return fail("no valid camera intrinsics", where(), "give width, height, fx, fy, cx, cy of the sensor");
   if (!(frame.depth_unit > 0)) return fail("depth unit is not positive", where(), "give the metres per depth count");
+
+  // Compare the sizes of the images with that of the camera.
   const auto sizes = [&](int width, int height) {
     return size_text(width, height) + ", the intrinsics say " + size_text(c.width, c.height);
   };
+
   if (frame.depth.width() != c.width || frame.depth.height() != c.height)
     return fail("depth is " + sizes(frame.depth.width(), frame.depth.height()), where(),
                 "use the intrinsics of this depth image");
@@ -70,15 +73,21 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
   const std::shared_ptr<HandObservation> out = pool_.take();
   out->frame = frame;
   out->detected = hand.found && hand.detected ? std::shared_ptr<const DetectedHand>(detection, hand.detected) : nullptr;
+
+  // Clean the depth in the region of interest.
   const Region region = hand.found ? region_of_interest(*frame, hand) : Region{};
   out->u0 = region.u0;
   out->v0 = region.v0;
   cleaner_.clean(*frame, params_, region, out->depth, edge_);
+
+  // Find the pixels of the hand. A pixel belongs to one hand only.
   if (hand.found)
     masker_.compute(*frame, skin_, grid_, hand, hands, region, out->depth, edge_, mask_);
   else
     mask_.reset(0, 0);
   if (hands.size() > 1) remove_taken(*out);
+
+  // Compute what the tracker reads.
   describe_hand(*out);
   out->followed = out->hand_present && hand.followed;
   return out;
@@ -97,6 +106,8 @@ void Preprocessor::remove_taken(const HandObservation& out) {
 
 void Preprocessor::describe_hand(HandObservation& out) {
   const Intrinsics& camera = out.frame->camera;
+
+  // List the pixels of the hand, and measure their area.
   out.hand_pixels.clear();
   double area = 0;
   for (std::size_t i = 0; i < mask_.size(); ++i) {
@@ -104,17 +115,23 @@ void Preprocessor::describe_hand(HandObservation& out) {
     out.hand_pixels.push_back(static_cast<std::int32_t>(i));
     area += out.depth[i] * out.depth[i] / (camera.fx * camera.fy);
   }
+
+  // Treat a hand that is too small as no hand.
   out.hand_present = area >= params_.min_hand_area;
   if (!out.hand_present) {
     out.hand_pixels.clear();
     out.depth.reset(0, 0);
     mask_.reset(0, 0);
   }
+
+  // Compute the labels and the distance transforms.
   transform_.compute(mask_, out.nearest_hand);
   label_pixels(camera, mask_, params_.object_reach, rays_, out);
   object_.reset(mask_.width(), mask_.height());
   for (std::size_t i = 0; i < object_.size(); ++i) object_[i] = out.label[i] == PixelLabel::object;
   transform_.compute(object_, out.nearest_object);
+
+  // Compute the normals, the noise and the point cloud.
   normals_.fit(mask_, params_.normal_radius, out);
   out.noise = noise_.measure(mask_, out.depth, params_.noise_floor);
   thin_cloud(params_.cloud_points, out);
@@ -127,6 +144,8 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
     u0 = std::min(u0, u), u1 = std::max(u1, u);
     v0 = std::min(v0, v), v1 = std::max(v1, v);
   };
+
+  // Include the cells of the hand.
   const int step = grid_.step;
   for (int r = 0; r < grid_.z.height(); ++r)
     for (int c = 0; c < grid_.z.width(); ++c)
@@ -134,13 +153,17 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
         include(c * step, r * step);
         include((c + 1) * step, (r + 1) * step);
       }
-  if (hand.prediction)  // include the predicted hand, since the maps must also cover occluded fingers
+
+  // Include the predicted hand, since the maps must also cover occluded fingers.
+  if (hand.prediction)
     for (const Capsule& capsule : hand.prediction->capsules())
       for (const Eigen::Vector3f& p : {capsule.a, capsule.b})
         if (p.z() > params_.min_depth) {
           const Eigen::Vector2d pixel = camera.project(p.cast<double>());
           include(std::clamp(pixel.x(), 0.0, camera.width - 1.0), std::clamp(pixel.y(), 0.0, camera.height - 1.0));
         }
+
+  // Add the margin, and stay inside the image.
   Region region;
   region.u0 = std::max(0, static_cast<int>(u0) - params_.margin_px);
   region.v0 = std::max(0, static_cast<int>(v0) - params_.margin_px);
@@ -151,11 +174,14 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
 
 void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
                               const HandObservations& seen) {
+  // Learn only from hands that are tracked.
   if (!grid_.coloured) return;
   training_hands_.clear();
   for (std::size_t k = 0; k < feedback.size(); ++k)
     if (seen[k]->followed && feedback[k]->status == TrackStatus::tracking) training_hands_.push_back(&hands[k]);
   if (training_hands_.empty()) return;
+
+  // Collect the colours of cells with depth and colour.
   skin_colours_.clear();
   other_colours_.clear();
   for (int r = 0; r < grid_.z.height(); ++r)
@@ -163,10 +189,13 @@ void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const
       const Rgb colour = grid_.colour.at(c, r);
       if (grid_.z.at(c, r) <= 0 || colour == Rgb{}) continue;
       const Eigen::Vector3f p = grid_.point(c, r);
+
       const auto near = [&](const CoarseHand* hand) {
         return (p - hand->prediction->centre()).squaredNorm() < kSurroundings * kSurroundings;
       };
       const auto is_hand = [&](const CoarseHand& hand) { return hand.found && hand.cells.at(c, r); };
+
+      // Take the cells close to the predicted surface as skin.
       if (std::ranges::any_of(hands, is_hand)) {
         const auto surely = [&](const CoarseHand* h) { return is_hand(*h) && h->distance.at(c, r) < kSurelySkin; };
         if (std::ranges::any_of(training_hands_, surely)) skin_colours_.push_back(colour);
@@ -174,13 +203,16 @@ void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const
                                              std::ranges::any_of(training_hands_, [&](const CoarseHand* hand) {
                                                return hand->prediction->behind_wrist(p) > 0;
                                              }))) {
-        continue;  // other skin, such as a face, another person's hand or the forearm, is not evidence against skin
+        // Other skin, such as a face, another person's hand or the forearm, is not evidence against skin.
+        continue;
       } else if ((c + r) % 2 == 0 && std::ranges::all_of(training_hands_, [&](const CoarseHand* hand) {
                    return !near(hand) || hand->prediction->distance(p) > kSurelyOther;
                  })) {
+        // What is far enough from the hand is something else; every second cell suffices.
         other_colours_.push_back(colour);
       }
     }
+
   skin_.learn(skin_colours_, other_colours_);
 }
 

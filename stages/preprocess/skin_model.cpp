@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFewestColours = 30;  // fewer pixels do not determine a distribution
 constexpr double kLeastSpread = 0.35;  // smallest assumed deviation of skin's log brightness, since skin may get shaded
-constexpr double kUsualSpread = 2;     // brightness is no evidence down to this many standard deviations below the mean
+constexpr double kUsualSpread = 2;  // brightness down to this many standard deviations below the mean is not evidence
 
 /// Generic density of skin over (log R/G, log B/G), from pale to dark skin in white to warm light, with the red of
 /// fingertips and of shaded folds.
@@ -45,6 +45,7 @@ SkinModel::SkinModel(double rate, double share) : rate_(rate), share_(share) {
 
 bool SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& colours, double rate,
                     const SkinModel& model) {
+  // Count the colours; those that are overexposed say nothing.
   Histogram fresh{};
   double total = 0;
   for (const Rgb& c : colours) {
@@ -53,6 +54,8 @@ bool SkinModel::add(Histogram& learned, double& mass, const std::vector<Rgb>& co
     fresh[model.bin(c)] += weight;
     total += weight;
   }
+
+  // Blend them into what was learned before.
   if (total < kFewestColours) return false;
   const float scale = static_cast<float>(rate / total);
   for (std::size_t i = 0; i < learned.size(); ++i)
@@ -69,15 +72,20 @@ void SkinModel::learn(const std::vector<Rgb>& skin, const std::vector<Rgb>& othe
 }
 
 void SkinModel::learn_brightness(const std::vector<Rgb>& skin) {
+  // Compute the moments of the logarithm of brightness.
   double sum = 0, sum_sq = 0;
   for (const Rgb& c : skin) {
     const double x = std::log(std::max(brightest_of(c), 1));
     sum += x;
     sum_sq += x * x;
   }
+
+  // Blend them into what was learned before.
   const double count = static_cast<double>(skin.size());
   brightness_ += rate_ * (sum / count - brightness_);
   brightness_sq_ += rate_ * (sum_sq / count - brightness_sq_);
+
+  // Tabulate how much a pixel is too dark to be skin.
   const double mean = brightness_ / skin_mass_, variance = brightness_sq_ / skin_mass_ - mean * mean;
   const double spread = std::max(kLeastSpread, std::sqrt(std::max(0.0, variance)));
   for (int i = 1; i < 256; ++i) {
@@ -98,9 +106,13 @@ void SkinModel::rebuild() {
                h[std::clamp(b + db, 0, kBins - 1) * kBins + std::clamp(r + dr, 0, kBins - 1)];
     return sum;
   };
+
+  // Blend the learned histograms with the generic densities.
   const float skin_prior = static_cast<float>(1 - share_ * skin_mass_);
   const float other_prior = static_cast<float>(1 - share_ * other_mass_);
   const float share = static_cast<float>(share_);
+
+  // Compute the log odds of each bin.
   for (int b = 0; b < kBins; ++b)
     for (int r = 0; r < kBins; ++r) {
       const int i = b * kBins + r;

@@ -22,10 +22,13 @@ segment_contact_t segment_message(const Contact& contact, const ObjectEstimate* 
   out.deviation = contact.deviation;
   copy(contact.point, out.point);
   copy(contact.normal, out.normal);
+
+  // State the place and the normal in the frame of the object, too, if there is one.
   const SE3 unknown{Eigen::Matrix3d::Constant(Contact::kUnknown), Eigen::Vector3d::Constant(Contact::kUnknown)};
   const SE3 T_object_camera = object ? object->T_camera_object.inverse() : unknown;
   copy(T_object_camera * contact.point, out.point_in_object);
   copy(T_object_camera.R * contact.normal, out.normal_in_object);
+
   out.partner = contact.partner;
   out.segment = contact.segment;
   return out;
@@ -59,12 +62,16 @@ object_state_t object_message(const HandEstimate& estimate, const ObjectEstimate
   object_state_t out{};
   fill_frame(out, estimate);
   out.object_id = object.id;
+
+  // State the pose, the motion and the uncertainty.
   copy(object.T_camera_object.t, out.position);
   copy(object.T_camera_object.R, out.orientation);
   copy(object.velocity.head<3>(), out.linear_velocity);
   copy(object.velocity.tail<3>(), out.angular_velocity);
   copy(object.covariance, out.covariance);
   copy(object.extent, out.extent);
+
+  // State which hand holds it.
   out.held = object.held;
   out.hand_id = object.hand_id;
   out.since = object.since;

@@ -70,6 +70,8 @@ GloveAngles glove_angles(const HandProfile& profile, const HandPose& pose) {
   *channel++ = angle[segment_of(kThumb, 1)].flexion;
   *channel++ = angle[segment_of(kThumb, 2)].flexion;
   *channel++ = thumb.abduction;
+
+  // Append the other fingers.
   for (int finger = kIndex; finger < kFingerCount; ++finger) {
     for (int k = 0; k < 3; ++k) *channel++ = angle[segment_of(finger, k)].flexion;
     if (finger == kIndex) continue;

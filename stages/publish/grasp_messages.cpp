@@ -55,6 +55,8 @@ void fill_known(grasp_state_t& out, const HandGrasp& grasp) {
   const auto thumb = most_probable(grasp, ThumbPosition::none, [](const GraspType& type) { return type.thumb; });
   const auto fingers = most_probable(
       grasp, std::pair(0, 0), [](const GraspType& type) { return std::pair(type.first_finger, type.last_finger); });
+
+  // State each with its probability.
   out.kind = static_cast<std::int8_t>(kind.property);
   out.kind_probability = kind.probability;
   out.opposition = static_cast<std::int8_t>(opposition.property);

@@ -58,12 +58,16 @@ segment_state_t unknown_segment() {
 segment_state_t segment_message(const FrameState& frame, int s) {
   const SegmentState& state = frame.track.segments[static_cast<std::size_t>(s)];
   segment_state_t out{};
+
+  // State the estimated and the smoothed pose.
   copy(frame.raw[s].t, out.position);
   copy(frame.raw[s].R, out.orientation);
   copy(distal_end(*frame.profile, frame.raw, s), out.distal);
   copy(frame.smoothed[s].t, out.smoothed_position);
   copy(frame.smoothed[s].R, out.smoothed_orientation);
   copy(distal_end(*frame.profile, frame.smoothed, s), out.smoothed_distal);
+
+  // State the motion and the uncertainty.
   copy(state.velocity.head<3>(), out.linear_velocity);
   copy(state.velocity.tail<3>(), out.angular_velocity);
   copy(state.covariance, out.covariance);
@@ -96,6 +100,8 @@ std::int8_t glove_flag(const FrameState& frame, GloveSegments segments) {
 glove_state_t glove_message(const FrameState& frame) {
   glove_state_t out{};
   fill_header(out, frame);
+
+  // Without a pose, all angles are undefined.
   GloveAngles raw, smoothed;
   for (GloveAngles* angles : {&raw, &smoothed}) {
     angles->joint.fill(kNaN);
@@ -105,12 +111,16 @@ glove_state_t glove_message(const FrameState& frame) {
     raw = glove_angles(*frame.profile, frame.raw);
     smoothed = glove_angles(*frame.profile, frame.smoothed);
   }
+
+  // State the angles of the joints.
   for (std::size_t i = 0; i < kGloveJointCount; ++i) {
     out.joint_name[i] = kGloveJointNames[i];
     out.joint_angle[i] = smoothed.joint[i];
     out.joint_angle_raw[i] = raw.joint[i];
     out.joint_flag[i] = glove_flag(frame, segments_of_joint(static_cast<int>(i)));
   }
+
+  // State the channels of a data glove.
   for (std::size_t i = 0; i < kGloveChannelCount; ++i) {
     out.channel[i] = smoothed.channel[i];
     out.channel_raw[i] = raw.channel[i];
@@ -127,15 +137,21 @@ constexpr std::int32_t kTracked =
 hand_joints_t joints_message(const FrameState& frame) {
   hand_joints_t out{};
   fill_header(out, frame);
+
+  // Without a pose, all joints are undefined.
   fill(out.position, kNaN);
   fill(out.orientation, kNaN);
   fill(out.radius, kNaN);
   if (!frame.track.has_pose) return out;
+
+  // Fill in the pose of each joint.
   const auto joints = openxr_joints(*frame.profile, frame.smoothed);
   for (std::size_t i = 0; i < kOpenXrJointCount; ++i) {
     copy(joints[i].T_camera_joint.t, out.position[i]);
     copy(joints[i].T_camera_joint.R, out.orientation[i]);
     out.radius[i] = joints[i].radius;
+
+    // All joints are valid, but only those of seen segments are tracked.
     out.flags[i] = kValid;
     const bool seen = frame.track.segments[static_cast<std::size_t>(joints[i].segment)].seen;
     if (seen) out.flags[i] |= kTracked;

@@ -22,10 +22,12 @@ SE3 OneEuroPose::filter(const SE3& raw, double dt, const OneEuroParams& params) 
     speed_.setZero();
     smoothed_ = raw;
   } else {
+    // Smooth the speed first, then the pose with a cutoff frequency that increases with the speed.
     speed_ += weight(params.speed_cutoff, dt) * (boxminus(raw, raw_) / dt - speed_);
     Vector6d step = boxminus(raw, smoothed_);
     step.head<3>() *= weight(params.min_cutoff + params.beta * speed_.head<3>().norm(), dt);
     step.tail<3>() *= weight(params.min_cutoff + params.beta_rotation * speed_.tail<3>().norm(), dt);
+
     smoothed_ = boxplus(smoothed_, step);
     smoothed_.R = orthonormalised(smoothed_.R);
   }

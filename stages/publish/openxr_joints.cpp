@@ -58,6 +58,8 @@ std::array<OpenXrJoint, kOpenXrJointCount> openxr_joints(const HandProfile& prof
       const int s = segment_of(finger, k);
       *next++ = {pose[s], profile.segments[s].radius[0], s};
     }
+
+    // Append the fingertip.
     const int last = segment_of(finger, 2);
     SE3 tip = pose[last];
     tip.t = pose[last] * profile.segments[last].distal;

@@ -38,6 +38,7 @@ PublishedTrack PoseHold::update(const HandEstimate& estimate, const PublishParam
   if (!last_) return track;
   const double seconds = std::abs(1e-6 * static_cast<double>(estimate.utime - last_->pose_utime));
   if (seconds >= params.hold_time) return track;
+
   track = *last_;
   track.status = TrackStatus::holding;
   for (SegmentState& segment : track.segments) segment = held(segment, seconds, params);

@@ -13,7 +13,7 @@ using Axis = LineSegment;
 
 constexpr double kCarpus = 0.3;        // start of a capsule in the palm, as a fraction of the way from wrist to knuckle
 constexpr double kTiny = 1e-12;        // squared lengths below this count as zero [m^2]
-constexpr double kPalmFraction = 0.9;  // of its finger's radius: that of a capsule in the palm
+constexpr double kPalmFraction = 0.9;  // radius of a capsule in the palm, as a fraction of its finger's
 
 double least_radius(const SegmentProfile& s) {
   return std::min({s.half_width[0], s.half_width[1], s.half_thickness[0], s.half_thickness[1]});
@@ -93,6 +93,7 @@ double HandContact::add_terms(const HandPose& pose, double sigma, GaussianTree& 
       tree.H_self[s] += 2 * information * row * row.transpose();
       tree.g[s] -= information * overlap * row;
     };
+
     push(a.segment, p_a, away);
     push(b.segment, p_b, -away);
   });

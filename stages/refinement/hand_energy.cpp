@@ -130,6 +130,7 @@ double add_data_terms(const Skin& skin, const HandPose& pose, const ModelCompari
       if (shape) shape->add(c, v, direction, residual, information);
     });
   }
+
   sums.add_to(tree);
   return total;
 }

@@ -35,6 +35,7 @@ struct EnergyParams {
 
 template <class V>
 void visit(V& v, EnergyParams& p) {
+  // Declare the keys for the distance between the model and the data.
   v("sigma_depth", p.sigma_depth, 1e-4, 0.05, "m, standard deviation of a surface distance");
   v("robust_scale", p.robust_scale, 5e-4, 0.1, "m, Geman-McClure scale of surface distances");
   v("gate", p.gate, 1e-3, 0.2, "m, larger surface distances are ignored");
@@ -45,11 +46,15 @@ void visit(V& v, EnergyParams& p) {
   v("palm_trust", p.palm_trust, 0.0, 1.0,
     "weight of the skin on the palm and the thumb's root relative to a phalanx's: its shape differs most between "
     "people");
+
+  // Declare the keys for the joints and the contact of segments.
   v("sigma_gap", p.sigma_gap, 1e-5, 0.05, "m, standard deviation of the gap at a joint (Eq. 5)");
   v("sigma_angle_deg", p.sigma_angle_deg, 0.1, 45.0,
     "degrees, standard deviation of the twist and of angles beyond the limits (Eq. 6)");
   v.retired("limit_widening_deg", "tracker.fusion.limit_widening_deg");
   v("sigma_overlap", p.sigma_overlap, 1e-5, 10.0, "m, standard deviation of the overlap of two segments");
+
+  // Declare the keys for the prediction.
   v("prior_translation", p.prior_translation, 1e-4, 10.0,
     "m, standard deviation of the palm's position about its prediction");
   v("prior_rotation_deg", p.prior_rotation_deg, 0.1, 3600.0,

@@ -22,6 +22,7 @@ struct UncertaintyParams {
 
 template <class V>
 void visit(V& v, UncertaintyParams& p) {
+  // Declare the keys for what is seen.
   v("skin_deviation", p.skin_deviation, 1e-5, 0.1,
     "m, standard deviation of the person's skin from the model's, common to a patch of skin");
   v("skin_patch", p.skin_patch, 1e-3, 0.1,
@@ -32,6 +33,8 @@ void visit(V& v, UncertaintyParams& p) {
     "factor on skin_deviation and joint_deviation if the profile is a mean hand, fitted or not");
   v("scanned_factor", p.scanned_factor, 0.01, 1.0,
     "factor on skin_deviation and joint_deviation if the skin was scanned");
+
+  // Declare the keys for hidden joints.
   v("range_share", p.range_share, 0.01, 10.0,
     "standard deviation of a joint that has been hidden for long, relative to that of its whole range");
   v("just_hidden_deg", p.just_hidden_deg, 0.1, 90.0,

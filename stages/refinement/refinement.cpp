@@ -97,6 +97,8 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
     scale = std::min(scale, params_.max_translation / std::max(twist.head<3>().norm(), 1e-12));
     scale = std::min(scale, params_.max_rotation_deg * kDegree / std::max(twist.tail<3>().norm(), 1e-12));
   }
+
+  // Apply the step to all segments.
   for (int s = 0; s < kSegmentCount; ++s) {
     pose[s] = boxplus(pose[s], scale * x[s]);
     pose[s].R = orthonormalised(pose[s].R);

@@ -51,6 +51,7 @@ void depth_and_facing(const CoarseSkin::Part& part, const Transform& T, float* _
 /// Projects the points to pixels, after pulling them inwards along their normals by `shrink` [m].
 void pixels(const CoarseSkin::Part& part, const Transform& T, const Intrinsics& camera, float shrink,
             const float* __restrict depth, float* __restrict u, float* __restrict v) {
+  // Load everything that does not depend on the point.
   const float *x = part.x.data(), *y = part.y.data(), *z = part.z.data();
   const float *nx = part.nx.data(), *ny = part.ny.data(), *nz = part.nz.data();
   const float ux = T.R(0, 0), uy = T.R(0, 1), uz = T.R(0, 2), tu = T.t.x();
@@ -58,6 +59,8 @@ void pixels(const CoarseSkin::Part& part, const Transform& T, const Intrinsics& 
   const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
   const std::size_t count = part.size();
+
+  // Pull each point inwards, and project it.
   for (std::size_t i = 0; i < count; ++i) {
     const float px = x[i] - shrink * nx[i], py = y[i] - shrink * ny[i], pz = z[i] - shrink * nz[i];
     u[i] = fx * (ux * px + uy * py + uz * pz + tu) / depth[i] + cx;
@@ -73,11 +76,14 @@ CoarseScorer::CoarseScorer(const ScoreGrid& grid, const CoarseSkin& skin, const 
       camera_(grid.camera),
       shrink_(static_cast<float>(kShrink * grid.cell)),
       hand_cells_(grid.hand_cells) {
+  // Surround the grid by its border.
   camera_.width += 2 * kBorder, camera_.height += 2 * kBorder;
   camera_.cx += kBorder, camera_.cy += kBorder;
   image_lo_u_ = static_cast<float>(grid.i_lo), image_hi_u_ = static_cast<float>(grid.i_hi + 2 * kBorder);
   image_lo_v_ = static_cast<float>(grid.j_lo), image_hi_v_ = static_cast<float>(grid.j_hi + 2 * kBorder);
   if (!grid.empty()) prepare(grid);
+
+  // Reserve buffers for the largest part.
   std::size_t largest = skin.forearm.size();
   for (const CoarseSkin::Part& part : skin.parts) largest = std::max(largest, part.size());
   for (auto* buffer : {&u_, &v_, &z_, &facing_}) buffer->resize(largest);
@@ -108,15 +114,20 @@ void CoarseScorer::prepare_cell(const ScoreGrid& grid, std::size_t from, std::si
   costs_.bare[to] = measured ? static_cast<float>(params_.no_forearm) : 0.0f;
   costs_.forearm[to] = measured ? 0.0f : kCloseCost;
   switch (grid.label[from]) {
+    // The model pays for its difference in depth from the hand, and for hand that it does not cover.
     case PixelLabel::hand:
       costs_.slope[to] = 1 / cap;
       costs_.empty[to] = static_cast<float>(params_.unexplained);
       costs_.bare[to] = 0;
       break;
+
+    // Sensors lose depth beside the hand, so the model may continue there.
     case PixelLabel::unknown:
       costs_.front[to] = costs_.behind[to] =
           grid.hand_distance[from] < kCloseToHand ? kCloseCost : static_cast<float>(params_.unknown) * distance;
       break;
+
+    // An object may hide the model.
     case PixelLabel::object:
       costs_.front[to] = background;
       costs_.behind[to] = measured ? static_cast<float>(params_.hidden) : background;
@@ -151,10 +162,14 @@ double CoarseScorer::sum_of_costs() const {
   const auto covering = [above](const float* z) {
     return std::min(std::min(*z, *(z - 1)), std::min(*(z - above), *(z - above - 1)));
   };
+
+  // Load everything that does not depend on the cell.
   const float* data = costs_.data.data();
   const float *slope = costs_.slope.data(), *front = costs_.front.data(), *behind = costs_.behind.data();
   const float *empty = costs_.empty.data(), *forearm = costs_.forearm.data(), *bare = costs_.bare.data();
   std::array<float, kLanes> sum{};
+
+  // Add up the costs of blocks of cells.
   for (std::size_t block = 0; block < costs_.data.size(); block += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       // All values are loaded before one is selected, so that the loop has no branches.
@@ -164,11 +179,14 @@ double CoarseScorer::sum_of_costs() const {
       const float side = z < d ? in_front : hidden;
       const float model = per_metre * std::min(std::abs(z - d), cap) + side;
       const float hand = z < kInfinity ? model : no_model;
+
+      // Compute the cost of the forearm, and take the surface that is nearer.
       const float air = d > f + sleeve ? no_sleeve : 0.0f;
       const float stub = per_metre * std::min(std::abs(f - d), cap) + arm + air;
       sum[lane] += f < z ? stub : hand;
     }
   }
+
   double total = 0;
   for (const float s : sum) total += s;
   return total;
@@ -179,6 +197,8 @@ double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
   const float w = static_cast<float>(camera_.width - 1), h = static_cast<float>(camera_.height - 1);
   double beyond_region = 0;
   int beyond_image = 0;
+
+  // Find the points that face the camera and are not on the grid.
   for (std::size_t i = 0; i < part.size(); ++i) {
     const bool off_grid = (u_[i] < 0.5f) | (v_[i] < 0.5f) | (u_[i] > w - 0.5f) | (v_[i] > h - 0.5f);
     if (!(off_grid & (facing_[i] < 0))) continue;
@@ -187,6 +207,7 @@ double CoarseScorer::outside_cost(const CoarseSkin::Part& part) const {
     beyond_image += off_image;
     if (!off_image) beyond_region += border_cost(u_[i], v_[i], z_[i]);
   }
+
   return beyond_region + params_.outside * beyond_image;
 }
 
@@ -207,12 +228,15 @@ bool CoarseScorer::find_cells(std::size_t count) {
   const float *u = u_.data(), *v = v_.data(), *z = z_.data(), *facing = facing_.data();
   std::int32_t *drawn = drawn_.data(), *cell = cell_.data();
   std::int32_t off_grid = 0;
+
+  // Test all points without branches.
   for (std::size_t i = 0; i < count; ++i) {
     const bool front = facing[i] < 0;
     const bool within = front & (z[i] > kNearest) & (u[i] >= 0) & (v[i] >= 0) & (u[i] < w) & (v[i] < h);
     drawn[i] = within;
     cell[i] = start + static_cast<std::int32_t>(within ? v[i] : 0.0f) * stride +
               static_cast<std::int32_t>(within ? u[i] : 0.0f);
+
     off_grid |= front & ((u[i] < 0.5f) | (v[i] < 0.5f) | (u[i] > w - 0.5f) | (v[i] > h - 0.5f));
   }
   return off_grid != 0;
@@ -223,12 +247,16 @@ void CoarseScorer::splat(const CoarseSkin::Part& part, const SE3& T, std::vector
   depth_and_facing(part, to_camera, z_.data(), facing_.data());
   pixels(part, to_camera, camera_, shrink_, z_.data(), u_.data(), v_.data());
   leaves_grid_ = find_cells(part.size());
+
+  // Collect the points to draw without branches.
   float* nearest = z_buffer.data();
   int visible = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
     visible_[visible] = static_cast<std::int32_t>(i);
     visible += drawn_[i];
   }
+
+  // Keep the smallest depth of each cell.
   for (int k = 0; k < visible; ++k) {
     float& z = nearest[cell_[visible_[k]]];
     z = std::min(z, z_[visible_[k]]);

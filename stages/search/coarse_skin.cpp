@@ -25,9 +25,13 @@ CoarseSkin::Part thinned(const SegmentSurface& skin, int segment, double spacing
   double area = 0;
   for (const float a : skin.area) area += a;
   const auto count = std::min(skin.size(), static_cast<std::size_t>(std::ceil(area / (spacing * spacing))));
+
+  // Describe the part, whose points share its area equally.
   CoarseSkin::Part part;
   part.segment = segment;
   part.width = count > 0 ? static_cast<float>(std::sqrt(area / static_cast<double>(count))) : 0.0f;
+
+  // Draw one point from each stratum.
   KeyedRandom random(0, static_cast<std::uint32_t>(segment));
   const double stratum = static_cast<double>(skin.size()) / static_cast<double>(std::max<std::size_t>(1, count));
   for (std::size_t k = 0; k < count; ++k) {
@@ -40,12 +44,15 @@ CoarseSkin::Part thinned(const SegmentSurface& skin, int segment, double spacing
 
 /// Points on an elliptic cylinder that continues the palm beyond its proximal end.
 CoarseSkin::Part forearm_stub(const SegmentProfile& palm, double spacing) {
+  // Derive the number of points from the spacing.
   const double a = palm.half_width[0], b = palm.half_thickness[0];
   const int around = std::max(6, static_cast<int>(std::lround(std::numbers::pi * (a + b) / spacing)));
   const int along = std::max(2, static_cast<int>(std::lround(kForearmLength / spacing)));
   CoarseSkin::Part part;
   part.segment = kPalm;
   part.width = static_cast<float>(spacing);
+
+  // Place the points; every second ring is turned by half a spacing.
   for (int i = 0; i < along; ++i) {
     for (int k = 0; k < around; ++k) {
       const double angle = 2 * std::numbers::pi * (k + 0.5 * (i % 2)) / around;

@@ -32,17 +32,23 @@ constexpr double kNearDistinct = 0.25;
 Vector3d visible_mean(const CoarseSkin& skin, const HandPose& pose, const Vector3d& view) {
   Vector3d sum = Vector3d::Zero();
   double weight = 0;
+
+  // Add up the points of each part in its own frame.
   for (const CoarseSkin::Part& part : skin.parts) {
     const SE3& T = pose[part.segment];
     const Eigen::Vector3f local_view = (T.R.transpose() * view).cast<float>();
     Eigen::Vector3f local = Eigen::Vector3f::Zero();
     float local_weight = 0;
+
+    // Weight each point by its projected area.
     for (std::size_t i = 0; i < part.size(); ++i) {
       const float facing = -local_view.dot(Eigen::Vector3f(part.nx[i], part.ny[i], part.nz[i]));
       const float w = std::max(0.0f, facing) * part.width * part.width;
       local += w * Eigen::Vector3f(part.x[i], part.y[i], part.z[i]);
       local_weight += w;
     }
+
+    // Transform the sum to the camera frame.
     sum += T.R * local.cast<double>() + local_weight * T.t;
     weight += local_weight;
   }
@@ -77,6 +83,8 @@ std::vector<StartCandidate> Initialiser::propose(const HandObservation& observat
                                                  Workers& workers, HiddenCost hidden_cost,
                                                  const HandPose* last_good) const {
   if (static_cast<int>(observation.hand_pixels.size()) < params_.min_hand_pixels) return {};
+
+  // Prepare the grids and the costs for both rounds.
   const SearchEffort& work = effort == Effort::full ? params_.full : params_.quick;
   const ScoreGrid coarse = make_score_grid(observation, params_.coarse_cell);
   const ScoreGrid fine = make_score_grid(observation, params_.fine_cell);
@@ -150,12 +158,14 @@ Initialiser::Trials Initialiser::changed_fingers(const HandPose& pose) const {
   Trials trials{{"followed", {original, 0}, true}};
   for (int finger = 0; finger < kFingerCount; ++finger) {
     for (const ShapeTemplate& shape : shapes_) {
+      // Replace the angles of this finger.
       ArticulatedPose changed = original;
       for (int k = 0; k < 3; ++k) {
         const int s = segment_of(finger, k);
         changed.angles[s].flexion = shape.angles[s].flexion;
         if (finger == 0) changed.angles[s].abduction = shape.angles[s].abduction;
       }
+
       trials.push_back({std::string(shape.name), {changed, 0}, true});
     }
   }
@@ -181,12 +191,15 @@ Initialiser::Trials Initialiser::template_shapes(const SearchEffort& effort, dou
   // If only some shapes are used, they are spread over all templates, so that open and closed hands are among them.
   const std::size_t count = std::min<std::size_t>(effort.shapes, shapes_.size());
   Trials trials;
+
+  // Combine every shape with every orientation.
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = n * shapes_.size() / count;
     for (int r = 0; r < effort.rolls; ++r) {
       for (int p = 0; p < effort.pitches; ++p) {
         const double pitch = effort.pitches > 1 ? kMaxPitch * (2.0 * p / (effort.pitches - 1) - 1) : 0.0;
         for (int k = 0; k < effort.in_plane; ++k) {
+          // Turn the hand; where it lies in the image is found later.
           ArticulatedPose pose;
           pose.angles = shapes_[i].angles;
           pose.T_camera_palm.R =
@@ -208,6 +221,8 @@ void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) con
     trial.scored.cost = cost(shape);
     return;
   }
+
+  // Compute the three shifts.
   const HandPose pose = posed(*profile_, shape);
   const Vector3d view = grid.centroid.normalized();
   const SegmentProfile& palm = profile_->segments[kPalm];
@@ -215,6 +230,8 @@ void Initialiser::place(Trial& trial, const ScoreGrid& grid, PoseCost& cost) con
   const std::array<Vector3d, 3> steps = {grid.centroid - visible_mean(coarse_skin_, pose, view),
                                          grid.palm_centre - (pose[kPalm] * (kPalmCentre * palm.distal) + skin_on_bone),
                                          grid.palm_centre - (pose[kPalm] * (kHeel * palm.distal) + skin_on_bone)};
+
+  // Keep the one with the lowest cost.
   trial.scored.cost = std::numeric_limits<double>::infinity();
   for (const Vector3d& step : steps) {
     ScoredPose placed{shape, 0};
@@ -253,6 +270,8 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
     std::size_t i = from;
     for (; i < trials.size() && static_cast<int>(chosen.size()) < up_to; ++i) {
       if (taken[i]) continue;
+
+      // Leave out a trial that is too close to a chosen one.
       const HandPose pose = posed(*profile_, trials[i].scored.articulated);
       const bool twin = std::ranges::any_of(
           poses, [&](const HandPose& other) { return pose_distance(*profile_, pose, other) < apart; });
@@ -263,6 +282,8 @@ Initialiser::Trials Initialiser::most_promising(Trials trials, int count, double
     }
     return i;
   };
+
+  // Choose the best ones first. Fill the rest with trials that are far from all others, and then with any.
   const std::size_t rest = choose(0, count - static_cast<int>(distant_fraction * count), distinct);
   choose(rest, count, std::max(distinct, params_.apart));
   choose(rest, count, distinct);

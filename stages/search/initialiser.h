@@ -29,10 +29,13 @@ struct SearchEffort {
 
 template <class V>
 void visit(V& v, SearchEffort& p) {
+  // Declare the keys for the templates.
   v("in_plane", p.in_plane, 1, 360, "number of in-plane rotations of every template");
   v("rolls", p.rolls, 1, 360, "number of rotations about the finger axis, among them palm and back to the camera");
   v("pitches", p.pitches, 1, 90, "number of tilts of the fingers towards the camera and away from it");
   v("shapes", p.shapes, 1, 6, "number of shape templates, from open to fist");
+
+  // Declare the keys for the two rounds.
   v("first_survivors", p.first_survivors, 1, 10000, "number of templates that are improved on the coarse grid");
   v("first_evaluations", p.first_evaluations, 0, 100000,
     "random trials for each template that is improved on the coarse grid");
@@ -40,6 +43,8 @@ void visit(V& v, SearchEffort& p) {
     "number of poses that are improved further, by ICP and on the fine grid");
   v("second_evaluations", p.second_evaluations, 0, 100000,
     "random trials for each pose that is improved on the fine grid");
+
+  // Declare the key for the variety of the kept poses.
   v.formerly("elsewhere");
   v("distant_fraction", p.distant_fraction, 0.0, 1.0,
     "fraction of the poses kept in each round that must differ from the others by `apart`");
@@ -66,6 +71,7 @@ struct InitialiserParams {
 
 template <class V>
 void visit(V& v, InitialiserParams& p) {
+  // Declare the keys for a search without a pose.
   v("coarse_cell", p.coarse_cell, 1e-3, 0.1, "m, cell size while templates are scored");
   v("fine_cell", p.fine_cell, 1e-3, 0.1, "m, cell size of the second round");
   v("widening", p.widening, 0.0, 1.0, "rad by which the profile's joint limits are widened");
@@ -73,9 +79,13 @@ void visit(V& v, InitialiserParams& p) {
   v("results", p.results, 1, 1000, "maximum number of start poses that are returned");
   v("distinct", p.distinct, 0.0, 1.0, "m, minimum distance between two results (mean over the segment ends)");
   v("apart", p.apart, 0.0, 1.0, "m, minimum distance between poses that count as being in different places");
+
+  // Declare the keys for a search near a pose.
   v("near_survivors", p.near_survivors, 1, 10000,
     "search near a followed pose: number of poses with changed fingers that are improved on the fine grid");
   v("near_evaluations", p.near_evaluations, 0, 100000, "search near a followed pose: random trials for each pose");
+
+  // Declare the groups of keys.
   v("full", p.full, "effort of a full search");
   v("quick", p.quick, "effort of the search in every frame while the hand is lost");
   v("score", p.score, "coarse score of a whole pose");

@@ -98,6 +98,7 @@ void add_joints(const HandProfile& profile, const std::array<JointLimits, kSegme
 /// Pose of the palm whose wrist and knuckles fit the detected ones best (least squares, closed form). None: the
 /// detected points lie on one line.
 std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& joints) {
+  // Pair the wrist and the knuckles with the detected ones.
   std::array<Vector3d, 6> model, data;
   model[0] = Vector3d::Zero();
   data[0] = joints[kWristLandmark].position;
@@ -105,11 +106,14 @@ std::optional<SE3> palm_pose(const HandProfile& profile, const DetectedJoints& j
     model[1 + finger] = profile.rest_relative(segment_of(finger, 0)).t;
     data[1 + finger] = joints[landmark_of(finger, 0)].position;
   }
+
+  // Compute their covariance.
   Vector3d model_mean = Vector3d::Zero(), data_mean = Vector3d::Zero();
   for (int i = 0; i < 6; ++i) model_mean += model[i] / 6, data_mean += data[i] / 6;
   Matrix3d covariance = Matrix3d::Zero();
   for (int i = 0; i < 6; ++i) covariance += (data[i] - data_mean) * (model[i] - model_mean).transpose();
 
+  // Compute the rotation from its singular value decomposition, and exclude a reflection.
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (!(svd.singularValues()(1) > 1e-6)) return std::nullopt;  // [m^2]; all points lie on one line
   Matrix3d reflection = Matrix3d::Identity();
@@ -127,11 +131,15 @@ HandPose posed_by_bones(const HandProfile& profile, const std::array<JointLimits
   std::array<JointAngles, kSegmentCount> angles{};
   HandPose pose;
   pose[kPalm] = T_camera_palm;
+
+  // Bend the joints from the palm to the tips.
   for (int finger = 0; finger < kFingerCount; ++finger)
     for (int k = 0; k < 3; ++k) {
       const int s = segment_of(finger, k);
       const Vector3d bone = joints[landmark_of(finger, k + 1)].position - joints[landmark_of(finger, k)].position;
       pose[s] = pose[parent_of(s)] * profile.rest_relative(s);
+
+      // Read the angles from the direction of the bone, in the frame of the unbent joint.
       const Vector3d d = pose[s].R.transpose() * bone.normalized();
       angles[s].flexion = std::clamp(std::atan2(-d.y(), -d.z()), limits[s].flexion_lo, limits[s].flexion_hi);
       angles[s].abduction =
@@ -156,6 +164,8 @@ bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double
   if (with_scale) {
     tree.g = equations.coupling;
     if (!tree.solve(by_scale)) return false;
+
+    // Eliminate the poses from the equation of the scale.
     double information = equations.scale_information, gradient = equations.scale_gradient;
     for (int s = 0; s < kSegmentCount; ++s) {
       information -= equations.coupling[s].dot(by_scale[s]);
@@ -171,6 +181,8 @@ bool step(bool with_scale, KinematicEquations& equations, HandPose& pose, double
     shortened = std::min(shortened, kLongestStep / std::max(twist.head<3>().norm(), 1e-12));
     shortened = std::min(shortened, kLongestTurn / std::max(twist.tail<3>().norm(), 1e-12));
   }
+
+  // Apply the step.
   for (int s = 0; s < kSegmentCount; ++s) {
     pose[s] = boxplus(pose[s], shortened * x[s]);
     pose[s].R = orthonormalised(pose[s].R);

@@ -65,6 +65,8 @@ class MoveMaker {
     const double which = random_.uniform(), angle = scale * params_.flexion * random_.normal();
     JointAngles& base = pose.angles[segment_of(finger, 0)];
     JointAngles& middle = pose.angles[segment_of(finger, 1)];
+
+    // Bend the whole finger, its base or its outer joints; or spread it.
     if (which < 0.3) {
       flex(pose, finger, angle);
     } else if (which < 0.55) {

@@ -33,6 +33,8 @@ Cell summarise(const HandObservation& observation, int u_begin, int v_begin, int
   std::array<int, 4> count{}, measured{};
   std::array<double, 4> sum{};
   int total = 0;
+
+  // Count the pixels with each label, and add up their depths.
   for (int v = v_begin; v < std::min(v_begin + size, observation.label.height()); ++v) {
     for (int u = u_begin; u < std::min(u_begin + size, observation.label.width()); ++u) {
       const auto label = static_cast<std::size_t>(observation.label.at(u, v));
@@ -41,6 +43,8 @@ Cell summarise(const HandObservation& observation, int u_begin, int v_begin, int
       if (z > 0) ++measured[label], sum[label] += z;
     }
   }
+
+  // Choose the label.
   auto label = static_cast<std::size_t>(std::max_element(count.begin(), count.end()) - count.begin());
   constexpr auto kHand = static_cast<std::size_t>(PixelLabel::hand);
   if (3 * count[kHand] >= total && measured[kHand] > 0) label = kHand;
@@ -57,12 +61,15 @@ Image<float> distance_to(const Image<PixelLabel>& label, const Predicate& is_tar
   const auto relax = [&](int u, int v, int du, int dv, float step) {
     if (d.contains(u + du, v + dv)) d.at(u, v) = std::min(d.at(u, v), d.at(u + du, v + dv) + step);
   };
+
+  // Propagate from the top left to the bottom right, and then back.
   for (int v = 0; v < h; ++v) {
     for (int u = 0; u < w; ++u) {
       if (is_target(label.at(u, v))) d.at(u, v) = 0;
       relax(u, v, -1, 0, 1), relax(u, v, 0, -1, 1), relax(u, v, -1, -1, kDiagonal), relax(u, v, 1, -1, kDiagonal);
     }
   }
+
   for (int v = h - 1; v >= 0; --v) {
     for (int u = w - 1; u >= 0; --u) {
       relax(u, v, 1, 0, 1), relax(u, v, 0, 1, 1), relax(u, v, 1, 1, kDiagonal), relax(u, v, -1, 1, kDiagonal);
@@ -118,6 +125,8 @@ ScoreGrid make_score_grid(const HandObservation& observation, double cell) {
       grid.depth.at(i, j) = c.depth;
     }
   }
+
+  // Find the hand in the grid, and compute the distance of every cell from it.
   locate_hand(grid);
   grid.hand_distance = distance_to(grid.label, [](PixelLabel l) { return l == PixelLabel::hand; });
   for (std::size_t i = 0; i < grid.hand_distance.size(); ++i) grid.hand_distance[i] *= static_cast<float>(grid.cell);

@@ -33,6 +33,8 @@ std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
   const double thumbwards = side_sign(profile.handedness);
   constexpr std::array<double, kFingerCount> kFan = {0, 1, 0, -0.7, -1.4};  // abduction as a factor on the spread
   std::vector<ShapeTemplate> templates;
+
+  // Make one template for each curl of the fingers.
   for (const Curl& curl : kCurls) {
     ShapeTemplate shape{curl.name, {}};
     for (int finger = 0; finger < kFingerCount; ++finger) {
@@ -40,6 +42,8 @@ std::vector<ShapeTemplate> shape_templates(const HandProfile& profile,
         shape.angles[segment_of(finger, k)].flexion = kDegree * (finger == 0 ? curl.thumb[k] : curl.finger[k]);
       shape.angles[segment_of(finger, 0)].abduction = kDegree * thumbwards * kFan[finger] * curl.spread;
     }
+
+    // Keep within the limits of this person's joints.
     clamp_angles(shape.angles, limits);
     templates.push_back(shape);
   }

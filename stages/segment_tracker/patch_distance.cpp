@@ -110,6 +110,7 @@ inline void add_distances(const Block& block, int n, std::int32_t bit, float cap
     counted += seen_weight;
     total += block.weight[i];
   }
+
   out.distance += distance;
   out.counted += counted;
   out.total += total;

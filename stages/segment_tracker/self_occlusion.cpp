@@ -77,11 +77,14 @@ void PredictedPatch::predict(const SegmentSurface& skin, const SE3& T, const Pix
     float* row_gap = gap_sq.data() + static_cast<std::size_t>(row) * columns;
     float* row_z = z.data() + static_cast<std::size_t>(row) * columns;
     const float v = v0 + centre + row * side;
+
+    // Compare each point with every cell of the row.
     for (const ImagePoint& p : points) {
       const float dv_sq = (v - p.v) * (v - p.v);
       for (int column = 0; column < columns; ++column) {
         const float du = u0 + centre + static_cast<float>(column) * side - p.u;
         const float d = du * du + dv_sq;
+
         const bool nearer = d < row_gap[column];
         row_gap[column] = nearer ? d : row_gap[column];
         row_z[column] = nearer ? p.z : row_z[column];

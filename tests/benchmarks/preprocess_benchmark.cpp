@@ -19,6 +19,8 @@ void masks(benchmark::State& state) {
   const World& w = world();
   const HandEstimates before = feedback(w);
   const SkinModel skin(w.preprocess.learning_rate, w.preprocess.learned_share);
+
+  // Create the units and buffers once, as the preprocessor does.
   CoarseGrid grid;
   HandLocator locator(w.preprocess, 1);
   DepthCleaner cleaner;
@@ -27,6 +29,8 @@ void masks(benchmark::State& state) {
   const Region region{o.u0, o.v0, o.depth.width(), o.depth.height()};
   Image<float> depth;
   Image<std::uint8_t> edge, mask;
+
+  // Run all steps up to the mask of the hand.
   for (auto _ : state) {
     sample_coarsely(*w.frame, w.preprocess, skin, grid);
     const std::span<const CoarseHand> hands = locator.find(grid, before, 0.03);

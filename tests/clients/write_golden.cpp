@@ -69,6 +69,8 @@ Landmarks in_mano_frame(Landmarks points, Handedness side) {
   Eigen::Vector3d normal = Eigen::JacobiSVD<Eigen::Matrix3d>(centred, Eigen::ComputeFullU).matrixU().col(2);
   Eigen::Vector3d x = points.col(0) - points.col(9);
   x = (x - x.dot(normal) * normal).normalized();
+
+  // Complete the axes, and let z point to the index finger.
   Eigen::Vector3d z = x.cross(normal);
   if (z.dot(centred.col(1) - centred.col(2)) < 0) {
     normal = -normal;
@@ -77,6 +79,7 @@ Landmarks in_mano_frame(Landmarks points, Handedness side) {
   Eigen::Matrix3d frame;
   frame << x, normal, z;
 
+  // Rotate to the axes of MANO, which differ between the hands.
   Eigen::Matrix3d operator2mano;
   if (side == Handedness::right)
     operator2mano << 0, 0, -1, -1, 0, 0, 0, 1, 0;
@@ -88,12 +91,16 @@ Landmarks in_mano_frame(Landmarks points, Handedness side) {
 void write_outlets(Table& table, const HandProfile& profile, const HandPose& pose, std::int64_t frame) {
   const auto joints = openxr_joints(profile, pose);
   const Eigen::Matrix3d to_xr = Eigen::Vector3d(1, -1, -1).asDiagonal();
+
+  // Write the joints in OpenXR's axes, which have y up and z backwards.
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Eigen::Vector3d p = to_xr * joints[i].T_camera_joint.t;
     Eigen::Quaterniond q(Eigen::Matrix3d(to_xr * joints[i].T_camera_joint.R));
     if (q.w() < 0) q.coeffs() *= -1;
     table.row(frame, "openxr26", i, {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), joints[i].radius});
   }
+
+  // Write the landmarks, the channels of the data glove and the joint angles.
   const Landmarks points = in_mano_frame(landmarks(joints), profile.handedness);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     table.row(frame, "mano21", static_cast<std::size_t>(i), {points(0, i), points(1, i), points(2, i)});
@@ -108,23 +115,29 @@ int write(const std::string& folder) {
     std::cerr << error.message() << "\n";
     return 1;
   };
+
+  // Open the outputs.
   auto log = LcmLogWriter::create(folder + "/states.lcmlog", true);
   if (!log) return failed(log.error());
   auto file = mcap::McapWriter::create(folder + "/hands.mcap", true);
   if (!file) return failed(file.error());
   Table table(folder + "/golden.csv");
   auto publisher = Publisher::create("", {log->get()}).value();
+
+  // Write five frames of both hands; in the last one the hands are lost.
   for (int frame = 0; frame < 5; ++frame) {
     ros::Scene scene;
     scene.utime = kStart + frame * kFrameInterval;
     scene.number = frame;
     for (const Handedness side : {Handedness::right, Handedness::left}) {
+      // Make an estimate of a bent and turned hand.
       const auto profile = test::adult_hand(side);
       const bool lost = frame == 4;
       HandEstimate estimate =
           estimate_of(*profile, bent(frame), scene.utime, lost ? TrackStatus::lost : TrackStatus::tracking);
       estimate.number = frame;
       estimate.hand_id = side == Handedness::right ? 1 : 2;
+
       const HandPose pose = test::turned(pose_of(estimate.segments), {0.7 * frame, -0.4, 1.1 * frame}, {0.1, 0, 0.5});
       for (int s = 0; s < kSegmentCount; ++s) estimate.segments[s].T_camera_segment = pose[s];
       if (lost) estimate.segments = {};

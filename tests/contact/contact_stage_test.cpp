@@ -37,7 +37,7 @@ class Contacts : public testing::Test {
     }
     return estimate;
   }
-  /// What the hand touches before a wall.
+  /// What the hand touches in front of a wall.
   HandContacts before(double wall, const std::shared_ptr<HandEstimate>& estimate) {
     auto observation = test::observe_skin(skin_, pose_, wall);
     for (std::size_t i = 0; i < observation->label.size(); ++i)

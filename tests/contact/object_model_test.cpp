@@ -40,7 +40,7 @@ class Model : public testing::Test {
     const auto there = moved(points, placed());
     model_.fuse(placed(), pointers(there), space);
   }
-  /// Space before a wall that fills the view.
+  /// Space in front of a wall that fills the view.
   static ObservedSpace before_wall(double z) {
     auto frame = std::make_shared<RgbdFrame>();
     frame->camera = {100, 100, 100, 100, 50, 50};

@@ -46,11 +46,14 @@ class FaultyDriver {
     auto egl = load_egl("libEGL.so.1");
     if (!egl) return egl;
     real_ = *egl;
+
+    // Count the calls that make a context current or release it.
     egl->MakeCurrent = [](EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context) {
       current_->meet();
       ++(context == EGL_NO_CONTEXT ? current_->released : current_->made_current);
       return real_.MakeCurrent(display, draw, read, context);
     };
+
     egl->ReleaseThread = [] {
       const EGLBoolean done = real_.ReleaseThread();
       const std::lock_guard lock(current_->mutex_);
@@ -58,6 +61,8 @@ class FaultyDriver {
       current_->thread_released_.notify_all();
       return done;
     };
+
+    // Replace the functions of OpenGL ES, too, which are looked up by name.
     egl->GetProcAddress = find;
     return egl;
   }

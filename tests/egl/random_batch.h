@@ -33,10 +33,14 @@ inline RandomBatch random_batch(std::uint64_t seed, int samples, int skin_points
   KeyedRandom random(seed, 1);
   Workers workers(1);
   RandomBatch world;
+
+  // Make a hand, and an image of random pixels.
   world.surface = std::make_shared<HandSurface>(make_cylinder_surface(capsule_profile(), skin_points));
   world.map =
       make_pixel_map(make_observation(small_camera(), [&](int, int) { return random_pixel(random); }), false, workers);
   for (std::int32_t& hidden : world.map.hidden) hidden = random.uniform() < 0.1 ? 0x5a5a : 0;
+
+  // Draw random poses of every segment.
   for (auto& poses : world.poses)
     for (int i = 0; i < samples; ++i) {
       Vector6d step;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWrap = 1, kRing = 4, kPinch = 12;
 
-/// Frames every 0.1 s: 2 s without a grasp, 2 s with a wrap, all stated rightly with 0.8.
+/// Frames every 0.1 s: 2 s without a grasp, 2 s with a wrap, all stated correctly with 0.8.
 GraspSequence sequence() {
   GraspSequence out;
   for (int frame = 0; frame < 40; ++frame) {

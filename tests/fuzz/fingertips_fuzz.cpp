@@ -8,6 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto labels = read_fingertip_labels(file.path());
   if (!labels) return 0;
   for (const FingertipLabel& label : *labels) CHECK(label.finger >= 0 && label.finger < kFingerCount);
+
+  // Evaluate the labels against a hand that is tracked in all of their frames.
   ResultTable hand;  // has a hand in every frame that has labels
   for (const FingertipLabel& label : *labels) {
     hand.frames.push_back({label.frame, 0, {}});

@@ -7,6 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile file(data, size);
   auto reader = LcmLogReader::open(file.path());
   if (!reader) return 0;
+
   std::int64_t bytes = reader->damaged_bytes();
   for (const LogEntry& entry : reader->entries()) {
     const auto message = reader->read(entry);
@@ -15,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   CHECK(bytes == static_cast<std::int64_t>(size));  // every byte belongs to an event or is counted as damaged
 
+  // Play the log as a source of frames until it ends.
   LcmLogOptions options;
   options.foreign = {500, 500, 3, 2};
   for (const char* channel : {"", "*"}) {

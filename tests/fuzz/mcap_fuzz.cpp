@@ -7,6 +7,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const fuzz::MemoryFile file(data, size);
+
+  // Every message can be read again.
   std::vector<mcap::Message> messages;
   auto reader =
       mcap::McapReader::open(file.path(), [&](const auto& message, const auto&, std::span<const std::uint8_t> bytes) {
@@ -33,6 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.foreign = {500, 500, 3, 2};
   auto source = McapSource::open(file.path(), options);
   if (!source) return 0;
+
+  // Every frame must be consistent in itself.
   while (true) {
     const SourceEvent event = (*source)->next({});
     if (std::holds_alternative<EndOfStream>(event)) return 0;

@@ -37,10 +37,14 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace barehand;
   const std::span bytes(data, size);
+
+  // A depth image must survive being encoded and decoded again.
   if (const auto depth = decode_depth_image(bytes)) {
     const auto again = decode_depth_image(encode_png(*depth).value()).value();
     CHECK(std::equal(again.data(), again.data() + again.size(), depth->data(), depth->data() + depth->size()));
   }
+
+  // So must a colour image.
   const auto stated = compressed_image_size(bytes);
   if (!stated) return 0;
   const auto colour = decode_image(bytes, *stated);

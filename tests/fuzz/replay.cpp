@@ -43,6 +43,8 @@ int main(int argc, char** argv) {
   if (argc != 2 || !fs::is_directory(argv[1])) return std::fprintf(stderr, "usage: %s CORPUS\n", argv[0]), 2;
   std::vector<fs::path> files(fs::directory_iterator(argv[1]), {});
   std::sort(files.begin(), files.end());
+
+  // Run every input, and random mutations of it.
   Random random(1);
   for (const fs::path& path : files) {
     std::printf("%s\n", path.c_str());  // after a crash, the last printed name is that of the input

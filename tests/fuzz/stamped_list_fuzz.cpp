@@ -34,6 +34,8 @@ std::string plain(const std::vector<barehand::StampedFile>& list) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const auto list = list_of(text);
+
+  // A byte order mark and carriage returns must not change the result.
   const bool marks = text.starts_with("\xef\xbb\xbf") || text.find('\r') != std::string::npos;
   const bool wide = text.size() > 1 && (text[0] == '\0' || text[1] == '\0' || text.starts_with("\xff\xfe") ||
                                         text.starts_with("\xfe\xff"));
@@ -46,6 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (!list) return 0;
 
+  // Check the entries.
   bool quotable = true;
   int line = 0;
   for (const auto& entry : *list) {
@@ -56,6 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     barehand::is_outside("/proc/self/fd", entry.file);
   }
   if (!quotable) return 0;
+
+  // The entries must give the same files if they are written to a list again.
   const auto again = list_of(plain(*list));
   CHECK(again && again->size() == list->size());
   for (std::size_t i = 0; i < list->size(); ++i) CHECK((*again)[i].file == (*list)[i].file);

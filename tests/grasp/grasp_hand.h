@@ -18,6 +18,8 @@ inline HandEstimate grasping_hand(const std::array<JointAngles, kSegmentCount>& 
   estimate.utime = 1'000'000;
   estimate.handedness = side;
   estimate.profile = std::make_shared<const HandProfile>(scaled(*adult_hand(side), size));
+
+  // Pose the segments, without uncertainty.
   const HandPose pose = forward_kinematics(*estimate.profile, palm, angles);
   for (int s = 0; s < kSegmentCount; ++s) {
     estimate.segments[s].T_camera_segment = pose[s];

@@ -50,6 +50,8 @@ inline ReadVideo read_video(const std::string& path) {
   if (avformat_open_input(&file, ("file:" + path).c_str(), nullptr, nullptr) < 0) return video;
   avformat_find_stream_info(file, nullptr);
   EXPECT_EQ(file->nb_streams, 1);
+
+  // Read what the file says about the video.
   const AVCodecParameters& stream = *file->streams[0]->codecpar;
   const AVCodec* codec = avcodec_find_decoder(stream.codec_id);
   video.codec = codec->name;
@@ -67,6 +69,8 @@ inline ReadVideo read_video(const std::string& path) {
     av_packet_unref(packet);
     while (avcodec_receive_frame(decoder, frame) >= 0) video.pictures.push_back(to_rgb(*frame));
   }
+
+  // Release the decoder and the file.
   av_frame_free(&frame);
   av_packet_free(&packet);
   avcodec_free_context(&decoder);

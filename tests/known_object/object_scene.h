@@ -6,7 +6,7 @@
 
 namespace barehand::test {
 
-/// An ideal camera that sees one object before a wall; a hand may cover part of the image.
+/// An ideal camera that sees one object in front of a wall; a hand may cover part of the image.
 struct ObjectScene {
   static constexpr double kWall = 0.9;  // distance of the wall [m]
   Intrinsics camera{200, 150, 330, 330, 99.5, 74.5};
@@ -34,6 +34,8 @@ struct ObjectScene {
     frame->camera = camera;
     frame->depth_unit = 1e-4;
     frame->depth.reset(camera.width, camera.height, 0);
+
+    // Cover the right part of the image by a hand; elsewhere the object and the wall are seen.
     auto seen = std::make_shared<HandObservation>();
     seen->hand_present = true;
     seen->depth.reset(camera.width, camera.height);
@@ -46,6 +48,7 @@ struct ObjectScene {
         if (hand || z > 0) seen->label.at(u, v) = hand ? PixelLabel::hand : PixelLabel::object;
         frame->depth.at(u, v) = static_cast<std::uint16_t>(seen->depth.at(u, v) / frame->depth_unit);
       }
+
     seen->frame = frame;
     return seen;
   }

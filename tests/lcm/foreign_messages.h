@@ -18,9 +18,13 @@ inline kinect::frame_msg_t kinect_message(const RgbdFrame& frame, bool zipped) {
   m.timestamp = frame.utime;
   m.image.width = m.depth.width = static_cast<std::int16_t>(frame.camera.width);
   m.image.height = m.depth.height = static_cast<std::int16_t>(frame.camera.height);
+
+  // Add the colour image.
   m.image.image_data = raw_colour_bytes(frame);
   m.image.image_data_nbytes = static_cast<std::int32_t>(m.image.image_data.size());
   m.image.image_data_format = kinect::image_msg_t::VIDEO_RGB;
+
+  // Add the depth image.
   m.depth.depth_data = encode_depth(frame.depth, zipped ? DepthEncoding::zlib : DepthEncoding::raw16);
   m.depth.depth_data_nbytes = static_cast<std::int32_t>(m.depth.depth_data.size());
   m.depth.depth_data_format = kinect::depth_msg_t::DEPTH_MM;
@@ -37,6 +41,8 @@ inline bot_core::images_t images_message(const RgbdFrame& frame, bool zipped) {
   m.n_images = 2;
   m.image_types = {images_t::LEFT, zipped ? images_t::DEPTH_MM_ZIPPED : images_t::DEPTH_MM};
   m.images.resize(2);
+
+  // Describe both images.
   for (bot_core::image_t& image : m.images) {
     image.utime = frame.utime;
     image.width = frame.camera.width;
@@ -45,6 +51,8 @@ inline bot_core::images_t images_message(const RgbdFrame& frame, bool zipped) {
     image.metadata.resize(1);
     image.metadata[0] = {"exposure", 2, {7, 8}};
   }
+
+  // Add their pixels.
   m.images[0].pixelformat = bot_core::image_t::PIXEL_FORMAT_RGB;
   m.images[0].row_stride = 3 * frame.camera.width;
   m.images[0].data = raw_colour_bytes(frame);

@@ -47,11 +47,14 @@ rgbd_frame_t rgbd_frame() {
   m.sensor = "left camera";
   m.width = 3;
   m.height = 2;
+
+  // Every number differs, so that exchanged fields are noticed.
   m.fx = 525.5;
   m.fy = 524.25;
   m.cx = 1.5;
   m.cy = 0.75;
   m.depth_unit = 0.0001;
+
   m.depth_encoding = rgbd_frame_t::DEPTH_RAW16;
   m.depth = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   m.depth_size = static_cast<std::int32_t>(m.depth.size());
@@ -68,6 +71,8 @@ hand_state_t hand_state() {
   m.pose_utime = kTime - 33'333;
   m.score = 0.0015;
   m.joint_gap = 0.002;
+
+  // Give every number of the segments another value.
   Counter counter;
   for (segment_state_t& s : m.segments) {
     counter.fill(s.position);
@@ -75,6 +80,7 @@ hand_state_t hand_state() {
     counter.fill(s.distal);
     counter.fill(s.smoothed_position);
     counter.fill(s.smoothed_orientation);
+
     counter.fill(s.smoothed_distal);
     counter.fill(s.linear_velocity);
     counter.fill(s.angular_velocity);
@@ -136,6 +142,7 @@ contact_state_t contact_state() {
       c.inferred = (&c - *contacts) % 2 == 0;
       counter.fill(c.probability);
       counter.fill(c.distance);
+
       counter.fill(c.deviation);
       counter.fill(c.point);
       counter.fill(c.normal);
@@ -153,6 +160,8 @@ object_state_t object_state() {
   m.frame_number = 17;
   m.sensor = "left camera";
   Counter counter;
+
+  // Give every number another value.
   counter.fill(m.object_id);
   counter.fill(m.position);
   counter.fill(m.orientation);
@@ -171,6 +180,8 @@ health_t health() {
   Counter counter;
   m.utime = kTime;
   m.source = "folder:/data/fist";
+
+  // Give every number another value.
   counter.fill(m.captured);
   counter.fill(m.published);
   counter.fill(m.dropped);
@@ -182,6 +193,8 @@ health_t health() {
   counter.fill(m.latency_p95);
   counter.fill(m.latency_p99);
   counter.fill(m.latency_max);
+
+  // Add two stages and a queue.
   m.stages = {{"preprocess", 30, 0.001, 0.002, 0.003, 0.004, 0.005, 6},
               {"fusion", 29, 0.011, 0.012, 0.013, 0.014, 0.015, 7}};
   m.n_stages = static_cast<std::int32_t>(m.stages.size());

@@ -15,6 +15,8 @@ inline RgbdFrame test_frame(std::int64_t number, int width = 40, int height = 30
   frame.sensor = "test";
   frame.camera = {width, height, 50.5, 51.25, 19.5, 14.5};
   frame.depth_unit = 0.0001;
+
+  // Fill the images at random; some pixels have no depth or no colour.
   frame.depth = Image<std::uint16_t>(width, height);
   frame.colour = Image<Rgb>(width, height);
   KeyedRandom random(1, static_cast<std::uint32_t>(number));

@@ -51,6 +51,8 @@ class ForeignMcap {
     writer_.put_text(encoding == "cdr" ? "ros2msg" : encoding);
     writer_.put_text("");
     writer_.end();
+
+    // Write the channel, which names its schema.
     writer_.begin(mcap::Kind::channel);
     writer_.put(id);
     writer_.put(id);

@@ -74,6 +74,8 @@ inline HandEstimate painted_hand_estimate(double x, double y, double z, std::int
   estimate.number = number;
   estimate.utime = 1'000'000 + number * 33'333;
   estimate.status = TrackStatus::tracking;
+
+  // Place a segment relative to the wrist.
   Eigen::Matrix3d up;  // -z of the segment = up in the image = -y of the camera
   up << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   const auto place = [&](int segment, double dx, double dy, double length, double radius, const Eigen::Matrix3d& R) {
@@ -82,10 +84,13 @@ inline HandEstimate painted_hand_estimate(double x, double y, double z, std::int
     profile->segments[segment].length = length;
     profile->segments[segment].radius = {radius, radius};
   };
+
+  // Place the palm, the fingers upwards and the thumb to the side.
   place(kPalm, 0, 0, 0.09, 0.02, up);
   for (int finger = 1; finger < kFingerCount; ++finger)
     for (int k = 0; k < 3; ++k)
       place(segment_of(finger, k), 0.0315 - 0.021 * (finger - 1), -0.09 - 0.03 * k, k == 2 ? 0.022 : 0.03, 0.008, up);
+
   Eigen::Matrix3d right;  // -z of the segment = +x of the camera
   right << 0, 0, -1, 0, 1, 0, 1, 0, 0;
   for (int k = 0; k < 3; ++k) place(segment_of(0, k), 0.02 + 0.02 * k, -0.045, 0.02, 0.01, right);

@@ -27,6 +27,8 @@ inline HandEstimate estimate_of(const HandProfile& profile, const Angles& angles
   estimate.score = 0.001;
   estimate.joint_gap = 0.002;
   estimate.profile = std::make_shared<HandProfile>(profile);
+
+  // Give every segment a motion and an uncertainty; the tip of the little finger is not seen.
   const HandPose pose = forward_kinematics(profile, somewhere(), angles);
   for (int s = 0; s < kSegmentCount; ++s) {
     SegmentState& segment = estimate.segments[s];

@@ -15,6 +15,8 @@ inline std::shared_ptr<RgbdFrame> paint_frame(const Skin& skin, const HandPose& 
   frame->depth_unit = 1e-4;
   frame->depth.reset(camera.width, camera.height, static_cast<std::uint16_t>(kWall / frame->depth_unit));
   frame->colour.reset(camera.width, camera.height, Rgb{120, 120, 120});
+
+  // Paint the skin in front of the wall.
   RenderedHand rendered;
   render_hand(skin, pose, camera, {0, 0, 1, camera.width, camera.height}, rendered);
   for (std::size_t i = 0; i < rendered.depth.size(); ++i) {

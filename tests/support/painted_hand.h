@@ -21,9 +21,9 @@ inline Image<std::int32_t> nearest_in(const Image<std::int32_t>& marked) {
   return result;
 }
 
-/// The observation of an ideal camera that sees a posed skin before a wall at `wall` [m]; the whole image is the region
-/// of interest. Use it for unit tests of single stages only: accuracy is measured on hands that the tracker does not
-/// know.
+/// The observation of an ideal camera that sees a posed skin in front of a wall at `wall` [m]; the whole image is the
+/// region of interest. Use it for unit tests of single stages only: accuracy is measured on hands that the tracker does
+/// not know.
 inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const HandPose& pose, double wall = 1.2) {
   // Render the skin.
   const Intrinsics camera = small_camera();
@@ -39,6 +39,7 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
   observation->depth.reset(camera.width, camera.height, static_cast<float>(wall));
   observation->label.reset(camera.width, camera.height, PixelLabel::background);
   observation->normal.reset(camera.width, camera.height, Eigen::Vector3f::Zero());
+
   for (std::size_t i = 0; i < rendered.vertex.size(); ++i) {
     if (rendered.vertex[i] < 0) continue;
     observation->depth[i] = rendered.depth[i];
@@ -46,6 +47,8 @@ inline std::shared_ptr<HandObservation> observe_skin(const Skin& skin, const Han
     observation->normal[i] = rendered.normal[rendered.vertex[i]];
     observation->hand_pixels.push_back(static_cast<std::int32_t>(i));
   }
+
+  // Add the distance transform and a thinned point cloud.
   observation->nearest_hand = nearest_in(rendered.vertex);
   for (std::size_t i = 0; i < observation->hand_pixels.size(); i += 7)
     observation->cloud.push_back(observation->point(observation->hand_pixels[i]));

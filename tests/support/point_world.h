@@ -14,8 +14,8 @@ namespace barehand::test {
 /// A small camera. At 0.4 m, where the hands are, a pixel is 1.7 mm wide.
 inline Intrinsics small_camera() { return {320, 240, 240, 240, 159.5, 119.5}; }
 
-/// A hand that is drawn by dense points of its skin before a wall at 0.9 m. Every pixel is labelled without error. The
-/// hand comes out of a sleeve, which counts as background.
+/// A hand that is drawn by dense points of its skin in front of a wall at 0.9 m. Every pixel is labelled without error.
+/// The hand comes out of a sleeve, which counts as background.
 class PointWorld {
  public:
   enum class Arm { none, sleeve };

@@ -46,6 +46,8 @@ inline HandObservation make_observation(const Intrinsics& camera, const std::fun
   o.depth.reset(camera.width, camera.height);
   o.label.reset(camera.width, camera.height, PixelLabel::background);
   o.nearest_hand.reset(camera.width, camera.height, -1);
+
+  // Ask the scene for every pixel.
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const ScenePixel pixel = scene(u, v);
@@ -53,6 +55,8 @@ inline HandObservation make_observation(const Intrinsics& camera, const std::fun
       o.label.at(u, v) = pixel.label;
       if (pixel.label == PixelLabel::hand) o.hand_pixels.push_back(static_cast<std::int32_t>(o.depth.index(u, v)));
     }
+
+  // Compute the distance transform.
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) o.nearest_hand.at(u, v) = nearest_in(o.label, u, v);
   o.hand_present = !o.hand_pixels.empty();

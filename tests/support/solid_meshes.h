@@ -39,6 +39,8 @@ inline ObjectMesh ball_mesh(float radius) {
   constexpr int kRings = 32, kSides = 48;
   ObjectMesh mesh{"ball", {}, {}};
   const auto at = [](int ring, int side) { return static_cast<std::uint32_t>(ring * kSides + side % kSides); };
+
+  // Place the vertices on rings from pole to pole.
   for (int ring = 0; ring <= kRings; ++ring)
     for (int side = 0; side < kSides; ++side) {
       const double polar = std::numbers::pi * ring / kRings, around = 2 * std::numbers::pi * side / kSides;
@@ -46,6 +48,8 @@ inline ObjectMesh ball_mesh(float radius) {
                                                        std::sin(polar) * std::sin(around), std::cos(polar))
                                            .cast<float>());
     }
+
+  // Join neighbouring rings by triangles.
   for (int ring = 0; ring < kRings; ++ring)
     for (int side = 0; side < kSides; ++side) {
       mesh.triangles.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});

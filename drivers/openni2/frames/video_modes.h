@@ -12,7 +12,7 @@ namespace barehand {
 /// there is no known format.
 std::optional<openni::VideoMode> choose_depth_mode(const openni::SensorInfo& sensor, const OpenNiParams& wanted);
 
-/// A colour mode of exactly the depth image's size with the rate nearest to that of depth; none if there is none.
+/// A colour mode of exactly the depth image's size with the rate nearest to that of depth; none if no mode fits.
 std::optional<openni::VideoMode> choose_colour_mode(const openni::SensorInfo& sensor, const openni::VideoMode& depth);
 
 /// The depth unit of a format [m]; 0 if it is not a depth format.

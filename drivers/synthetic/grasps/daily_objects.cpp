@@ -213,7 +213,7 @@ const std::vector<Entry>& entries() {
       {"hammer", false, hammer},
       {"knife", true, knife},
 
-      // Pens and the like.
+      // Pens and similar objects.
       {"pen", false, pen(0.010, 0.14, {{30, 40, 120}, 0.2})},
       {"pencil", true, pen(0.0078, 0.17, {{210, 170, 40}, 0.1})},
       {"spoon", true, spoon},

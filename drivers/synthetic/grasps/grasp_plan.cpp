@@ -64,7 +64,7 @@ HandAngles varied(const HandAngles& angles, KeyedRandom& random, double size) {
   return sum(angles, offsets, 1);
 }
 
-/// Turns that leave a hold as it is: around the axis of a rod, or any of a ball.
+/// Rotations that do not change a hold: around the axis of a rod, or any rotation of a ball.
 Eigen::Matrix3d spin(const Hold& hold, KeyedRandom& random) {
   const double a = random.uniform(0, 2 * std::numbers::pi), b = random.uniform(-1, 1), c = random.uniform(-3, 3);
   if (hold.kind == HoldKind::slab) return Eigen::Matrix3d::Identity();
@@ -143,14 +143,14 @@ Vector3d way_out(const GraspPlanner& planner, const PlannedGrasp& plan, const Si
     }
 
     // Keep the direction if it is clearly better.
-    if (least <= most + 0.001) continue;  // of equal ones, the first
+    if (least <= most + 0.001) continue;  // keeps the first of equally good ones
     most = least;
     best = direction.normalized();
   }
   return best;
 }
 
-/// What is wrong with a grasp [m]: skin inside the object, and fingers that should touch it and do not.
+/// How bad a grasp is [m]: depth of skin inside the object, and distance of fingers that should touch it but do not.
 double faults(const GraspPlanner& planner, const GraspRecipe& recipe, const PlannedGrasp& plan,
               const SignedDistance& object) {
   // Skin may be pressed in a little.
@@ -161,7 +161,7 @@ double faults(const GraspPlanner& planner, const GraspRecipe& recipe, const Plan
   double sum = 0;
   for (const double distance : gap) sum += std::max(0.0, -distance - kSoft);
 
-  // Of palm opposition the four fingers should touch; otherwise those of the touches.
+  // In palm opposition the four fingers should touch; otherwise the fingers of the touches.
   std::array<bool, kFingerCount> touches{};
   for (int finger = 1; finger < kFingerCount; ++finger) touches[finger] = recipe.first.empty();
   for (const auto* list : {&recipe.first, &recipe.second})
@@ -176,7 +176,7 @@ double faults(const GraspPlanner& planner, const GraspRecipe& recipe, const Plan
   return sum;
 }
 
-/// Palm opposition: pushes the object against the palm, then closes the hand.
+/// For palm opposition: pushes the object against the palm, then closes the hand.
 void hold_against_palm(const GraspPlanner& planner, const GraspRecipe& recipe, const SE3& T_hold_object,
                        const SignedDistance& distance, KeyedRandom& random, PlannedGrasp& plan) {
   SE3 T_palm_hold;
@@ -189,14 +189,14 @@ void hold_against_palm(const GraspPlanner& planner, const GraspRecipe& recipe, c
   plan.held = planner.close(plan.open, varied(recipe.closed, random, 4 * kDegree), plan.T_palm_object, distance);
 }
 
-/// Other oppositions: finds the hand around the hold, opens it, and closes it until it touches.
+/// For the other oppositions: finds the hand around the hold, opens it, and closes it until it touches.
 void hold_opposed(const HandRig& rig, const GraspPlanner& planner, const GraspRecipe& recipe, const Hold& hold,
                   const SE3& T_hold_object, const SignedDistance& distance, KeyedRandom& random, PlannedGrasp& plan) {
   const OpposedGrasp grasp = Opposition(rig, recipe, hold).solve(varied(recipe.comfortable, random, 6 * kDegree));
   plan.T_palm_object = grasp.T_palm_hold * T_hold_object;
   HandAngles angles = grasp.angles;
   const double inward =
-      recipe.second.size() > kFingerCount ? 0.03 : 0;  // to flat fingers, so that the thumb reaches it
+      recipe.second.size() > kFingerCount ? 0.03 : 0;  // towards flat fingers, so that the thumb reaches the slab
   if (hold.kind == HoldKind::slab) slide_out(planner, grasp, distance, inward, plan.T_palm_object);
   clear_the_way(planner, plan.T_palm_object, distance, recipe.opening, angles);
   plan.open = sum(angles, recipe.opening, 1);

@@ -10,7 +10,7 @@ namespace barehand::synthetic {
 struct PlannedGrasp {
   DailyObject object;
   SE3 T_palm_object;
-  HandAngles open, held;                                  ///< before and while the object is held
+  HandAngles open, held;                                  ///< angles before the object is held, and while it is held
   Eigen::Vector3d withdrawal = Eigen::Vector3d::UnitZ();  ///< direction in which the open hand leaves (palm frame)
 };
 

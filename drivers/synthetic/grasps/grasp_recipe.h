@@ -26,18 +26,19 @@ struct Fit {
 /// back of the hand, -z towards the fingers.
 struct GraspRecipe {
   std::vector<Fit> fits;
-  HandAngles comfortable;  ///< the hand as it would like to be; of palm opposition: as it comes to the object
-  Eigen::Vector3d along = -Eigen::Vector3d::UnitX();  ///< direction of the hold's x axis, as far as it is free
+  HandAngles comfortable;  ///< relaxed hand, near which the grasp is searched; for palm opposition: as it approaches
+                           ///< the object
+  Eigen::Vector3d along = -Eigen::Vector3d::UnitX();  ///< preferred direction of the hold's x axis
 
-  // Of palm opposition.
-  Eigen::Vector3d at_palm = Eigen::Vector3d::Zero();  ///< where the object comes from
+  // For palm opposition.
+  Eigen::Vector3d at_palm = Eigen::Vector3d::Zero();  ///< position from which the object approaches the palm
   HandAngles closed;                                  ///< the hand closed as far as possible
 
-  // Of the other oppositions.
+  // For the other oppositions.
   std::vector<Touch> first, second;                ///< opposing places; both empty: the palm opposes the fingers
   std::optional<Touch> rest;                       ///< where a rod leans against the hand, which replaces `along`
   HandAngles opening;                              ///< added to the angles to open the hand
-  double least_abduction = 0, most_abduction = 0;  ///< of the thumb [rad]
+  double least_abduction = 0, most_abduction = 0;  ///< range of the thumb's abduction [rad]
 };
 
 /// The recipe of every class of grasp_types(), in the same order.

@@ -6,7 +6,7 @@
 
 namespace barehand::synthetic {
 
-/// What a part of an object looks like to the fingers that hold it.
+/// The shape of the part of an object by which fingers hold it.
 enum class HoldKind {
   rod,   ///< round, held across its axis x
   slab,  ///< two parallel faces, held across y
@@ -19,7 +19,7 @@ struct Hold {
   HoldKind kind = HoldKind::ball;
   SE3 T_object_hold;
   double width = 0;   ///< extent along y [m]
-  double length = 0;  ///< of a rod or slab: largest extent across y [m]
+  double length = 0;  ///< for a rod or slab: largest extent across y [m]
 };
 
 }  // namespace barehand::synthetic

@@ -90,7 +90,7 @@ SE3 Opposition::hold_of(const HandPose& pose) const {
   }
   y.normalize();
 
-  // A rod that leans against the hand leads there.
+  // A rod that leans against the hand points to the place where it leans.
   Vector3d along = on_row ? Vector3d(to_palm - to_palm.dot(row) / row.squaredNorm() * row) : along_;
   if (rest_) {
     const SE3& T = pose[rest_->segment];
@@ -137,7 +137,7 @@ double Opposition::cost(const HandAngles& angles, const HandAngles& comfortable)
     sum += 2 * off_mm * off_mm;
   }
 
-  // The hand should be comfortable.
+  // The hand should be near the comfortable one.
   for (int finger = 0; finger < kFingerCount; ++finger)
     for (int i = 0; i < 4; ++i) {
       const double strain =

@@ -35,7 +35,7 @@ class Opposition {
   Eigen::Vector3d along_;
   HoldKind kind_;
   double radius_;
-  double least_abduction_, most_abduction_;  // of the thumb
+  double least_abduction_, most_abduction_;  // range of the thumb's abduction [rad]
   std::vector<SkinPlace> touches_;           // the first ones, then the second ones
   std::size_t first_count_;
   std::optional<SkinPlace> rest_;

@@ -23,8 +23,8 @@ struct CameraKey {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
 
-/// A scene before a camera that may move: objects that stand still, bodies that move and, optionally, the right hand of
-/// the first body.
+/// A scene in front of a camera that may move: objects that stand still, bodies that move and, optionally, the right
+/// hand of the first body.
 class StagedSequence : public Sequence {
  public:
   struct Setting {

@@ -49,10 +49,10 @@ SE3 GraspPlanner::place_at_palm(const SE3& T_palm_object, const Eigen::Vector3d&
 HandAngles GraspPlanner::close(const HandAngles& open, const HandAngles& closed, const SE3& T_palm_object,
                                const SignedDistance& object_distance) const {
   HandAngles angles = open;
-  std::array<int, kFingerCount> first_free{};  // of each finger; the joints before this one have stopped
+  std::array<int, kFingerCount> first_free{};  // first joint of each finger that still moves
   const SE3 T_object_palm = T_palm_object.inverse();
   std::vector<Eigen::Vector3f> skin, before;
-  std::vector<double> margin;  // of every vertex: it can come nearer by this before it touches; a lower bound
+  std::vector<double> margin;  // for every vertex: a lower bound of the distance that it can move before it touches
   for (int step = 1; step <= kSteps; ++step) {
     // Close all free joints by one step.
     for (int finger = 0; finger < kFingerCount; ++finger)

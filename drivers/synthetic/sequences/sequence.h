@@ -35,7 +35,7 @@ struct HandState {
 
 /// The state of the whole scene at one time, in the camera frame.
 struct SceneState {
-  std::vector<HandState> hands;      ///< as many as SequenceInfo states; of two hands the right one comes first
+  std::vector<HandState> hands;      ///< as many as SequenceInfo says; if there are two, the right one comes first
   std::vector<SE3> T_camera_object;  ///< one for each object of the sequence
   bool held = false;                 ///< the grasped object moves with the hand
 };
@@ -67,7 +67,7 @@ const std::vector<SequenceInfo>& sequence_list();
 /// The description of a sequence. Error: there is no such sequence; the message names those that exist.
 Result<SequenceInfo> sequence_info(const std::string& name);
 
-/// What the sequence `grasp` shows, by name; what is empty is drawn by the seed.
+/// What the sequence `grasp` shows, by name; an empty name is drawn by the seed.
 struct GraspChoice {
   std::string object, type;
 };

@@ -119,6 +119,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   reset_peak_memory();
   MemorySource source(store, {conditions.warm_up + conditions.frames, conditions.rate}, clock);
   MeasuringSink measure(conditions, store.bytes(), clock);
+
   std::unique_ptr<Pipeline> pipeline;
   auto publish = BusSink::create(
       bench.config.publish, prefix, *bus,

@@ -63,12 +63,16 @@ Result<void> write_bench_json(const BenchReport& report, const std::string& path
                {"processor", report.processor},
                {"cores", report.cores},
                {"hands", report.hands},
+
+               // Write the conditions of the measurement.
                {"frames", c.frames},
                {"warm_up", c.warm_up},
                {"rate", c.rate ? Json(*c.rate) : Json(nullptr)},
                {"inline", c.inline_stages},
                {"cases", Json::array()},
                {"observers", Json::array()}};
+
+  // Write the measured cases.
   for (const BenchRow& row : report.rows) json["cases"].push_back(to_json(row));
   for (const ObserverRow& row : report.observers) json["observers"].push_back(to_json(row));
   return json_fields::write_json(path, json);

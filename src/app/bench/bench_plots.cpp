@@ -94,7 +94,7 @@ Result<void> draw(const Json& report, const std::string& directory) {
     if (auto done = write_chart(sweep_chart(parameter, rows), directory + "/" + parameter + ".png"); !done) return done;
   }
 
-  // Draw the charts of the unchanged configurations.
+  // Draw the charts of the configurations in which no parameter was varied.
   if (by_sweep[""].empty()) return {};
   return write_chart(stages_chart(by_sweep[""]), directory + "/stages.png").and_then([&] {
     return write_chart(memory_chart(by_sweep[""], report.at("frames")), directory + "/memory.png");

@@ -12,7 +12,7 @@ namespace barehand {
 
 /// One measured case with its conditions, as it is written to a file and drawn.
 struct BenchRow {
-  std::string sweep;  ///< parameter that is varied; "": the configuration as it is
+  std::string sweep;  ///< parameter that is varied; "": none
   double value = 0;
   std::string config;
   int threads = 1;

@@ -91,6 +91,8 @@ Result<void> check_written(const BenchOptions& options) {
   const std::string folder = options.plots.empty() ? "." : options.plots;
   std::vector<std::string> plots = {"stages", "memory"};
   for (const std::string& sweep : options.sweeps) plots.push_back(sweep.substr(0, sweep.find('=')));
+
+  // Compare them, and the file of figures, with the files that are read.
   std::vector<Output> outputs{{"--json", options.draw.empty() ? options.json : ""}};
   for (const std::string& plot : plots)
     if (draws) outputs.push_back({"--plots", folder + "/" + plot + ".png"});
@@ -161,6 +163,8 @@ int run_bench(const BenchOptions& options) {
   report.cores = available_cores();
   report.hands = static_cast<int>(input->hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
+
+  // The table goes to the standard output, unless the figures do.
   std::ostream& told = is_standard_output(options.json) ? std::cerr : std::cout;
   auto done = measure_all(*cases, *input, options, report, told);
   if (done) measure_observers(*cases, report, told);

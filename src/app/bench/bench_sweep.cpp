@@ -63,6 +63,8 @@ Result<std::vector<BenchCase>> parse_sweep(const std::string& text, const BenchC
   for (std::string value; std::getline(values, value, ',');) {
     const auto parsed = number(value, *parameter);
     if (!parsed) return tl::unexpected(parsed.error());
+
+    // Change this parameter alone.
     cases.push_back(base);
     parameter->of(cases.back()) = *parsed;
     cases.back().sweep = name;

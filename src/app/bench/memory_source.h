@@ -23,7 +23,7 @@ FrameStore decimated(const FrameStore& store, int factor);
 
 /// Plays stored frames alternately forwards and backwards, so that the motion never jumps, until `count` frames were
 /// delivered. Without a rate it is a replay and delivers the stored frames themselves. With a rate it is live, like a
-/// sensor: it delivers copies at that rate, with capture times of the present.
+/// sensor: it delivers copies at that rate, with the present time as capture time.
 class MemorySource : public FrameSource {
  public:
   struct Options {

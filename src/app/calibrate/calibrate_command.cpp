@@ -146,17 +146,20 @@ Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSi
 /// Makes a profile from the frames of the run, saves it, and reports the result. Returns the exit code.
 int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, const HandProfile& start,
              const ScanSink::Scan& scan, const TrackOutcome& tracked) {
-  // Report it if no hand was tracked, so that there is nothing to measure.
+  // Show on the page what was scanned.
   ViewState state;
   state.source = o.track.source;
   state.T_world_camera = world_from(config.world).value_or(std::nullopt);
   state.scan = view_scan(kHowTo, scan.report, start, start);
   ScanPage page(tracked.page ? &tracked.page->server() : nullptr, std::move(state));
+
+  // Report it if no hand was tracked, so that there is nothing to measure.
   if (!scan.profile) {
     page.done("No hand was tracked, so nothing is saved.", nullptr);
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
-    return failed("calibrate", {"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
-                kExitFailure);
+    return failed("calibrate",
+                  {"no hand was tracked, nothing to save", o.track.source, "hold the open hand before the sensor"},
+                  kExitFailure);
   }
 
   const auto result = measure(out, o, scan, config.tracker.skin_cell, page);
@@ -184,7 +187,8 @@ int run(const CalibrateOptions& o) {
   if (!hands) return failed("calibrate", hands.error(), kExitUsage);
   if (hands->size() != 1)
     return failed("calibrate", {"names two hands", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
-  if (const auto possible = check_profile_path(o.out); !possible) return failed("calibrate", possible.error(), kExitUsage);
+  if (const auto possible = check_profile_path(o.out); !possible)
+    return failed("calibrate", possible.error(), kExitUsage);
 
   // Track, and collect what the user shows.
   const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;
@@ -197,6 +201,8 @@ int run(const CalibrateOptions& o) {
   track_options.hands = {o.hand};
   track_options.saved_later = o.out;
   std::cerr << kHowTo << std::endl;
+
+  // Let the page show what has been measured so far.
   const HandProfile& start = *hands->front().profile;
   const auto shown = [&] { return view_scan(kHowTo, scan.report, start, scan.profile ? *scan.profile : start); };
   const auto tracked = track(track_options, *config, {}, std::move(sinks), shown);

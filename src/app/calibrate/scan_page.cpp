@@ -11,6 +11,8 @@ ViewScan view_scan(const std::string& how_to, const ScanReport& report, const Ha
   scan.frames = report.frames();
   scan.enough_frames = ScanReport::kEnoughFrames;
   scan.enough_bending = ScanReport::kEnoughBending;
+
+  // Add what was seen of each segment.
   for (int s = 0; s < kSegmentCount; ++s) {
     const ScannedSegment& seen = report.segment(s);
     scan.segments.push_back({std::string(kSegmentNames[s]), seen.palm_side, seen.back_side,

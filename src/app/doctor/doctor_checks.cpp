@@ -114,6 +114,8 @@ Finding check_multicast_route(const std::string& lcm_url, const std::string& rou
   std::ifstream routes(route_file);
   std::string line;
   std::getline(routes, line);  // skips the column names
+
+  // Read one route after the other; the columns between gateway and mask are not needed.
   while (std::getline(routes, line)) {
     std::string interface;
     std::uint32_t destination = 0, gateway = 0, mask = 0;
@@ -149,6 +151,8 @@ Finding check_graphics(const std::string& egl_library) {
   if (!trial)
     return {Level::warning, subject, name + ": " + trial.error().message() + "; samples are compared on the CPU",
             trial.error().remedy};
+
+  // State what follows for `observer: auto`.
   const std::string times = "; " + std::to_string(trial->samples) + " samples: " + to_text(trial->times);
   if (device.software)
     return {Level::note, subject, name + ": software, not a GPU; observer: auto uses the CPU" + times, ""};

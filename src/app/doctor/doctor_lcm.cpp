@@ -46,6 +46,8 @@ Finding check_lcm(const std::string& lcm_url) {
   if (!opened)
     return {Finding::Level::problem, subject, opened.error().where + ": " + opened.error().what, opened.error().remedy};
   const std::shared_ptr<LcmBus> bus = std::move(*opened);
+
+  // Listen on a channel that no other process uses.
   const std::string channel = "BAREHAND_DOCTOR_" + std::to_string(getpid());
   Mailbox mailbox;
   const LcmListener listener(bus, channel, [&](const std::string&, WireBytes message) {
@@ -61,6 +63,8 @@ Finding check_lcm(const std::string& lcm_url) {
       return {Finding::Level::problem, subject, ok.error().message(), ok.error().remedy};
     received = mailbox.wait_for(++sent);
   }
+
+  // Judge LCM by the number of messages that came back.
   const std::string text = std::to_string(received) + " of " + std::to_string(sent) +
                            " messages of a depth image's size came back over " + bus->url();
   if (received == sent) return {Finding::Level::ok, subject, text, ""};

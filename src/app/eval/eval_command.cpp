@@ -30,9 +30,12 @@ struct EvalOptions {
 };
 
 Result<void> check(const EvalOptions& o) {
+  // Require a result, and a reference with which it is compared.
   if (o.results.empty() && o.states.empty()) return fail("no result is given", "eval", "give --result or --states");
   if (o.truths.empty() && o.fingertips.empty() && o.grasps.empty())
     return fail("no reference is given", "eval", "give --truth, --grasps, or --fingertips with --recording and --hand");
+
+  // Require that files which belong together are given equally often.
   if (!o.results.empty() && o.truths.size() > 1 && o.truths.size() != o.results.size())
     return fail("--truth is given " + std::to_string(o.truths.size()) + " times for " +
                     std::to_string(o.results.size()) + " results",
@@ -42,6 +45,8 @@ Result<void> check(const EvalOptions& o) {
     return fail("--states is given " + std::to_string(o.states.size()) + " times for " +
                     std::to_string(o.truths.size()) + " truths",
                 "eval", "give a log of hand states for each --truth");
+
+  // Each table of contacts, grasps or objects belongs to one log of states.
   if (!o.contacts.empty() && o.contacts.size() != o.states.size())
     return fail("--contacts is given " + std::to_string(o.contacts.size()) + " times for " +
                     std::to_string(o.states.size()) + " logs of states",
@@ -50,10 +55,13 @@ Result<void> check(const EvalOptions& o) {
     return fail("--grasps is given " + std::to_string(o.grasps.size()) + " times for " +
                     std::to_string(o.states.size()) + " logs of states",
                 "eval", "give a table of grasps for each --states");
+
   if (!o.objects.empty() && o.objects.size() != o.states.size())
     return fail("--objects is given " + std::to_string(o.objects.size()) + " times for " +
                     std::to_string(o.states.size()) + " logs of states",
                 "eval", "give a table of object poses for each --states");
+
+  // Check the remaining options.
   if (!o.labels.empty() && o.labels.size() != o.results.size())
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
@@ -66,24 +74,29 @@ Result<void> check(const EvalOptions& o) {
 /// Checks that the files to be written may be written and are none of those that are read. The plots are those that
 /// will be drawn.
 Result<void> check_written(const EvalOptions& o) {
+  // List the files that are read.
   std::vector<InputFile> inputs{{"--hand", o.hand}, {"--fingertips", o.fingertips}};
   for (const std::string& path : o.results) inputs.push_back({"--result", path});
   for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
   for (const std::string& path : o.grasps) inputs.push_back({"--grasps", path});
   for (const std::string& path : o.contacts) inputs.push_back({"--contacts", path});
-
   for (const std::string& path : o.objects) inputs.push_back({"--objects", path});
 
+  // List the files that are written.
   std::vector<Output> outputs{{"--json", o.json}};
   const auto plot = [&](const char* name) {
     if (!o.plots.empty()) outputs.push_back({"--plots", o.plots + "/" + name});
   };
+
+  // Add the plots that will be drawn.
   if (!o.results.empty() && !o.truths.empty())
     for (const char* name : {"runs.png", "segments.png", "time.png"}) plot(name);
   if (!o.fingertips.empty()) plot("fingertips.png");
   if (!o.states.empty() && !o.truths.empty())
     for (const char* name : {"reliability.png", "confidence.png"}) plot(name);
+
+  // Compare the written files with those that are read.
   const SourceFiles recording = o.recording.empty() ? SourceFiles() : files_of_source("folder:" + o.recording);
   return check_outputs(recording, inputs, outputs, o.overwrite);
 }
@@ -127,6 +140,8 @@ Result<void> add_reliability(const EvalOptions& o, EvalReport& report) {
 
 Result<void> add_contacts(const EvalOptions& o, EvalReport& report) {
   std::vector<ContactSequence> sequences;
+
+  // Read the three files of each sequence.
   for (std::size_t i = 0; i < o.contacts.size(); ++i) {
     auto poses = read_table(o.truths[i]);
     if (!poses) return tl::unexpected(poses.error());
@@ -136,6 +151,8 @@ Result<void> add_contacts(const EvalOptions& o, EvalReport& report) {
     if (!stated) return tl::unexpected(stated.error());
     sequences.push_back({std::move(*poses), std::move(*truth), std::move(*stated)});
   }
+
+  // Evaluate all sequences together.
   auto contacts = evaluate_contacts(sequences);
   if (!contacts) return tl::unexpected(contacts.error());
   report.contacts = std::move(*contacts);
@@ -160,11 +177,14 @@ Result<void> add_grasps(const EvalOptions& o, EvalReport& report) {
 /// The mesh of an object lies beside the table of its poses, as the simulator writes it.
 Result<void> add_objects(const EvalOptions& o, EvalReport& report) {
   for (std::size_t i = 0; i < o.objects.size(); ++i) {
+    // Read the true poses, and the mesh that stands beside their table.
     auto truth = read_object_truth(o.objects[i]);
     if (!truth) return tl::unexpected(truth.error());
     const auto folder = std::filesystem::path(o.objects[i]).parent_path();
     const auto loaded = load_mesh((folder / (truth->name + ".obj")).string(), LengthUnit::metre);
     if (!loaded) return tl::unexpected(loaded.error());
+
+    // Compare them with the published states.
     const auto stated = read_stated_objects(o.states[i]);
     if (!stated) return tl::unexpected(stated.error());
     auto evaluation = evaluate_object(*truth, *stated, loaded->mesh);
@@ -192,8 +212,12 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
     if (!result) return tl::unexpected(result.error());
     results.push_back(std::move(*result));
   }
+
+  // Compare the runs with the truth.
   EvalReport report;
   if (const auto runs = evaluate_runs(o, results, report); !runs) return tl::unexpected(runs.error());
+
+  // Evaluate what is published beside the pose: uncertainty, contacts, grasps and objects.
   if (!o.states.empty() && !o.truths.empty())
     if (const auto added = add_reliability(o, report); !added) return tl::unexpected(added.error());
   if (!o.contacts.empty())
@@ -201,6 +225,8 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
   if (!o.grasps.empty())
     if (const auto added = add_grasps(o, report); !added) return tl::unexpected(added.error());
   if (const auto added = add_objects(o, report); !added) return tl::unexpected(added.error());
+
+  // Compare with the size of the hand, and with labelled fingertips.
   if (o.hand.empty()) return report;
   const auto profile = load_profile(o.hand);
   if (!profile) return tl::unexpected(profile.error());
@@ -232,6 +258,8 @@ int run(const EvalOptions& o) {
 void add_eval_command(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<EvalOptions>();
   CLI::App* eval = app.add_subcommand("eval", "Compare results with ground truth: the paper's metrics, plots");
+
+  // Add options for the results, and for what they are compared with.
   eval->add_option("--result", o->results, "result table; several are compared with one another");
   eval->add_option("--truth", o->truths, "truth table: one for all results, or one for each");
   eval->add_option("--states", o->states,
@@ -242,13 +270,19 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   eval->add_option("--objects", o->objects,
                    "table of object poses (objects.csv, with the mesh beside it), one for each log of states, to check "
                    "the poses of the first --object of track");
+
+  // Add options for how the results are named, and how their frames are numbered.
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
   eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");
   eval->add_option("--step", o->step, "step between frames, as given to track");
+
+  // Add options for what is written.
   eval->add_option("--plots", o->plots, "folder for plots (PNG)");
   eval->add_option("--json", o->json, "file for the figures");
   add_overwrite_option(*eval, o->overwrite);
+
+  // Add options for labelled fingertips.
   eval->add_option("--fingertips", o->fingertips, "fingertips labelled in the image: frame,finger,u,v,visible");
   eval->add_option("--recording", o->recording, "the recording that --fingertips belongs to");
   eval->callback([o, &exit_code] { exit_code = run(*o); });

@@ -16,6 +16,8 @@ Json to_json(const Distribution& d, double scale) {
   put("mean", d.mean);
   put("deviation", d.deviation);
   put("median", d.median);
+
+  // Write the quantiles.
   put("min", d.min);
   put("q1", d.quartile1);
   put("q3", d.quartile3);
@@ -31,22 +33,32 @@ Json to_json(const EvaluatedRun& run, const std::optional<double>& hand_length) 
                {"truth", run.truth_path},
                {"result", run.result_path},
                {"truncated", run.truncated},
+
+               // Write how many frames were tracked.
                {"frames", e.frames.size()},
                {"untracked", e.untracked},
                {"lost", e.lost.size()},
                {"lost_frames", e.lost},
+
+               // Write the errors of all frames and segments.
                {"frame_error_mm", to_json(e.frame_error, kMillimetre)},
                {"frame_error_without_palm_mm", to_json(e.frame_error_without_palm, kMillimetre)},
                {"segment_error_mm", to_json(e.segment_error, kMillimetre)},
                {"seen_segment_error_mm", to_json(e.seen, kMillimetre)},
                {"hidden_segment_error_mm", to_json(e.hidden, kMillimetre)},
                {"joint_gap_mm", to_json(e.joint_gap, kMillimetre)}};
+
+  // Write the errors of each segment.
   for (int s = 0; s < kSegmentCount; ++s)
     json["segments_mm"][std::string(kSegmentNames[s])] = to_json(e.per_segment[s], kMillimetre);
+
+  // Write detections of a hand that was not there, and the time until a hand that returned was tracked.
   json["phantom_frames"] = e.false_hands;
   json["returns"] = Json::array();
   for (const Return& r : e.returns)
     json["returns"].push_back({{"frame", r.number}, {"frames_until_tracked", r.frames ? Json(*r.frames) : Json()}});
+
+  // Relate the errors to the length of the hand.
   if (hand_length) {
     json["hand_length_mm"] = rounded(*hand_length * kMillimetre);
     if (e.frame_error.count > 0) json["mean_frame_error_over_hand_length"] = rounded(e.frame_error.mean / *hand_length);

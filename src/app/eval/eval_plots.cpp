@@ -95,6 +95,7 @@ Result<void> write_plots(const EvalReport& report, const std::string& directory)
     const Reliability& r = *report.reliability;
     const ChartText errors{"Error of segment ends (root mean square)", "stated [mm]", "actual [mm]"};
     const ChartText confidences{"Segments within 10 mm of the truth", "confidence [%]", "found [%]"};
+
     done = write_chart(reliability_chart(r.errors, errors, kMillimetre), directory + "/reliability.png").and_then([&] {
       return write_chart(reliability_chart(r.confidences, confidences, 100), directory + "/confidence.png");
     });

@@ -30,7 +30,7 @@ std::string frame_list(const std::vector<std::int64_t>& numbers) {
     std::size_t end = i;
     while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
 
-    // Append the run.
+    // Append it as a single number or as a range.
     if (!text.empty()) text += ", ";
     text += std::to_string(numbers[i]);
     if (end > i) text += formatted("-%lld", static_cast<long long>(numbers[end]));

@@ -14,6 +14,8 @@ Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
   if (!log) return tl::unexpected(log.error());
   StatedContacts contacts;
   std::optional<std::int8_t> side;
+
+  // Read every message that states contacts.
   for (const LogEntry& entry : log->entries()) {
     if (entry.hash != contact_state_t::getHash()) continue;
     const auto bytes = log->read(entry);
@@ -35,6 +37,8 @@ Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
                      Eigen::Vector3d(stated.point)};
     }
   }
+
+  // Refuse a log without contacts.
   if (contacts.empty())
     return fail("holds no contacts", log_path,
                 "give a log written by barehand track --states-log or --mcap with contact.enabled: true");

@@ -14,6 +14,8 @@ Result<StatedGrasps> read_stated_grasps(const std::string& log_path) {
   if (!log) return tl::unexpected(log.error());
   StatedGrasps grasps;
   std::optional<std::int8_t> side;
+
+  // Read every message that states a grasp.
   for (const LogEntry& entry : log->entries()) {
     if (entry.hash != grasp_state_t::getHash()) continue;
     const auto bytes = log->read(entry);
@@ -33,6 +35,8 @@ Result<StatedGrasps> read_stated_grasps(const std::string& log_path) {
     grasps[state->utime] =
         known ? StatedGrasp{true, state->grasp, state->probability, GraspKind(state->kind)} : StatedGrasp{};
   }
+
+  // Refuse a log without grasps.
   if (grasps.empty())
     return fail("holds no grasps", log_path,
                 "give a log written by barehand track --states-log or --mcap with grasp.enabled: true");

@@ -18,12 +18,15 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
   auto log = MessageLog::open(log_path);
   if (!log) return tl::unexpected(log.error());
   ObjectPoses poses;
+
+  // Read the messages about the first object, and leave out those that hold no rigid motion.
   for (const LogEntry& entry : log->entries()) {
     if (entry.hash != object_state_t::getHash()) continue;
     const auto bytes = log->read(entry);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto state = decode_message<object_state_t>(*bytes);
     if (!state || state->object_id != 1) continue;
+
     const double* q = state->orientation;
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
     const Eigen::Vector3d position(state->position);
@@ -31,6 +34,8 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
     if (!is_pose) continue;
     poses[state->utime] = {orientation.normalized().toRotationMatrix(), position};
   }
+
+  // Refuse a log without any pose.
   if (poses.empty())
     return fail("holds no pose of object 1", log_path,
                 "give a log written by barehand track --states-log or --mcap with --object");

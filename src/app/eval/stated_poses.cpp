@@ -49,26 +49,36 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
   if (!log) return tl::unexpected(log.error());
   StatedPoses poses;
   std::optional<std::int8_t> side;
+
+  // Read every message that states a pose.
   for (const LogEntry& entry : log->entries()) {
     if (entry.hash != hand_state_t::getHash()) continue;
     const auto bytes = log->read(entry);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto state = decode_message<hand_state_t>(*bytes);
     if (!state || !state->has_pose) continue;
+
+    // A truth is that of one hand.
     if (state->handedness != side.value_or(state->handedness))
       return fail("holds the states of two hands, and a truth is one hand's", log_path,
                   "track the hand alone: --hand right or --hand left");
     side = state->handedness;
+
+    // Accept each frame once, since a truth is that of one run.
     const auto [frame, is_new] = poses.try_emplace(state->frame_number);
     if (!is_new)
       return fail("frame " + std::to_string(state->frame_number) + " occurs twice", log_path,
                   "give the log of a single run on a single recording");
+
+    // Read the segments, and refuse numbers that do not form a pose.
     auto& segments = frame->second;
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))
       return fail("frame " + std::to_string(state->frame_number) + " has a pose with invalid numbers", log_path,
                   "give a log written by barehand track --states-log");
   }
+
+  // Refuse a log without any pose.
   if (poses.empty())
     return fail("holds no hand state with a pose", log_path,
                 "give a log written by barehand track --states-log or --mcap");

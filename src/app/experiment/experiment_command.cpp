@@ -52,6 +52,8 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
                    "configurations side by side, as for track --config; default: paper,default; ablation: default")
       ->delimiter(',')
       ->allow_extra_args(false);
+
+  // Add options for the simulated sequence.
   command
       ->add_option("--set", o.keys,
                    "key=value of the simulator (sim --list), may be repeated: noise=kinect; another hand is scale=1.1, "

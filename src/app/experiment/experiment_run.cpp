@@ -95,6 +95,7 @@ Step ExperimentRun::check() const {
 }
 
 Step ExperimentRun::take_folder() const {
+  // Remove the files of an earlier experiment, if they are to be replaced.
   std::error_code error;
   if (options_.overwrite && fs::exists(options_.out + kMark, error)) {
     std::vector<std::string> written = {"recordings", "results", "snapshots", "plots", "figures"};
@@ -106,6 +107,7 @@ Step ExperimentRun::take_folder() const {
     }
   }
 
+  // Create the folder, and mark it as one that this command may replace.
   fs::create_directories(options_.out, error);
   if (error) return stop({"cannot be created: " + error.message(), options_.out, "check the path"}, kExitUsage);
   if (const auto marked = write_file_atomically(options_.out + kMark, "made by barehand experiment\n"); !marked)

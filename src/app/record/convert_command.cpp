@@ -34,6 +34,8 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
   request->out_option = "out";
   auto in = std::make_shared<std::string>();
+
+  // Add options for the input and the output, then those that the command shares with record.
   CLI::App* command = app.add_subcommand(
       "convert", "Turn recordings into one another: folder, LCM log, MCAP file; and .oni files into any of them");
   command
@@ -42,6 +44,8 @@ void add_convert_command(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("out", request->out, "FILE.lcmlog, FILE.mcap, or a folder to create")->required();
   add_copy_options(*command, *request);
+
+  // State what is kept of the original.
   command->footer(
       "Time stamps are kept; logs and MCAP files keep frame numbers too, a folder numbers its frames from 0. hand.json "
       "and "

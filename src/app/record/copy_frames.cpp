@@ -76,13 +76,18 @@ class Copy {
   /// frames. A skipped frame also leaves a gap but is not missing; since it may be reported before its gap is seen, the
   /// totals are subtracted.
   void count_missing(const RgbdFrame& frame) {
+    // Add the gap in the frame numbers of this sensor, if the source is live.
     const auto [last, first] = last_numbers_.try_emplace(frame.sensor, frame.number);
     const std::int64_t between = first ? 0 : frame.number - last->second - 1;
     last->second = frame.number;
     if (source_.live() && between > 0) gaps_ += between;
+
+    // Subtract the skipped frames, whose gaps are counted as well.
     const std::int64_t before = result_.missing;
     result_.missing = std::max<std::int64_t>(0, gaps_ - result_.skipped);
     if (result_.missing <= before) return;
+
+    // Count how many of them the queues of the source dropped, and tell the user.
     result_.dropped = 0;
     for (const QueueHealth& queue : source_.queues())
       if (queue.capacity > 0) result_.dropped += queue.dropped;

@@ -9,12 +9,16 @@ namespace barehand {
 
 void add_copy_options(CLI::App& command, CopyRequest& request) {
   CopyRequest& r = request;
+
+  // Add options for which frames are copied.
   command.add_option("--start", r.source.start, "first frame of a recording");
   command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
   command.add_option("--frames", r.frames, "stop after this many frames")->check(CLI::PositiveNumber);
   command.add_option("--channel", r.source.channel,
                      "glob of the LCM channels, or of an MCAP file's topics with depth; default: live the first of "
                      "*RGBD_FRAME that brings a frame, in a file the only one that has some");
+
+  // Add options for the camera of live frames and of messages from other programs.
   command.add_option("--config", r.config, "as for track; only the groups openni2 and foreign_camera matter");
   command.add_option(
       "--fx", r.source.foreign.fx,
@@ -23,6 +27,8 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--fy", r.source.foreign.fy, "vertical focal length [px]");
   command.add_option("--cx", r.source.foreign.cx, "principal point [px]");
   command.add_option("--cy", r.source.foreign.cy, "vertical principal point [px]");
+
+  // Add options for how the images are encoded.
   command.add_option("--colour", r.colour, "png and raw are lossless; raw is for logs only")
       ->check(CLI::IsMember({"png", "jpeg", "raw", "none"}))
       ->capture_default_str();
@@ -32,6 +38,8 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
   command.add_option("--depth", r.depth, "how a log holds depth; all are lossless, rvl is smallest and fastest")
       ->check(CLI::IsMember({"rvl", "zlib", "raw"}))
       ->capture_default_str();
+
+  // Add options for the written file.
   command.add_option("--out-channel", r.out_channel, "LCM channel in the written log")
       ->check([](const std::string& name) {
         return name.empty() || name.size() > kLongestChannel ? "channel names have 1 to 63 bytes" : "";

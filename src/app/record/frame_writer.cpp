@@ -43,6 +43,8 @@ class McapFrameWriter : public FrameWriter {
     scene.number = frame.number;
     scene.fps = options_.fps;
     scene.cloud = false;  // the point cloud can be computed from the depth image
+
+    // Write the colour as the user wishes, or leave it out.
     if (options_.encoding.colour == ColourEncoding::jpeg) scene.jpeg_quality = options_.encoding.jpeg_quality;
     if (options_.encoding.colour != ColourEncoding::none) {
       scene.frame = FramePtr(FramePtr(), &frame);  // does not own the frame, which outlives this call
@@ -51,6 +53,7 @@ class McapFrameWriter : public FrameWriter {
       depth_only->colour = {};
       scene.frame = std::move(depth_only);
     }
+
     return mcap::write_scene(*file_, scene).map([&] { ++written_; });
   }
   Result<void> finish() override { return written_ > 0 ? file_->finish() : Result<void>(); }
@@ -94,10 +97,13 @@ bool is_mcap_path(const std::string& path) { return std::filesystem::path(path).
 bool is_file_path(const std::string& path) { return is_log_path(path) || is_mcap_path(path); }
 
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
+  // Refuse combinations that no writer supports.
   if (std::filesystem::path(path).extension() == ".oni")
     return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
   if (options.rotation && !is_log_path(path))
     return fail("only an LCM log can continue in new files", path, "give a name that ends in .lcmlog");
+
+  // Choose a log or an MCAP file by the ending of the name.
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());
@@ -108,15 +114,20 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
     if (!log) return tl::unexpected(log.error());
     return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
   }
+
   if (is_mcap_path(path)) {
     auto file = mcap::McapWriter::create(path, options.overwrite);
     if (!file) return tl::unexpected(file.error());
     return std::make_unique<McapFrameWriter>(path, options, std::move(*file));
   }
+
+  // Any other name is a folder for a recording.
   std::error_code ignored;
   if (const auto there = std::filesystem::status(path, ignored); exists(there) && !is_directory(there))
     return fail("is no folder", path,
                 "a file, also a pipe that a program reads, has a name that ends in .lcmlog or .mcap");
+
+  // Create the folder; colour is stored as JPEG only if the user asked for it.
   RecordingWriter::Options folder;
   folder.fps = options.fps;
   folder.colour_ending = options.encoding.colour == ColourEncoding::jpeg ? "jpg" : "png";

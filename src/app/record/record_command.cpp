@@ -13,6 +13,8 @@ namespace barehand {
 void add_record_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
   request->source.live_capacity = 128;  // number of frames in a few seconds, since a recording should lose none
+
+  // Add options for the input, the output and the duration.
   CLI::App* record = app.add_subcommand("record", "Record frames into an LCM log, an MCAP file or a folder");
   record
       ->add_option("--source", request->source.spec,
@@ -21,6 +23,8 @@ void add_record_command(CLI::App& app, int& exit_code) {
   record->add_option("--out", request->out, "FILE.lcmlog, FILE.mcap, or a folder to create")->required();
   record->add_option("--seconds", request->seconds, "stop after this time")->check(CLI::PositiveNumber);
   record->add_option("--lcm-url", request->source.lcm_url, "LCM network of the source lcm");
+
+  // Add options for the limits at which a recording continues in a new log.
   record->add_option("--max-size", request->max_size, "continue in a new log at this size, such as 2GB")
       ->transform(CLI::AsSizeValue(true));
   record->add_option("--max-age", request->max_age, "continue in a new log after this time, such as 10min or 1h")
@@ -29,7 +33,11 @@ void add_record_command(CLI::App& app, int& exit_code) {
   record
       ->add_option("--quota", request->quota, "limit of all these logs together, such as 100GB; the oldest are removed")
       ->transform(CLI::AsSizeValue(true));
+
+  // Add the options that this command shares with convert.
   add_copy_options(*record, *request);
+
+  // State what happens at the end of the recording, and when the disk is full.
   record->footer(
       "Ctrl-C ends the recording; the recording until then is complete, as it is after a crash, but for the last "
       "frames of an MCAP file. While the disk "

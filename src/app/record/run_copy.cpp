@@ -27,6 +27,8 @@ namespace {
 
 FrameWriterOptions writer_options(const CopyRequest& request, double fps, const Clock& clock) {
   FrameWriterOptions options;
+
+  // Translate the names of the encodings, which the option parser has checked already.
   options.encoding.depth = request.depth == "raw"    ? DepthEncoding::raw16
                            : request.depth == "zlib" ? DepthEncoding::zlib
                                                      : DepthEncoding::rvl_zstd;
@@ -35,10 +37,13 @@ FrameWriterOptions writer_options(const CopyRequest& request, double fps, const 
                             : request.colour == "jpeg" ? ColourEncoding::jpeg
                                                        : ColourEncoding::png;
   options.encoding.jpeg_quality = request.jpeg_quality;
+
+  // Give the properties of the log itself.
   options.channel = request.out_channel;
   options.fps = fps / std::abs(static_cast<double>(request.source.step));
   options.overwrite = request.overwrite;
   options.clock = &clock;
+
   if (request.max_size > 0 || request.max_age > 0 || request.quota > 0)
     options.rotation =
         LogRotation{static_cast<std::int64_t>(request.max_size), static_cast<std::int64_t>(request.max_age * 1e6),
@@ -131,6 +136,8 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   std::atomic<bool> stop = false;
   std::stop_source stop_waiting;
   ServiceManager service(clock);
+
+  // Let an interrupt end the copying, and also the wait for the reader of a pipe.
   const InterruptWatcher interrupt([&] {
     service.stopping();
     stop = true;
@@ -140,6 +147,8 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     std::cerr << command << ": " << error.message() << "\n";
     return kExitUsage;
   };
+
+  // Take the sensor's settings from the configuration; what the command line says takes precedence.
   SourceRequest input = request.source;
   if (!request.config.empty()) {
     const auto config = read_configuration(request.config);
@@ -148,8 +157,11 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     input.depth = {config->preprocess.min_depth, config->preprocess.max_depth};
     if (!input.foreign.any()) input.foreign = config->foreign_camera;
   }
+
   if (const auto possible = check(input.foreign); !possible) return refuse(possible.error());
   if (request.source.foreign.any()) input.openni2.camera = request.source.foreign;
+
+  // Open the source.
   auto source = open_source(input, clock);
   if (!source && input.spec == "lcm") {  // not a usage error, since the network may become available later
     refuse(source.error());
@@ -157,11 +169,15 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   }
   if (!source) return refuse(source.error());
   for (const std::string& warning : source->warnings) std::cerr << command << ": " << warning << "\n";
+
+  // Check that the output replaces nothing that is read or should be kept.
   const FrameWriterOptions written_as = writer_options(request, source->fps, clock);
   const Output output = output_of(request, written_as.rotation.has_value());
   const auto apart = check_outputs(files_of_source(input.spec), {{"--config", config_file(request.config)}}, {output},
                                    request.overwrite);
   if (!apart) return refuse(apart.error());
+
+  // Remove new folders again if they stay empty, and lock the set of logs against other recorders.
   const NewFolders around(request.out);
   std::optional<FileLock> lock;
   if (written_as.rotation && is_log_path(request.out)) {
@@ -182,6 +198,8 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     if (!std::exchange(told, true))
       std::cerr << command << ": waiting for a program to read the pipe " << request.out << std::endl;
   });
+
+  // Report an empty copy if the user stopped it while it waited.
   const bool live = source->source->live();
   if (!path) {
     CopyResult nothing;
@@ -192,6 +210,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   auto writer = open_frame_writer(request.out, written_as);
   if (!writer) return refuse(writer.error());
 
+  // Copy the frames, and report to the service manager if there is one.
   CopyOptions options;
   options.frames = request.frames;
   options.seconds = request.seconds;
@@ -201,6 +220,8 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   if (service.present()) options.on_step = ServiceReport(service, (*writer)->name(), clock);
   service.ready("recording " + source->source->name());
   CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
+
+  // Close the file even after an error, so that what was recorded until then is complete.
   if (const auto finished = (*writer)->finish(); !finished && !result.error) result.error = finished.error();
   if (!result.error && !result.stopped) result.error = failure_of(result, source->source->name(), live);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";

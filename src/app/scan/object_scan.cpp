@@ -18,7 +18,7 @@ void ObjectScan::add(std::span<const ObjectTrack> tracks) {
     return object.id != best && std::ranges::none_of(tracks, is_it);
   });
 
-  // Take over what is known of the others.
+  // Store the state of the other objects.
   for (const ObjectTrack& track : tracks) {
     if (!track.modelled()) continue;
     auto at = std::ranges::find(objects_, track.state.id, &Object::id);

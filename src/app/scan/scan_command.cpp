@@ -26,9 +26,9 @@ namespace {
 constexpr const char* kHowToScan =
     "Hold the object with your fingertips, and turn it slowly until every side has faced the sensor. Change the grip,\n"
     "so that the fingers uncover what they hide. Ctrl-C ends a live scan; what was seen until then is saved.";
-constexpr double kFine = 0.003, kCoarse = 0.006;  // sizes of the triangles of what is saved, and of what is said [m]
-constexpr int kScanMargin = 80;                   // px, how far around the hand the object is looked at, at least
-constexpr double kLittle = 0.3;                   // share of the surface below which a mesh is hardly of use
+constexpr double kFine = 0.003, kCoarse = 0.006;  // triangle sizes for the saved mesh and for messages [m]
+constexpr int kScanMargin = 80;                   // least margin around the hand in which the object is observed [px]
+constexpr double kLittle = 0.3;                   // a mesh of which less than this fraction was seen is hardly useful
 
 struct ScanOptions {
   TrackOptions track;
@@ -69,16 +69,18 @@ Result<void> check_name(const std::string& path) {
 
 /// Makes a mesh of what was seen, and saves it. Returns the exit code.
 int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const TrackOutcome& tracked) {
-  // Refuse what is no solid.
+  // Refuse to save anything that is not a solid.
   const ObjectScan::Object* object = scan.object();
   const ScannedMesh scanned = object ? scanned_mesh(object->surface, kFine) : ScannedMesh();
   ObjectMesh checked = scanned.mesh;
   const bool solid = !checked.triangles.empty() && repair_mesh(checked, o.out).has_value();
+
   if (!solid) {
     if (tracked.exit_code == kExitFailure) return tracked.exit_code;  // track() has reported why
-    return failed("scan-object", {object ? "too little of an object was seen" : "no object was seen in or near a hand",
-                     o.track.source, "hold it before the sensor, and turn it; nothing is saved"},
-                    kExitFailure);
+    return failed("scan-object",
+                  {object ? "too little of an object was seen" : "no object was seen in or near a hand", o.track.source,
+                   "hold it before the sensor, and turn it; nothing is saved"},
+                  kExitFailure);
   }
 
   // Save it, and say what it is.
@@ -86,6 +88,8 @@ int conclude(std::FILE* out, const ScanOptions& o, const ObjectScan& scan, const
   const std::vector<ObjGroup> groups = {{"seen", 0}, {"closed", scanned.lids}};
   if (const auto saved = save_obj(vertices, triangles, o.out, groups); !saved)
     return failed("scan-object", saved.error(), kExitFailure);
+
+  // Say how much was seen.
   std::fprintf(out, "%s, held in %d of %d frames\n", described(*object, scanned).c_str(), object->held, scan.frames());
   if (object->held == 0) std::fputs("no object was held, so this is the one of which most was seen\n", out);
   if (scanned.seen < kLittle) std::fputs("little was seen of it; scan it again, and turn it before the sensor\n", out);
@@ -102,13 +106,14 @@ int run_scan(const ScanOptions& o) {
   config->preprocess.margin_px = std::max(config->preprocess.margin_px, kScanMargin);
   if (const auto possible = check_name(o.out); !possible) return failed("scan-object", possible.error(), kExitUsage);
 
-  // Track, and look at the objects.
+  // Track, and collect the objects.
   ObjectScan scan;
   ScanAdvice advice;
   const auto look = [&](std::span<const ObjectTrack> objects) {
     scan.add(objects);
     advice.give(scan);
   };
+
   TrackOptions track_options = o.track;
   track_options.saved_later = o.out;
   std::cerr << kHowToScan << std::endl;
@@ -124,12 +129,16 @@ void add_scan_command(CLI::App& app, int& exit_code) {
   ScanOptions& o = *options;
   o.track.no_publish = true;
   o.track.threads = available_cores();
+
+  // Add options for input and output.
   CLI::App* scan =
       app.add_subcommand("scan-object", "Save the shape of an object that a hand turns as a mesh for track --object");
   add_input_options(*scan, o.track);
   scan->get_option("--source")->required();
   scan->add_option("--out", o.out, "mesh to write (OBJ, metres)")->required();
   scan->add_option("--overlay", o.track.overlay, "as for track");
+
+  // Add options for the page, and for how the run is computed.
   add_view_options(*scan, o.track);
   add_overwrite_option(*scan, o.track.overwrite);
   scan->add_option("--lcm-url", o.track.lcm_url, "LCM network of the source lcm");

@@ -57,6 +57,7 @@ void CheckedSource::check_camera(const RgbdFrame& frame) {
 }
 
 bool CheckedSource::check_image(const FramePtr& frame) {
+  // Drop a live image that is noise or repeats the previous one, and report it.
   const DepthFault fault = check_depth(frame->depth, before_ ? &before_->depth : nullptr);
   const bool still = fault == DepthFault::repeated;
   if (live() && (still || fault == DepthFault::senseless)) {
@@ -66,6 +67,8 @@ bool CheckedSource::check_image(const FramePtr& frame) {
                       name(), "check the sensor, or the program that sends its frames"}});
     return false;
   }
+
+  // Keep such an image of a recording, but report it.
   if (fault == DepthFault::senseless)
     say("noise",
         formatted("the depth image of frame %lld is noise: neighbouring pixels are unrelated",
@@ -78,6 +81,7 @@ bool CheckedSource::check_image(const FramePtr& frame) {
 /// Reports a recording whose depth image stays the same. The noise of a sensor never
 /// repeats, so the sensor had stopped. In a simulated recording the hand may only rest: this is a notice, not an error.
 void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
+  // A new image ends the time in which the depth was frozen.
   if (!still) {
     still_since_.reset();
     return;
@@ -86,6 +90,8 @@ void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
     still_since_ = before_;
     still_frames_ = 1;
   }
+
+  // Report the fault once it has lasted for several frames and some time.
   const std::int64_t lasting = std::abs(frame.utime - still_since_->utime);
   if (++still_frames_ < kStillFrames || lasting < kStillFor) return;
   say("still",

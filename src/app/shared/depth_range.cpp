@@ -21,6 +21,8 @@ std::optional<std::string> DepthRange::add(const RgbdFrame& frame) {
   if (done_) return std::nullopt;
   if (frames_++ == 0) first_utime_ = frame.utime;
   unit_ = frame.depth_unit;
+
+  // Collect the depth of a sparse grid of pixels, which suffices for a median.
   for (int v = 0; v < frame.depth.height(); v += kPixelStep) {
     for (int u = 0; u < frame.depth.width(); u += kPixelStep) {
       const std::uint16_t count = frame.depth.at(u, v);
@@ -30,6 +32,8 @@ std::optional<std::string> DepthRange::add(const RgbdFrame& frame) {
       values_.push_back(count);
     }
   }
+
+  // Judge as soon as enough frames were seen, or enough time has passed.
   if (frames_ < kMostFrames && frame.utime - first_utime_ < kLongest) return std::nullopt;
   return conclude();
 }
@@ -50,6 +54,8 @@ std::optional<std::string> DepthRange::conclude() {
   const double median = unit_ * *middle;
   const bool nothing = static_cast<double>(within_) <= kFew * static_cast<double>(values.size());
   if (!nothing && median >= kNearest) return std::nullopt;
+
+  // Describe what was measured, so that the user recognises a wrong unit.
   const std::string found = nothing ? formatted("nothing lies between %.3g and %.3g m, the median is %.3g m",
                                                 limits_.nearest, limits_.farthest, median)
                                     : formatted("the median is %.3g m, nearer than depth cameras measure", median);

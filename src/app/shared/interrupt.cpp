@@ -54,6 +54,7 @@ bool InterruptWatcher::is_for_others(const siginfo_t& info) const {
 void InterruptWatcher::watch(const std::stop_token& stop) {
   constexpr timespec kPatience{0, 50'000'000};
   while (!stop.stop_requested()) {
+    // Wait for a signal, with a timeout so that the destructor does not wait long.
     siginfo_t info{};
     const int received = sigtimedwait(&watched_, &info, &kPatience);
     if (received <= 0 || is_for_others(info)) continue;

@@ -120,6 +120,8 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
   std::vector<std::pair<const Output*, Place>> before;
   for (const Output& output : outputs) {
     if (output.path.empty() || is_endless(output.path)) continue;
+
+    // Compare the place itself, because two names may lead to the same file.
     const Place place(output.path);
     for (const auto& [other, other_place] : before)
       if (place == other_place)
@@ -127,6 +129,8 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
     for (const InputFile& input : inputs)
       if (!input.path.empty() && place == Place(input.path))
         return refuse(output, "is the file of " + input.option + " " + input.path);
+
+    // Compare with the files of the source, and protect images that are there already.
     if (const auto apart = check_source(source, output, place); !apart) return apart;
     if (output.kind == Output::Kind::pictures && place.exists())
       if (const auto free = check_images(output, place); !free) return free;
@@ -137,6 +141,7 @@ Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFil
   for (const Output& output : outputs) {
     if (output.kind == Output::Kind::file && fs::is_directory(output.path, ignored))
       return refuse(output, "is a folder", "give a file");
+
     if (!overwrite && is_taken(output))
       return refuse(output, output.kind == Output::Kind::pictures ? "already contains images" : "exists already",
                     "choose another name, or replace it with --overwrite");

@@ -32,6 +32,7 @@ Result<Config> read_configuration(const std::string& name) {
 }
 
 Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source) {
+  // Load the hands that the user named, else those of the source, else the mean right hand.
   std::vector<Result<NamedHand>> found;
   for (const std::string& name : wanted) {
     if (name == "both") {
@@ -41,9 +42,12 @@ Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& want
       found.push_back(name == "right" || name == "left" ? shipped(name) : named(load_profile(name), name));
     }
   }
+
   if (found.empty())
     for (const SourceHand& hand : source.hands) found.push_back(named(hand.load(), hand.name));
   if (found.empty()) found.push_back(shipped("right"));
+
+  // Accept one hand of each side.
   std::vector<NamedHand> hands;
   for (Result<NamedHand>& hand : found) {
     if (!hand) return tl::unexpected(hand.error());

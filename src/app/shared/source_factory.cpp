@@ -39,12 +39,16 @@ std::optional<std::string> outside_warning(const Recording& recording) {
 Result<OpenSource> open_folder(const std::string& directory, const SourceRequest& request) {
   auto source = FolderSource::open(directory, {request.start, request.step});
   if (!source) return tl::unexpected(source.error());
+
+  // Collect what the recording says about itself.
   OpenSource open;
   open.frames = (*source)->remaining();
   for (const int k : {0, 1}) {
     const std::string path = path_of_hand(directory + "/hand.json", k, Handedness::left);
     if (!is_missing(path)) open.hands.push_back({[path] { return load_profile(path); }, path});
   }
+
+  // Take the nominal rate, and warn of images that are outside the recording's folder.
   open.fps = (*source)->recording().fps;
   open.warnings = (*source)->recording().warnings;
   if (const auto outside = outside_warning((*source)->recording())) open.warnings.push_back(*outside);
@@ -60,12 +64,15 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   options.foreign = request.foreign;
   auto source = LcmLogSource::open(path, options);
   if (!source) return tl::unexpected(source.error());
+
+  // Collect what the log says about itself, and warn of what is missing in it.
   OpenSource open;
   open.frames = (*source)->remaining();
   open.warnings = (*source)->warnings();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warnings.push_back(path + ": " + std::to_string(bytes) +
                             " bytes are damaged or cut off; every complete event is played");
+
   if (const auto& left_out = (*source)->left_out(); !left_out.empty())
     open.warnings.push_back(path + ": " + std::to_string(left_out.size()) + " of its logs cannot be played, first " +
                             left_out.front().message());
@@ -81,6 +88,8 @@ Result<OpenSource> open_mcap(const std::string& path, const SourceRequest& reque
   options.foreign = request.foreign;
   auto source = McapSource::open(path, options);
   if (!source) return tl::unexpected(source.error());
+
+  // Collect what the file says about itself.
   OpenSource open;
   open.frames = (*source)->remaining();
   open.fps = (*source)->fps();
@@ -115,6 +124,8 @@ Result<OpenSource> open_live(const SourceRequest& request) {
 Result<OpenSource> open_openni(const std::string& argument, const SourceRequest& request, const Clock& clock) {
   if (const auto possible = check(request.openni2.camera, request.spec + ", fx, fy, cx, cy"); !possible)
     return tl::unexpected(possible.error());
+
+  // A live sensor gets a queue of its own.
   OpenSource open;
   if (!is_oni_file(argument)) {
     open.fps = request.openni2.fps;
@@ -122,6 +133,8 @@ Result<OpenSource> open_openni(const std::string& argument, const SourceRequest&
                                                      std::make_unique<LibUsbBus>());
     return open;
   }
+
+  // A recording of OpenNI2 is played like any other recording.
   auto source = OpenNiFileSource::open(argument, request.openni2, request.start.value_or(0), request.step);
   if (!source) return tl::unexpected(source.error());
   open.frames = (*source)->remaining();
@@ -145,14 +158,19 @@ Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
 }
 
 Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
+  // Split the description into the kind of the source and its argument.
   const auto colon = request.spec.find(':');
   const std::string kind = request.spec.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : request.spec.substr(colon + 1);
+
+  // Check the options that only recordings have.
   if (request.step == 0)
     return fail("a step of 0 would repeat one frame without end", "--step", "give 1, 2, ... or -1, -2, ...");
   const bool recording = kind == "folder" || kind == "log" || (kind == "openni2" && is_oni_file(argument));
   if (!recording && (request.start || request.step != 1))
     return fail("--start and --step are for recordings", request.spec, "leave them out");
+
+  // Open the source by its kind.
   if (kind == "lcm" && colon == std::string::npos) return open_live(request);
   if (kind == "openni2") return open_openni(argument, request, clock);
   if (kind == "sim" && !argument.empty()) return open_simulator(argument, clock);

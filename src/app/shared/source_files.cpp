@@ -32,6 +32,7 @@ void add_recording(const std::string& directory, SourceFiles& files) {
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     const auto list = read_stamped_list(directory + "/" + name);
     if (!list) continue;
+
     std::string last;
     for (const StampedFile& image : *list) {
       if (image.file != files.files.back()) files.files.push_back(image.file);
@@ -41,6 +42,8 @@ void add_recording(const std::string& directory, SourceFiles& files) {
       if (!(Place(folder) == Place(directory))) files.image_folders.push_back(folder);
     }
   }
+
+  // Name each folder once.
   std::sort(files.image_folders.begin(), files.image_folders.end());
   files.image_folders.erase(std::unique(files.image_folders.begin(), files.image_folders.end()),
                             files.image_folders.end());
@@ -73,6 +76,8 @@ SourceFiles files_of_source(const std::string& spec) {
   const auto colon = spec.find(':');
   if (colon == std::string::npos) return files;
   const std::string kind = spec.substr(0, colon), path = spec.substr(colon + 1);
+
+  // List the files by the kind of the source; sensors and networks have none.
   std::error_code ignored;
   if (kind == "folder") {
     add_recording(path, files);

@@ -32,12 +32,18 @@ std::string contact_rows(std::int64_t utime, const synthetic::HandContacts& cont
 
 Result<ObjectFiles> ObjectFiles::create(const Paths& paths, const synthetic::SyntheticSource& source, bool overwrite) {
   const synthetic::GraspedObject& object = *source.grasped();
+
+  // Write the mesh, which does not change.
   if (auto ok = save_obj(object.mesh().vertices, object.mesh().triangles, paths.mesh); !ok)
     return tl::unexpected(ok.error());
+
+  // Create the tables, to which each frame adds its rows.
   auto poses = RowFile::create(paths.poses, kPoseHeader, overwrite);
   if (!poses) return tl::unexpected(poses.error());
   auto grasps = RowFile::create(paths.grasps, kGraspHeader, overwrite);
   if (!grasps) return tl::unexpected(grasps.error());
+
+  // Contacts are written in one table for each hand.
   std::vector<RowFile> contacts;
   for (const std::string& path : paths.contacts) {
     auto rows = RowFile::create(path, kContactHeader, overwrite);

@@ -15,7 +15,7 @@ class ObjectFiles {
   /// Paths of the files, as far as one sequence has them.
   struct Paths {
     std::string mesh, poses, grasps;
-    std::vector<std::string> contacts;  ///< of every hand
+    std::vector<std::string> contacts;  ///< path of every hand's table
   };
 
   /// Creates the files. `overwrite`: existing ones are replaced.

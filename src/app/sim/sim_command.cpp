@@ -54,10 +54,11 @@ int run(const SimArguments& a) {
   }
 
   // Check the arguments.
-  if (a.name.empty()) return failed("sim", {"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
+  if (a.name.empty())
+    return failed("sim", {"no sequence is given", "sim", "barehand sim --list names them"}, kExitUsage);
   if (a.out.empty())
     return failed("sim", {"--out is missing", "sim", "give a folder, or a file that ends with .lcmlog or .mcap"},
-                     kExitUsage);
+                  kExitUsage);
 
   // Render the sequence. An error before the first frame means that an argument is wrong.
   std::int64_t done = 0;
@@ -68,6 +69,7 @@ int run(const SimArguments& a) {
     done = now;
     return render_progress(now, all) && !stop;
   });
+
   if (!frames) return failed("sim", frames.error(), done > 0 ? kExitFailure : kExitUsage);
   std::fprintf(told, "%lld frames in %s\n", static_cast<long long>(*frames), a.out.c_str());
   return stop ? kExitInterrupted : kExitOk;
@@ -92,6 +94,8 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   // Add options for all other keys and for the list.
   sim->add_option("--set", a->set, "key=value, any key of --list; may be repeated");
   sim->add_flag("--list", a->list, "list the sequences and keys");
+
+  // Name the files that are written as well.
   sim->footer(
       "A file, here FILE.lcmlog, gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where "
       "two hands are seen, "

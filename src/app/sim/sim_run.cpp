@@ -48,11 +48,15 @@ ObjectFiles::Paths object_paths(const std::string& out, const std::string& name,
 Result<void> check_written(const SimOptions& options, const SyntheticSource& source) {
   std::vector<Output> outputs{
       {"--out", options.out, is_file_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
+
+  // Add the files of each hand.
   const std::vector<SimulatedHand>& hands = source.hands();
   for (std::size_t k = 0; k < hands.size(); ++k)
     for (const char* name : {"hand.json", "truth.csv", "start_pose.json"})
       outputs.push_back(
           {"--out", path_of_hand(beside(options.out, name), static_cast<int>(k), hands[k].profile.handedness)});
+
+  // Add the files of the object, if one is grasped.
   if (source.grasped()) {
     ObjectFiles::Paths paths = object_paths(options.out, source.grasped()->name(), hands);
     outputs.push_back({"--out", std::move(paths.mesh)});

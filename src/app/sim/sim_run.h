@@ -11,7 +11,7 @@ namespace barehand {
 /// What `barehand sim` should write.
 struct SimOptions {
   std::string spec;        ///< "NAME" or "NAME,key=value,...", as after "sim:" in --source
-  std::string out;         ///< folder, or an LCM log if it ends with .lcmlog
+  std::string out;         ///< folder, or an LCM log or MCAP file if it ends with .lcmlog or .mcap
   bool overwrite = false;  ///< replace a log and the files next to it
 };
 

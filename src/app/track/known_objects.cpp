@@ -24,10 +24,13 @@ Result<std::vector<KnownObjectPtr>> load_objects(const std::vector<std::string>&
     return fail(formatted("is given %zu times for %zu objects", units.size(), paths.size()), "--object-unit",
                 "give it once for all objects, or once for each");
   std::vector<KnownObjectPtr> objects;
+
+  // Load one mesh after the other and number the objects from 1.
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const auto unit =
         units.empty() ? Result<LengthUnit>(LengthUnit::metre) : unit_from(units[units.size() == 1 ? 0 : i]);
     if (!unit) return tl::unexpected(unit.error());
+
     const auto loaded = load_mesh(paths[i], *unit);
     if (!loaded) return tl::unexpected(loaded.error());
     objects.push_back(make_known_object(loaded->mesh, static_cast<std::int32_t>(i) + 1));

@@ -18,12 +18,16 @@ void add_input_options(CLI::App& command, TrackOptions& o) {
       .add_option("--config", o.config,
                   "a file, paper.yaml, default.yaml, accurate.yaml, or builtin (the values in the code)")
       ->capture_default_str();
+
+  // Add options for which hands are tracked.
   command
       .add_option("--hand", o.hands,
                   "hand.json, or right, left, both: the shipped mean adult hand; twice for a right and a left hand "
                   "(their files become OUT.csv and OUT_left.csv); default: the recording's own, else right")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+
+  // Add options for which frames are tracked, and from which pose.
   command.add_option("--start", o.start, "first frame of a recording; when playing backwards, from there down to 0");
   command.add_option("--step", o.step, "every N-th frame; negative plays backwards")->capture_default_str();
   command.add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
@@ -37,6 +41,8 @@ void add_view_options(CLI::App& command, TrackOptions& o) {
       ->expected(0, 1)
       ->default_str("8765")
       ->type_name("[PORT]");
+
+  // Add options for what the page may do.
   command.add_option("--view-origin", o.view_origins,
                      "origin of another web page that may connect, such as https://example.org");
   command.add_option(
@@ -51,6 +57,8 @@ void add_track_command(CLI::App& app, int& exit_code) {
   o.threads = available_cores();
   CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
   add_input_options(*track, o);
+
+  // Add options for known objects.
   track
       ->add_option(
           "--object", o.objects,
@@ -58,18 +66,23 @@ void add_track_command(CLI::App& app, int& exit_code) {
           "for several")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+
   track
       ->add_option("--object-unit", o.object_units,
                    "unit of the mesh's file: m, cm or mm; once for all objects or once for each; default: m")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->needs("--object");
+
+  // Add options for the files that are written.
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");
   track->add_option("--states-log", o.states_log, "write the published states to an LCM log");
   track->add_option("--mcap", o.mcap,
                     "write images and hands as ROS 2 messages to an MCAP file, for Foxglove, ROS and replay");
   track->add_option("--log-decisions", o.decisions,
                     "write every decision of the tracker with the rule that made it (CSV)");
+
+  // Add options for the images with the hand drawn over them.
   track->add_option("--overlay", o.overlay,
                     "draw the tracked hand over the images: into a folder, or a video (.mp4, .mkv, .webm, .avi)");
   track->add_flag("--overlay-names", o.overlay_names, "write the names of the segments beside the drawn hand")
@@ -79,18 +92,24 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_overwrite_option(*track, o.overwrite);
+
+  // Add options for the network, and for how the run is computed.
   track->add_option("--lcm-url", o.lcm_url, "LCM network of the source lcm and of what is published");
   track->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   track->add_option("--seed", o.seed, "seed of the random numbers, instead of the configuration's");
   track->add_flag("--inline", o.single_threaded, "run all stages on one thread, for debugging; same results");
   track->add_flag("--no-publish", o.no_publish, "send nothing on LCM");
   track->add_flag("--health", o.health, "print the state of the pipeline every health period");
+
+  // Add options for what the run shows.
   add_view_options(*track, o);
   track
       ->add_flag("--print-config{user}", o.print_config,
                  "print the configuration in force and stop: the keys for users, =all for every key, =changed for what "
                  "differs from the defaults")
       ->check(CLI::IsMember({"user", "all", "changed"}));
+
+  // Explain how a run ends, and what happens to existing files.
   track->footer(
       "Ctrl-C ends the run; everything tracked until then is written. Files get their names when they are complete; "
       "until then, and after a crash, they are called NAME.unfinished. A live run does not fail if a file exists: it "

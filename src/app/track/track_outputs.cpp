@@ -105,9 +105,12 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
       if (is_taken(output)) return true;
     return false;
   };
+
+  // A table is written in one file for each hand, and an overlay may be a folder.
   const auto table_taken = [&](const std::string& path) { return some_taken(of_hands("", path, hands)); };
   const auto file_taken = [&](const std::string& path) { return is_taken({"", path}); };
   const auto overlay_taken = [&](const std::string& path) { return is_taken({"", path, kind_of_overlay(path)}); };
+
   options.result = free_name(options.result, table_taken);
   options.states_log = free_name(options.states_log, file_taken);
   options.mcap = free_name(options.mcap, file_taken);

@@ -127,6 +127,8 @@ Step TrackRun::prepare() {
   auto workers = make_workers(options_.threads);
   if (!workers) return usage(workers.error());
   workers_ = std::move(*workers);
+
+  // Check what needs no source first, so that a mistake is reported before a sensor starts.
   if (const auto named = Publisher::create(config_.run.channel_prefix, {}); !named) return usage(named.error());
   if (const auto fits = check_memory(config_.tracker, available_memory()); !fits) return usage(fits.error());
   if (const auto possible = check(config_.foreign_camera); !possible) return usage(possible.error());
@@ -134,6 +136,8 @@ Step TrackRun::prepare() {
   if (!world) return usage(world.error());
   world_ = *world;
   if (const auto good = LivePage::check(options_); !good) return usage(good.error());
+
+  // Open the source, and prepare everything that depends on it.
   return open_input()
       .and_then([&] { return use_hands(); })
       .and_then([&] { return use_objects(); })
@@ -143,6 +147,7 @@ Step TrackRun::prepare() {
 }
 
 Step TrackRun::open_input() {
+  // Describe the wanted source by the command line and the configuration.
   SourceRequest request;
   request.spec = options_.source;
   request.start = options_.start;
@@ -152,10 +157,14 @@ Step TrackRun::open_input() {
   request.foreign = config_.foreign_camera;
   request.openni2 = config_.openni2;
   request.depth = {config_.preprocess.min_depth, config_.preprocess.max_depth};
+
+  // Open it. If it needs the network, wait until the network is available.
   const bool from_network = options_.source == "lcm";
   auto input = connect([&] { return open_source(request, clock_); }, from_network);
   if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
   input_ = std::move(*input);
+
+  // Adapt the run to a live source or to a recording, and repeat the warnings of the source.
   if (input_.source->live())
     workers_->go_live();
   else
@@ -217,9 +226,11 @@ Step TrackRun::await_readers() {
       service_.alive();
     });
   };
+
+  // The pipe of a file is opened here and passed on by its descriptor.
   for (const auto file : TrackOptions::kFiles) {
     std::string& path = options_.*file;
-    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // which is written at the end
+    const bool patient = !input_.source->live() || file == &TrackOptions::save_hand;  // the hand is saved at the end
     const auto opened = wait(path, patient ? PipeReaders::Behind::wait : PipeReaders::Behind::leave_out);
     if (!opened) return stopped("stopped while waiting for a reader of " + path);
     if (*opened != path) log_.logger().info("the pipe {} is written as {}", path, *opened);
@@ -235,6 +246,8 @@ Step TrackRun::await_readers() {
 Step TrackRun::open_outputs() {
   Step ok = await_readers();
   if (!ok) return ok;
+
+  // Open the outputs that the user named, until one cannot be opened.
   const std::string& prefix = config_.run.channel_prefix;
   if (!options_.no_publish) ok = open_bus();
   if (ok && !options_.result.empty()) ok = add(ResultTableSink::create(options_.result, profiles_, options_.overwrite));
@@ -243,12 +256,16 @@ Step TrackRun::open_outputs() {
         StatesLogSink::create(config_.publish, prefix, options_.states_log, options_.overwrite, &pending_.states_log));
   if (ok && !options_.mcap.empty()) ok = open_mcap();
   if (ok && !options_.decisions.empty()) ok = add(DecisionSink::create(options_.decisions, options_.overwrite));
+
+  // Open those that show the hand or keep its profile.
   if (ok && !options_.overlay.empty())
     ok = add(OverlaySink::create(options_.overlay, rate(kUsualRate), options_.overlay_every, options_.overwrite,
                                  options_.overlay_names ? SegmentNames::drawn : SegmentNames::left_out));
   if (ok && !options_.save_hand.empty()) ok = add(SaveHandSink::create(options_.save_hand, profiles_));
   if (ok && options_.view) ok = open_view();
   if (!ok) return ok;
+
+  // Add the sinks that report to the service manager and to the terminal.
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
         service_, [this] { return pipeline_->heartbeat(); }, [this] { return pipeline_->health(); }, clock_));
@@ -256,6 +273,8 @@ Step TrackRun::open_outputs() {
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
         clock_));
+
+  // Show the progress last, when all other sinks have consumed the frame.
   auto progress = std::make_unique<ProgressSink>(
       std::cerr,
       ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
@@ -270,11 +289,15 @@ Step TrackRun::open_bus() {
     bus.error().remedy += "; --no-publish tracks without publishing";
     return tl::unexpected(no_network(bus.error()));
   }
+
+  // Accept commands from other programs.
   bus_ = std::move(*bus);
   if (config_.run.commands) {
     commands_ = std::make_unique<CommandInbox>(bus_, config_.run.channel_prefix + "COMMAND");
     log_.logger().info("following commands on {}COMMAND", config_.run.channel_prefix);
   }
+
+  // Publish the hands and, at a regular interval, the health of the pipeline.
   BusSink::Health health{[this] { return with_view(pipeline_->take_interval_health()); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
   return add(
@@ -308,12 +331,15 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
 /// Starts the server of the live page. The page is optional: if the server cannot be started, tracking continues
 /// without.
 Step TrackRun::open_view() {
+  // The page is only a view: tracking continues if the page cannot be served.
   auto page = LivePage::open(options_, log_.shared_logger());
   if (!page) {
     log_.logger().error("{}; tracking goes on without the page", page.error().message());
     return {};
   }
   page_ = std::move(*page);
+
+  // Give the hands to the page, and add the sink that sends it every frame.
   for (const auto& profile : profiles_) page_->server().set_profile(profile);
   ViewSink::Input input{
       input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,
@@ -372,6 +398,7 @@ CommandedTracker::Inbox TrackRun::inbox() const {
 }
 
 TrackOutcome TrackRun::run() {
+  // Connect the stages to the source and the sinks.
   TrackStages computing =
       make_track_stages(config_, profiles_, initial_, inbox(), *workers_, log_, &pending_, objects_, watch_objects_);
   PipelineStages stages{*input_.source,
@@ -381,6 +408,8 @@ TrackOutcome TrackRun::run() {
                         std::move(computing.contact),
                         std::move(computing.grasp)};
   for (const auto& sink : sinks_) stages.sinks.push_back(sink.get());
+
+  // Set how the pipeline runs, and tell the user what starts.
   PipelineOptions options;
   options.threaded = !options_.single_threaded;
   options.max_failures_in_a_row = config_.run.max_failures_in_a_row;
@@ -388,6 +417,8 @@ TrackOutcome TrackRun::run() {
   log_.logger().info("tracking {}, {} threads{}", input_.source->name(), workers_->threads(),
                      options.threaded ? "" : ", stages inline");
   if (page_) log_.logger().info("open {} in a browser to see the hand; Ctrl-C ends", page_->server().url());
+
+  // Run until the source ends or the user stops it.
   pipeline_ = std::make_unique<Pipeline>(std::move(stages), std::move(options), clock_, log_);
   service_.ready("tracking " + input_.source->name());
   const std::int64_t start = clock_.steady_us();
@@ -403,10 +434,13 @@ int TrackRun::conclude(const RunResult& result) {
     log_.logger().info("stopped by {}; everything tracked until then is written", interrupt_.name());
     if (by_user || !input_.source->live()) exit_code = kExitInterrupted;  // the recording was not tracked to its end
   }
+
+  // Report outputs that are incomplete, and the error that ended the run.
   for (const std::string& sink : result.incomplete) {
     log_.logger().error("{}: frames are missing", sink);
     if (!input_.source->live()) exit_code = kExitFailure;  // a live run does not fail because of a disk or the network
   }
+
   if (result.error) {
     log_.logger().error(result.error->message());
     exit_code = kExitFailure;
@@ -417,17 +451,21 @@ int TrackRun::conclude(const RunResult& result) {
 /// The exit code of a run that reached its end. Reports if most frames of a recording could not be used, and if no hand
 /// was found in any frame.
 int TrackRun::exit_code_of_frames(const PipelineHealth& health) {
+  // A recording fails if none of its frames could be used, or fewer than half of them.
   const std::int64_t frames = health.captured + health.skipped, unusable = health.skipped + health.failed;
   if (!input_.source->live() && health.published == 0) {
     log_.logger().error("{}: nothing was tracked: of {} frames {} could not be read and {} failed; nothing is written",
                         input_.source->name(), frames, health.skipped, health.failed);
     return kExitFailure;
   }
+
   if (!input_.source->live() && 2 * unusable > frames) {
     log_.logger().error("{}: most frames are missing: of {} frames {} could not be read and {} failed",
                         input_.source->name(), frames, health.skipped, health.failed);
     return kExitFailure;
   }
+
+  // A run without any hand is not a failure, but the user may have expected a hand.
   const auto tracked = [](const StatusCounts& hand) { return hand.of(TrackStatus::tracking) > 0; };
   if (const auto& hands = progress_->counts(); health.published > 0 && std::ranges::none_of(hands, tracked))
     log_.logger().warn("no hand was found in any of {} frames", health.published);
@@ -472,6 +510,8 @@ int run_track(const TrackOptions& options) {
       return fail("was a pipe, which cannot be read again", options.config, "start with a file to change it later");
     return configuration(options);
   };
+
+  // Track. The summary must not mix with results that are written to the standard output.
   std::ostream& told = writes_to_standard_output(options) ? std::cerr : std::cout;
   const auto outcome = track(options, *config, daemon ? reread : std::function<Result<Config>()>());
   if (!outcome) return failed("track", outcome.error().error, outcome.error().exit_code);

@@ -16,15 +16,15 @@ namespace barehand {
 inline constexpr int kGraspCount = 1 + kGraspTypeCount;
 using GraspProbabilities = std::array<double, kGraspCount>;
 
-/// How one hand grasps, as its pose shows it.
+/// How one hand grasps, according to its pose.
 struct HandGrasp {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  bool known = false;  ///< the hand is tracked; otherwise all that follows is meaningless
+  bool known = false;  ///< the hand is tracked; otherwise the other members are meaningless
   GraspProbabilities probabilities{};
   int grasp = 0;               ///< 0: none, otherwise 1 + the index in grasp_types()
-  std::int64_t since = 0;      ///< time of the frame since which `grasp` is what it is [us since the epoch]
-  double aperture = kUnknown;  ///< from the thumb's tip to the middle of the tips of virtual finger 2 [m]
+  std::int64_t since = 0;      ///< time of the first frame with the present `grasp` [us since the epoch]
+  double aperture = kUnknown;  ///< distance from the thumb's tip to the mean of the tips of virtual finger 2 [m]
   double closure = kUnknown;   ///< mean flexion of the fingers over their range: 0 flat, 1 fist
 };
 

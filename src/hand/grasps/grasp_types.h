@@ -16,14 +16,15 @@ enum class GraspKind : std::int8_t { none = 0, power = 1, intermediate = 2, prec
 enum class Opposition : std::int8_t { none = 0, palm = 1, pad = 2, side = 3 };
 enum class ThumbPosition : std::int8_t { none = 0, abducted = 1, adducted = 2 };
 
-/// One class.
+/// One class of grasps.
 struct GraspType {
   std::string_view name;
   GraspKind kind;
   Opposition opposition;
   ThumbPosition thumb;
-  int first_finger, last_finger;  ///< of virtual finger 2, which opposes the thumb or the palm; 2: index, 5: little
-  std::string_view example;       ///< grasps of the taxonomy that it unites
+  /// The fingers that oppose the thumb or the palm ("virtual finger 2"); 2: index, 5: little.
+  int first_finger, last_finger;
+  std::string_view example;  ///< the grasps of the taxonomy that belong to the class
 };
 
 inline constexpr int kGraspTypeCount = 17;
@@ -33,7 +34,7 @@ const std::array<GraspType, kGraspTypeCount>& grasp_types();
 std::string_view grasp_name(int grasp);
 /// "none", "power", "intermediate" or "precision"; "unknown" for any other number.
 std::string_view kind_name(int kind);
-/// Index of a class by its name; none if there is none.
+/// Index of the class with this name; none if there is no such class.
 std::optional<int> grasp_type_from_name(std::string_view name);
 
 }  // namespace barehand

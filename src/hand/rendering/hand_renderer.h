@@ -22,7 +22,7 @@ struct RenderedHand {
   CellGrid grid;
   Image<float> depth;          ///< z of the front-most skin [m]; 0 = no skin
   Image<std::int32_t> vertex;  ///< skin vertex with the largest barycentric weight in the cell; -1 = no skin
-  std::vector<Eigen::Vector3f> position, normal;  ///< of the skin vertices, camera frame [m]; normals may be left out
+  std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]; normals may be left out
   std::vector<Eigen::Array4f> in_grid;            ///< cell i, j, 1/z [1/m] and z [m] of every skin vertex
   std::array<int, kSegmentCount> projected{};     ///< cells covered by the segment's camera-facing skin, hidden or not
 };

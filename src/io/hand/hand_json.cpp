@@ -226,7 +226,7 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   if (!origin) return tl::unexpected(origin.error());
   profile.origin = *origin;
 
-  // Read the segments, which may stand in any order.
+  // Read the segments, which may be in any order.
   ParentNames parents;
   for (const Json& entry : json.at("segments")) {
     if (!entry.is_object()) return fail("\"segments\" holds " + entry.dump(), path, "it must hold objects");

@@ -35,7 +35,7 @@ bool begins_as_log(const fs::path& path) {
          std::string_view(start.data(), start.size()) == "\xed\xa1\xda\x01";
 }
 
-/// The name that a draft will get; `path` itself if it is no draft.
+/// The name that a draft will get; `path` itself if it is not the name of a draft.
 fs::path final_name(const fs::path& path) {
   const std::string name = finished_name(path.string());
   return name.empty() ? path : fs::path(name);

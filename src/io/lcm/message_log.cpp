@@ -5,7 +5,7 @@
 namespace barehand {
 
 Result<MessageLog> MessageLog::open(const std::string& path) {
-  // MCAP files are told by their content.
+  // MCAP files are recognised by their content.
   MessageLog log;
   if (mcap::is_mcap(path)) {
     if (const auto opened = log.open_mcap(path); !opened) return tl::unexpected(opened.error());

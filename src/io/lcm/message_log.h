@@ -29,7 +29,7 @@ class MessageLog {
 
   std::optional<LcmLogReader> lcm_;
   std::optional<mcap::McapReader> mcap_;
-  std::vector<LogEntry> entries_;  // of an MCAP file; LogEntry::position is the index into `messages_`
+  std::vector<LogEntry> entries_;  // entries of an MCAP file; LogEntry::position is the index into `messages_`
   std::vector<mcap::Message> messages_;
   std::vector<std::string> warnings_;
 };

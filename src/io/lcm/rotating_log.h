@@ -15,7 +15,7 @@ namespace barehand {
 
 // An LCM log that is written as a set of files, whose oldest ones are removed.
 
-/// Limits after which a recording continues in a new file, and of what is kept of it. 0: no limit.
+/// Limits at which a recording continues in a new file, and limit of all its files together. 0: no limit.
 struct LogRotation {
   std::int64_t max_bytes = 0;   ///< largest size of one file [bytes]
   std::int64_t max_age_us = 0;  ///< longest time in one file [us]

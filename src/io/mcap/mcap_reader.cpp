@@ -104,7 +104,7 @@ void McapReader::scan(const MessageVisitor& visit) {
     warn((count == 1 ? "a chunk is left out, " : std::to_string(count) + " chunks are left out, ") + reason);
 }
 
-/// Processes a record whose content has `size` bytes and begins at `at`. Returns false if this is no MCAP record.
+/// Processes a record whose content has `size` bytes and begins at `at`. Returns false if this is not an MCAP record.
 bool McapReader::take_record(std::uint8_t kind, std::uint64_t at, std::uint64_t size, const MessageVisitor& visit) {
   // Read the content only where it is needed: other kinds may be large.
   const auto read = [&] {

@@ -43,7 +43,7 @@ class McapReader {
   /// Called for every complete message, in the order of the file, with its data.
   using MessageVisitor = std::function<void(const Message&, const Channel&, std::span<const std::uint8_t>)>;
 
-  /// Reads the whole file once and calls `visit` for its messages. Errors: it cannot be opened, or is no MCAP file.
+  /// Reads the whole file once and calls `visit` for its messages. Errors: it cannot be opened, or is not an MCAP file.
   static Result<McapReader> open(const std::string& path, const MessageVisitor& visit);
 
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }

@@ -30,8 +30,8 @@ constexpr std::array kUnits = {NamedUnit{LengthUnit::metre, "m", 1}, NamedUnit{L
 const NamedUnit& named(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)]; }
 
 constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a hand can hold and be tracked with [m]
-constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same of most objects [m]
-constexpr double kFarthest = 10;  // from the origin of the file to the object [m]: single precision is too coarse there
+constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same for most objects [m]
+constexpr double kFarthest = 10;  // largest distance from the file's origin [m]: single precision is too coarse beyond
 constexpr std::size_t kMostTriangles = 500'000;
 constexpr int kDeepestJson = 100;  // levels; assimp's parser calls itself for each one, until the stack is full
 

@@ -9,7 +9,7 @@ namespace barehand {
 
 /// The unit of the numbers in a file of a mesh.
 enum class LengthUnit { metre, centimetre, millimetre };
-/// Error: the name is none of m, cm and mm.
+/// Error: the name is not m, cm or mm.
 Result<LengthUnit> unit_from(const std::string& name);
 
 /// A mesh as read, and what had to be repaired.

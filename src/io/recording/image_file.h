@@ -11,7 +11,7 @@ namespace barehand {
 /// Reads a PNG with one channel of 16 bits; the values are returned as stored. A file that is missing, damaged or of
 /// another kind is an error that names it.
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path);
-/// Reads an 8-bit colour PNG or JPEG. A JPEG that ends early is an error, not a half grey image.
+/// Reads an 8-bit colour PNG or JPEG. A truncated JPEG is an error; it is not filled up with grey.
 Result<Image<Rgb>> read_colour(const std::string& path);
 /// Returns an error unless an image has the size that the camera states.
 Result<void> check_size(int width, int height, const Intrinsics& camera, const std::string& path);

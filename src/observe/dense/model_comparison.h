@@ -48,7 +48,7 @@ struct Correspondence {
 };
 
 /// All correspondences of a rendered hand and an observation, in both directions: model explained by data (surface,
-/// outside, behind) and data explained by the model (unexplained). Missing depth is no evidence.
+/// outside, behind) and data explained by the model (unexplained). Missing depth is not evidence.
 struct ModelComparison {
   std::vector<Correspondence> correspondences;
   double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence

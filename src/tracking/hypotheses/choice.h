@@ -28,7 +28,7 @@ struct ChoiceParams {
   double confirmation_factor = 1.25;
   double rejection_factor = 2;
 
-  // Agreement with the detection.
+  // These values say when a pose agrees with the detection.
   double agreement = 0.02;
   double detection_factor = 0.5;
   bool operator==(const ChoiceParams&) const = default;

@@ -1,4 +1,4 @@
-// Chooses the number of samples that a device can compare in the time of a search level.
+// Chooses the number of samples with which a GPU keeps the time limit of a search level.
 #include "tracking/hypotheses/sample_budget.h"
 
 #include <algorithm>

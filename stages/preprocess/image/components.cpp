@@ -19,9 +19,13 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
   out.id.reset(width, height, -1);
   out.sets.clear();
   const int du[4] = {-1, -1, 0, 1}, dv[4] = {0, -1, -1, -1};
+
+  // Visit the cells that belong to the mask.
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       if (!mask.at(u, v)) continue;
+
+      // Join the cell with its neighbours to the left and above, if they are on the same surface.
       std::int32_t own = -1;
       for (int k = 0; k < 4; ++k) {
         const int nu = u + du[k], nv = v + dv[k];
@@ -29,11 +33,15 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
         const std::int32_t other = out.id.at(nu, nv);
         own = out.sets.join(own < 0 ? other : own, other);
       }
+
       if (own < 0) own = out.sets.add();
       out.id.at(u, v) = own;
     }
+
+  // Number the surfaces in the order of their first cells.
   out.part_of_root.assign(out.sets.size(), -1);
   out.parts.clear();
+
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       if (out.id.at(u, v) < 0) continue;
@@ -43,12 +51,16 @@ void split_surfaces(const CoarseGrid& grid, const Image<std::uint8_t>& mask, Com
         out.parts.emplace_back();
       }
       out.id.at(u, v) = i;
+
+      // Add the cell to its surface.
       Components::Part& part = out.parts[i];
       const Eigen::Vector3f p = grid.point(u, v);
       ++part.cells;
       part.area += grid.cell_area(p.z());
       part.centre += p;
     }
+
+  // Divide the sums by the number of cells.
   for (Components::Part& part : out.parts) {
     part.centre /= static_cast<float>(part.cells);
     part.mean_z = part.centre.z();
@@ -64,9 +76,12 @@ void CandidateFinder::find(const CoarseGrid& grid, const PreprocessParams& param
                    : grid.odds[i] < other                ? Evidence::other
                                                          : Evidence::open;
   }
+
+  // Decide the open cells by their neighbours on the same surface.
   if (grid.coloured)
     flood_.run(evidence_, grid.colour,
                [&](std::int32_t i, std::int32_t j) { return joined(grid, grid.z[i], grid.z[j]); });
+
   mask.reset(grid.z.width(), grid.z.height());
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = evidence_[i] == Evidence::hand;
 }

@@ -21,6 +21,7 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
     const std::int32_t* above = v > 0 ? row_.row(v - 1) : own;
     for (int u = 0; u < width; ++u) own[u] = set[u] ? v : above[u];
   }
+
   for (int v = height - 2; v >= 0; --v) {
     std::int32_t* own = row_.row(v);
     const std::int32_t* below = row_.row(v + 1);
@@ -32,6 +33,8 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
   for (int v = 0; v < height; ++v) {
     const std::int32_t* rows = row_.row(v);
     int last = -1;
+
+    // Add one parabola after the other, and remove those that it replaces.
     for (int u = 0; u < width; ++u) {
       const std::int32_t dv = rows[u] - v;
       if (rows[u] < 0) continue;
@@ -46,10 +49,13 @@ void NearestPixelTransform::compute(const Image<std::uint8_t>& mask, Image<std::
         --last;
         start = 0;
       }
+
       if (start >= width) continue;
       column_[++last] = u;
       from_[last] = start;
     }
+
+    // Write the nearest pixel of each interval.
     if (last < 0) continue;
     std::int32_t* out = nearest.row(v);
     for (int k = 0; k <= last; ++k) {

@@ -24,12 +24,16 @@ class Flood {
   void run(Image<Evidence>& evidence, const Image<Rgb>& colour, const Joined& joined) {
     for (std::vector<Step>& bucket : buckets_) bucket.clear();
     heads_.fill(0);
+
+    // Begin with the open pixels beside decided ones.
     for (std::size_t i = 0; i < evidence.size(); ++i)
       if (evidence[i] == Evidence::open)
         for_neighbours(evidence, static_cast<std::int32_t>(i), [&](std::int32_t j) {
           if (decided(evidence[j]) && joined(static_cast<std::int32_t>(i), j))
             push(static_cast<std::int32_t>(i), evidence[j], colour[i], colour[j]);
         });
+
+    // Decide the pixel that is most similar to its neighbour next.
     for (int level = 0; level < kLevels;) {
       if (heads_[level] == buckets_[level].size()) {
         ++level;
@@ -38,6 +42,8 @@ class Flood {
       const Step step = buckets_[level][heads_[level]++];
       if (evidence[step.pixel] != Evidence::open) continue;
       evidence[step.pixel] = step.evidence;
+
+      // Let its neighbours follow, which may be more similar still.
       for_neighbours(evidence, step.pixel, [&](std::int32_t j) {
         if (evidence[j] == Evidence::open && joined(step.pixel, j))
           level = std::min(level, push(j, step.evidence, colour[step.pixel], colour[j]));

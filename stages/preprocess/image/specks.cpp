@@ -17,6 +17,8 @@ void SpeckRemover::find_runs(const Image<std::uint8_t>& mask) {
   for (int v = 0; v < mask.height(); ++v) {
     const std::uint8_t* own = mask.row(v);
     const auto first = static_cast<std::int32_t>(runs_.size());
+
+    // Find the next run of set pixels.
     for (int u = 0; u < mask.width();) {
       if (!own[u]) {
         ++u;
@@ -25,6 +27,8 @@ void SpeckRemover::find_runs(const Image<std::uint8_t>& mask) {
       const int begin = u;
       while (u < mask.width() && own[u]) ++u;
       runs_.push_back({v, begin, u});
+
+      // Join it with the runs of the row above that touch it.
       const std::int32_t run = sets_.add();
       while (above < first && runs_[above].end < begin) ++above;
       for (std::int32_t i = above; i < first && runs_[i].begin <= u; ++i) sets_.join(i, run);
@@ -36,6 +40,8 @@ void SpeckRemover::find_runs(const Image<std::uint8_t>& mask) {
 void SpeckRemover::remove(const Intrinsics& camera, const Image<float>& depth, Image<std::uint8_t>& mask) {
   find_runs(mask);
   parts_.assign(runs_.size(), {});
+
+  // Count the pixels of each component, and compute the centre.
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(runs_.size()); ++i) {
     const Run& run = runs_[i];
     Part& part = parts_[sets_.root(i)];
@@ -44,6 +50,8 @@ void SpeckRemover::remove(const Intrinsics& camera, const Image<float>& depth, I
     part.sum_u += pixels * (run.begin + run.end - 1) / 2;
     part.sum_v += pixels * run.v;
   }
+
+  // Remove the components that are too small for the depth at their centre.
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(runs_.size()); ++i) {
     const Run& run = runs_[i];
     const Part& part = parts_[sets_.root(i)];

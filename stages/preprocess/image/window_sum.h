@@ -19,12 +19,15 @@ class WindowSum {
     out.reset(width, height);
     padded_.assign(width + 2 * radius, T{});
     for (int v = 0; v < height; ++v) {
+      // Add up the rows of the window, which gives one sum for each column.
       T* column_sum = padded_.data() + radius;
       std::fill_n(column_sum, width, T{});
       for (int y = std::max(0, v - radius); y <= std::min(height - 1, v + radius); ++y) {
         const In* row = in.row(y);
         for (int u = 0; u < width; ++u) column_sum[u] = static_cast<T>(column_sum[u] + row[u]);
       }
+
+      // Add up these sums over the width of the window.
       T* sum = out.row(v);
       for (int k = 0; k <= 2 * radius; ++k)
         for (int u = 0; u < width; ++u) sum[u] = static_cast<T>(sum[u] + padded_[u + k]);

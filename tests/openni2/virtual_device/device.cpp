@@ -95,6 +95,7 @@ void Device::expose_pictures(std::stop_token stop) {
       due += missed * period;
       index_ += static_cast<int>(missed);
     }
+
     std::this_thread::sleep_until(due + std::chrono::nanoseconds(std::llround(1e9 * now->latency)));
     expose(*now, std::chrono::duration_cast<std::chrono::microseconds>(due - opened).count());
   }
