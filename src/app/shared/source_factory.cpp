@@ -62,6 +62,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.frames = (*source)->remaining();
+  open.fps = (*source)->fps();
   open.warnings = (*source)->warnings();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warnings.push_back(path + ": " + std::to_string(bytes) +
