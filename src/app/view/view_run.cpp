@@ -125,6 +125,13 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
   }
 }
 
+/// ViewServer::start() with errors that name the option of this command.
+Result<std::unique_ptr<ViewServer>> start_server(ViewServer::Options options, const Clock& clock) {
+  auto server = ViewServer::start(std::move(options), clock);
+  if (!server) server.error().remedy += " with --port PORT";
+  return server;
+}
+
 int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
   if (!index) return tell(index.error(), kExitUsage);
@@ -134,7 +141,7 @@ int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown
   const SystemClock clock;
   LogShow show(std::move(*index), name, std::move(shown), clock);
   auto server =
-      ViewServer::start({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
+      start_server({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
   if (!server) return tell(server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see the log; Ctrl-C ends\n";
   show.run(**server, stop);
@@ -149,7 +156,7 @@ int view_network(const ViewOptions& options, const WebAddress& address, Shown sh
   std::unique_ptr<LogRecorder> recorder;
   if (!options.record.empty())
     recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record, kWaiting}, make_logger(), clock);
-  auto server = ViewServer::start({address, options.origins, {}, recorder.get()}, clock);
+  auto server = start_server({address, options.origins, {}, recorder.get()}, clock);
   if (!server) return tell(server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()
             << "; Ctrl-C ends\n";
